@@ -1,0 +1,8 @@
+//! Multi-rocking-body dynamics of unreinforced masonry walls.
+
+pub mod error;
+pub mod ground;
+pub mod model;
+pub mod simulate;
+
+pub use error::{Error, InputError, Result};

@@ -1,0 +1,41 @@
+//! The mechanics of a wall of one or two rocking bodies.
+
+mod contact;
+mod effect;
+mod vector;
+mod wall;
+
+pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot};
+pub use effect::Effect;
+pub use vector::Vector;
+pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters};
+
+/// A rule of the mechanics was broken: a defect of the program, to report and not to hide.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MechanicsError {
+    /// No contact state, or more than one, is admissible after an impact.
+    #[error("{count} admissible outcomes of an impact in pattern {from}; there must be exactly one")]
+    ImpactOutcomes {
+        /// Pattern before the impact.
+        from: &'static str,
+        /// How many were admissible.
+        count: usize,
+    },
+    /// No contact state carries the joint forces.
+    #[error("no contact state carries the joint forces in pattern {from}")]
+    NoContactState {
+        /// Pattern before.
+        from: &'static str,
+    },
+}
+
+/// A change of pattern of Table 2, by the number of its coefficient; mirrored changes count as the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Table2Change(u8);
+
+impl Table2Change {
+    /// Position of C_l in the list of coefficients, 0 to 7.
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}

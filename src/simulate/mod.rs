@@ -1,0 +1,37 @@
+//! One run: a wall under a ground motion, from the first sample to the end of free motion.
+
+mod response;
+
+pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
+
+use crate::ground::Accelerogram;
+use crate::model::Wall;
+
+/// What shakes the wall: a horizontal record, perhaps a vertical one, and how long to go on afterwards.
+#[derive(Debug, Clone, Default)]
+pub struct Shaking {
+    /// Horizontal ground acceleration; none: a free release.
+    pub horizontal: Option<Accelerogram>,
+    /// Vertical ground acceleration, at the same step; zero after its end.
+    pub vertical: Option<Accelerogram>,
+    /// Free motion after the last sample, s.
+    pub tail_s: f64,
+}
+
+/// How accurately to run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// Error allowed in rotations relative to α_i, over a well-conditioned run.
+    pub tolerance: f64,
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Self { tolerance: 1e-6 }
+    }
+}
+
+/// Runs one wall; pure: the same inputs give the same bits on any thread.
+pub fn simulate(_wall: &Wall, _shaking: &Shaking, _accuracy: Accuracy) -> Response {
+    unimplemented!("being written")
+}
