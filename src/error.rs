@@ -67,6 +67,8 @@ pub enum Place {
     Line(usize),
     /// A dotted key such as `wall.height_m`, or an option such as `--scale`.
     Key(String),
+    /// A dotted key and the line it stands on.
+    KeyOnLine(String, usize),
 }
 
 /// A fault in something the user gave: where, what was found, what is allowed.
@@ -125,6 +127,7 @@ impl fmt::Display for InputError {
             Place::Whole => {}
             Place::Line(line) => write!(f, ":{line}")?,
             Place::Key(key) => write!(f, ": {key}")?,
+            Place::KeyOnLine(key, line) => write!(f, ":{line}: {key}")?,
         }
         write!(f, ": found {}; allowed: {}", self.found, self.allowed)
     }

@@ -1,7 +1,9 @@
 //! Multi-rocking-body dynamics of unreinforced masonry walls.
 
+pub mod cli;
 pub mod error;
 pub mod ground;
+pub mod input;
 pub mod model;
 pub mod simulate;
 

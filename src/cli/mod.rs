@@ -1,0 +1,28 @@
+//! The command line: one file a command, each reads its inputs, calls the library and prints.
+//!
+//! stdout is for data, stderr for people.
+
+use clap::{Parser, Subcommand};
+
+use crate::error::Result;
+
+/// Multi-rocking-body dynamics of unreinforced masonry walls that may fall out of their plane.
+#[derive(Debug, Parser)]
+#[command(name = "mrbd", version, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {}
+
+impl Cli {
+    /// Runs the command that was asked for.
+    ///
+    /// # Errors
+    /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
+    pub fn execute(self) -> Result<()> {
+        match self.command {}
+    }
+}

@@ -1,0 +1,3 @@
+//! Files the user writes: read, checked at the door, turned into values that are valid.
+
+pub(crate) mod toml_file;

@@ -1,0 +1,97 @@
+//! TOML files: read whole, unknown keys refused, faults told with key and line.
+
+use std::path::Path;
+
+use serde::de::DeserializeOwned;
+
+use crate::error::{Error, InputError, Place, Result};
+
+/// Reads a TOML file into `T`.
+///
+/// # Errors
+/// Input errors that name the file and the key or line: not readable, not UTF-8, not TOML, or not a `T`.
+pub(crate) fn load<T: DeserializeOwned>(path: &Path) -> Result<T> {
+    parse(path, &read(path)?)
+}
+
+/// Reads a text file that the user named.
+///
+/// # Errors
+/// An input error that says why the file cannot be read.
+pub(crate) fn read(path: &Path) -> Result<String> {
+    std::fs::read_to_string(path)
+        .map_err(|e| InputError::file(path, e.to_string(), "a readable text file in UTF-8").into())
+}
+
+/// Parses TOML `text` that came from `path`.
+///
+/// # Errors
+/// Input errors that name the file and the key or line.
+pub(crate) fn parse<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T> {
+    let deserializer = toml::Deserializer::parse(text).map_err(|e| fault(path, text, "", &e))?;
+    serde_path_to_error::deserialize(deserializer).map_err(|e| {
+        let key = e.path().to_string();
+        fault(path, text, &key, e.inner())
+    })
+}
+
+fn fault(path: &Path, text: &str, key: &str, error: &toml::de::Error) -> Error {
+    let line = error.span().map(|span| 1 + text[..span.start.min(text.len())].matches('\n').count());
+    let place = match (key, line) {
+        ("" | ".", None) => Place::Whole,
+        ("" | ".", Some(line)) => Place::Line(line),
+        (key, None) => Place::Key(key.to_owned()),
+        (key, Some(line)) => Place::KeyOnLine(key.to_owned(), line),
+    };
+    // serde words its messages "<found>, expected <allowed>".
+    let message = error.message().trim();
+    let (found, allowed) = match message.split_once(", expected ") {
+        Some((found, allowed)) => (found.to_owned(), allowed.to_owned()),
+        None if message.starts_with("missing field") => {
+            (message.to_owned(), "this key must be given".to_owned())
+        }
+        None => (message.to_owned(), "valid TOML".to_owned()),
+    };
+    InputError { origin: path.display().to_string(), place, found, allowed }.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Outer {
+        #[allow(dead_code)]
+        inner: Inner,
+    }
+
+    #[derive(Debug, serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Inner {
+        #[allow(dead_code)]
+        height_m: f64,
+    }
+
+    fn message(text: &str) -> String {
+        parse::<Outer>(Path::new("a.toml"), text).expect_err("must be refused").to_string()
+    }
+
+    #[test]
+    fn rejects_faults_with_key_and_line() {
+        let wrong_type = message("[inner]\nheight_m = \"tall\"\n");
+        assert!(
+            wrong_type.starts_with("a.toml:2: inner.height_m: found invalid type: string"),
+            "{wrong_type}"
+        );
+        let unknown = message("[inner]\nheight_m = 1.0\nhieght = 2\n");
+        assert!(
+            unknown.contains("a.toml:3") && unknown.contains("hieght") && unknown.contains("`height_m`"),
+            "{unknown}"
+        );
+        let missing = message("[inner]\n");
+        assert!(missing.contains("inner") && missing.contains("missing field `height_m`"), "{missing}");
+        let broken = message("[inner\n");
+        assert!(broken.starts_with("a.toml:1: found"), "{broken}");
+    }
+}
