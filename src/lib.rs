@@ -6,5 +6,6 @@ pub mod ground;
 pub mod input;
 pub mod model;
 pub mod simulate;
+pub mod solver;
 
 pub use error::{Error, InputError, Result};
