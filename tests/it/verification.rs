@@ -4,7 +4,7 @@ use std::path::Path;
 
 use mrbd::ground::Accelerogram;
 use mrbd::input::load_wall;
-use mrbd::model::{PATTERN_NAMES, Wall};
+use mrbd::model::Wall;
 use mrbd::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate_observed};
 use serde::Deserialize;
 
@@ -69,8 +69,6 @@ fn verify(name: &str) {
     let shaking = shaking(&case, &records);
     let mut history = History::new(case.dt_s);
     let response = simulate_observed(&wall, &shaking, Accuracy { tolerance: 1e-10 }, &mut history);
-    println!("{name}: {:?} {:?} {:?}", response.theta_max_over_alpha_i(), response.work, response.impacts);
-    println!("residual {:e} {:?}", response.energy.residual(), response.outcome);
     compare_history(&folder, &history, &response, case.tolerance);
     compare_maxima(&case, &response);
 }
@@ -107,14 +105,11 @@ fn compare_history(folder: &Path, history: &History, response: &Response, tolera
         };
         for (i, expected) in [row.theta1_rad, row.theta2_rad].into_iter().enumerate() {
             let error = (found.theta_rad[i] - expected).abs() / largest[i];
-            if error > worst.0 {
-                worst = (error, row.time_s);
-            }
+            worst = if error > worst.0 { (error, row.time_s) } else { worst };
         }
         compared += 1;
     }
-    println!("worst {worst:?} of {tolerance:e}, {compared} rows");
-    assert!(compared > 20, "{compared} rows of {} compared", PATTERN_NAMES.len());
+    assert!(compared > 20, "only {compared} rows compared");
     assert!(worst.0 <= tolerance, "{:e} at {} s; allowed {tolerance:e}", worst.0, worst.1);
 }
 
