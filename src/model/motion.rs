@@ -10,11 +10,13 @@
 //! with κ = Y_Q U_x - X_Q U_y and a_dp = a_x - X_Q ω_1² - X_C ω_2² the part of the carriage's acceleration
 //! that is known before θ''.
 
+use wide::f64x2;
+
 use super::contact::Contact;
 use super::effect::Laws;
 use super::joint::{JointForce, JointForces};
 use super::posture::{Arms, Pair};
-use super::vector::{Vector, sin_cos};
+use super::vector::{Vector, sin_cos, sin_cos_pair};
 use super::wall::{G_M_S2, Wall};
 
 /// Which rotations a contact state leaves free.
@@ -99,6 +101,9 @@ pub(crate) struct Motion {
     inertia_1: f64,
     inertia_2: f64,
     laws: Laws,
+    /// x and y of (q, c) and of (V, U), and the moments of inertia: the same numbers side by side.
+    lanes: [f64x2; 4],
+    inertias: f64x2,
     /// C - O and V + U at zero rotation, and the moment of inertia about O of a wall that turns as one.
     whole_arm: Vector,
     whole_moment: Vector,
@@ -150,6 +155,8 @@ impl Motion {
             inertia_1,
             inertia_2,
             laws,
+            lanes: [[arms.q.x, arms.c.x], [arms.q.y, arms.c.y], [v.x, u.x], [v.y, u.y]].map(f64x2::new),
+            inertias: f64x2::new([inertia_1, inertia_2]),
             whole_arm: arms.q + arms.c,
             whole_moment: v + u,
             whole_inertia: inertia_1 + 2.0 * arms.q.dot(u) + inertia_2,
@@ -199,27 +206,33 @@ impl Motion {
         }
     }
 
+    /// Both bodies side by side: the first lane is the lower body (r_Q, V), the second the upper (r_C, U).
     #[inline]
     fn two_body_rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
-        let t = self.turned(theta);
+        let (sin, cos) = sin_cos_pair(theta);
+        let [arm_x, arm_y, moment_x, moment_y] = self.lanes;
+        let (x, y) = (arm_x * cos + arm_y * sin, arm_y * cos - arm_x * sin);
+        let (s_x, s_y) = (moment_x * cos + moment_y * sin, moment_y * cos - moment_x * sin);
+        let ([x_q, x_c], [y_q, y_c], [u_x, u_y]) =
+            (x.to_array(), y.to_array(), [s_x.to_array()[1], s_y.to_array()[1]]);
         let m_dp = self.laws.carriage_mass_kg;
         let (a_x, a_y) = (ground.x, ground.y + G_M_S2);
-        let [w1, w2] = omega.map(|w| w * w);
-        let kappa = t.r_q.y * t.u.x - t.r_q.x * t.u.y;
-        let x_c = self.o_x + t.r_q.x + t.r_c.x - self.e_c;
-        let v_c = t.r_q.y * omega[0] + t.r_c.y * omega[1];
+        let rate = f64x2::new(omega);
+        let [w1, w2] = (rate * rate).to_array();
+        let v_c = y_q * omega[0] + y_c * omega[1];
         let damping = self.laws.damping_force_n(v_c);
-        let carriage = m_dp * (a_x - t.r_q.x * w1 - t.r_c.x * w2);
-        let top = self.laws.spring_force_n(x_c) + damping - carriage;
+        let carriage = m_dp * (a_x - x_q * w1 - x_c * w2);
+        let top = self.laws.spring_force_n(self.o_x + x_q + x_c - self.e_c) + damping - carriage;
+        let kappa = y_q * u_x - x_q * u_y;
         let joints = self.laws.joint_moments_n_m(omega);
-        let f = [
-            joints[0] + t.r_q.y * top + kappa * w2 - (t.v.y * a_x - t.v.x * a_y),
-            joints[1] + t.r_c.y * top - kappa * w1 - (t.u.y * a_x - t.u.x * a_y),
-        ];
-        let momentum_x = t.v.y * omega[0] + t.u.y * omega[1] + m_dp * v_c;
-        let momentum_y = -(t.v.x * omega[0] + t.u.x * omega[1]);
+        let f =
+            f64x2::new(joints) + y * top + f64x2::new([kappa * w2, -(kappa * w1)]) - (s_y * a_x - s_x * a_y);
+        let [m11, m22] = (self.inertias + y * y * m_dp).to_array();
+        let mass = MassMatrix { m11, m12: x_q * u_x + y_q * u_y + m_dp * y_q * y_c, m22 };
+        let momentum_x = (s_y * rate).to_array().iter().sum::<f64>() + m_dp * v_c;
+        let momentum_y = -(s_x * rate).to_array().iter().sum::<f64>();
         MotionRate {
-            theta_dd: self.mass_matrix_of(&t).solve(self.freedom, f),
+            theta_dd: mass.solve(self.freedom, f.to_array()),
             ground_power_w: -(ground.x * momentum_x + ground.y * momentum_y),
             loss_power_w: -(damping * v_c + joints[0] * omega[0] + joints[1] * omega[1]),
         }

@@ -19,6 +19,11 @@ const STEP_SHARE: f64 = 1e-3;
 /// does accelerate apart; it moves nothing by more than roundings.
 const AFTER_OPENING: f64 = 1e-9;
 
+/// A time so short that a parabola is exact over it: its cube times any jerk of a wall is below roundings.
+const SHORT_S: f64 = 1e-9;
+/// Newton corrections of an event's time; one suffices but for grazing impacts.
+const MOST_CORRECTIONS: u32 = 4;
+
 /// Events without progress, one after another, that count as a defect: a burst of impacts ends by capture long before.
 const MOST_EVENTS_AT_ONCE: u32 = 1000;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
@@ -260,14 +265,19 @@ impl<'a, O: Observer> Run<'a, O> {
     }
 
     /// Moves the end of a step onto the zero of a gap: the quintic that found it is only as accurate as the step.
+    ///
+    /// To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow, and what is
+    /// small beside the wall's rotation is not small beside it.
     fn onto_contact(&mut self, piece: &Piece, from_s: f64, mut step: Step, gap: fn(Pair) -> f64) -> Step {
-        // To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow,
-        // and what is small beside the wall's rotation is not small beside it.
-        let close_enough = f64::EPSILON * self.wall.wall().alpha_rad();
-        for _ in 0..4 {
-            let (distance, speed) = (gap(step.end.position), gap(step.end.velocity));
-            let h = step.h - distance / speed;
-            if distance.abs() <= close_enough || !(h > 0.0 && h < 2.0 * step.h) {
+        for _ in 0..MOST_CORRECTIONS {
+            let late_s = gap(step.end.position) / gap(step.end.velocity);
+            if late_s.abs() <= SHORT_S {
+                step.end = step.end.after(-late_s);
+                step.h -= late_s;
+                break;
+            }
+            let h = step.h - late_s;
+            if !(h > 0.0 && h < 2.0 * step.h) {
                 break;
             }
             step = self.step(piece, from_s, h);

@@ -66,7 +66,7 @@ impl DormandPrince {
         let mut v = [start.velocity; 7];
         let mut rates = [Rate::default(); 7];
         rates[0] = Rate { acceleration: start.acceleration, quadrature: start_quadrature_rate };
-        let mut position = start.position;
+        let mut position;
         // Each stage has its own number of terms; written out so that the sums unroll.
         macro_rules! stage {
             ($n:literal) => {
