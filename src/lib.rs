@@ -7,5 +7,6 @@ pub mod input;
 pub mod model;
 pub mod simulate;
 pub mod solver;
+pub mod store;
 
 pub use error::{Error, InputError, Result};

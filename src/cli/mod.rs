@@ -2,6 +2,8 @@
 //!
 //! stdout is for data, stderr for people.
 
+mod simulate;
+
 use clap::{Parser, Subcommand};
 
 use crate::error::Result;
@@ -15,7 +17,9 @@ pub struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    Simulate(simulate::SimulateArgs),
+}
 
 impl Cli {
     /// Runs the command that was asked for.
@@ -23,6 +27,8 @@ impl Cli {
     /// # Errors
     /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
     pub fn execute(self) -> Result<()> {
-        match self.command {}
+        match self.command {
+            Command::Simulate(args) => simulate::execute(&args),
+        }
     }
 }
