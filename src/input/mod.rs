@@ -1,3 +1,7 @@
 //! Files the user writes: read, checked at the door, turned into values that are valid.
 
+pub mod assumptions;
+pub mod coefficients;
+pub mod pipeline;
+pub mod survey;
 pub(crate) mod toml_file;
