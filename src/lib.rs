@@ -1,10 +1,12 @@
 //! Multi-rocking-body dynamics of unreinforced masonry walls.
 
+pub mod batch;
 pub mod cli;
 pub mod error;
 pub mod ground;
 pub mod input;
 pub mod model;
+pub mod plan;
 pub mod simulate;
 
 pub use error::{Error, InputError, Result};
