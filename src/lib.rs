@@ -8,5 +8,6 @@ pub mod input;
 pub mod model;
 pub mod plan;
 pub mod simulate;
+pub mod store;
 
 pub use error::{Error, InputError, Result};
