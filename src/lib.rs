@@ -1,5 +1,6 @@
 //! Multi-rocking-body dynamics of unreinforced masonry walls.
 
+pub mod aggregate;
 pub mod batch;
 pub mod cli;
 pub mod error;

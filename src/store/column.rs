@@ -129,3 +129,20 @@ impl<R> Column<R> {
         }
     }
 }
+
+/// Writes columns of rows as CSV with a header.
+///
+/// # Errors
+/// What the stream says.
+pub fn print_csv<'c, R: 'c>(
+    out: &mut impl std::io::Write,
+    columns: impl Iterator<Item = &'c Column<R>> + Clone,
+    rows: impl IntoIterator<Item = impl std::borrow::Borrow<R>>,
+) -> std::io::Result<()> {
+    let mut csv = csv::Writer::from_writer(out);
+    csv.write_record(columns.clone().map(|column| column.name))?;
+    for row in rows {
+        csv.write_record(columns.clone().map(|column| column.text(row.borrow())))?;
+    }
+    csv.flush()
+}

@@ -8,7 +8,7 @@ mod parquet_file;
 mod schema;
 mod sink;
 
-pub use column::{Column, Encoding, Read, Stage};
+pub use column::{Column, Encoding, Read, Stage, print_csv};
 pub use durable::write_durably;
 pub use folder::{OutputFolder, run_files};
 pub use manifest::{Manifest, file_sha256};
