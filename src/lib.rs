@@ -9,6 +9,7 @@ pub mod input;
 pub mod model;
 pub mod plan;
 pub mod simulate;
+pub mod solver;
 pub mod store;
 
 pub use error::{Error, InputError, Result};

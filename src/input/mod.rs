@@ -5,3 +5,6 @@ pub mod coefficients;
 pub mod pipeline;
 pub mod survey;
 pub(crate) mod toml_file;
+mod wall_file;
+
+pub use wall_file::load_wall;

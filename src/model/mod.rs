@@ -1,12 +1,25 @@
 //! The mechanics of a wall of one or two rocking bodies.
 
 mod contact;
+mod crushing;
 mod effect;
+mod impact;
+mod joint;
+mod motion;
+mod posture;
+mod rocking;
 mod vector;
 mod wall;
 
-pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot};
+pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
+pub use crushing::crushed_widths_m;
 pub use effect::Effect;
+pub use impact::Impact;
+pub use joint::{JointForce, JointForces};
+pub use motion::MotionRate;
+pub use posture::Pair;
+pub(crate) use rocking::opening;
+pub use rocking::{RockingWall, State};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters};
 
