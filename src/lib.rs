@@ -4,6 +4,7 @@ pub mod aggregate;
 pub mod batch;
 pub mod cli;
 pub mod error;
+pub mod findings;
 pub mod ground;
 pub mod input;
 pub mod model;

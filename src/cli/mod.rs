@@ -2,6 +2,10 @@
 //!
 //! stdout is for data, stderr for people.
 
+mod aggregate;
+mod output;
+mod run;
+
 use clap::{Parser, Subcommand};
 
 use crate::error::Result;
@@ -15,7 +19,10 @@ pub struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    Run(run::RunCommand),
+    Aggregate(aggregate::AggregateCommand),
+}
 
 impl Cli {
     /// Runs the command that was asked for.
@@ -23,6 +30,9 @@ impl Cli {
     /// # Errors
     /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
     pub fn execute(self) -> Result<()> {
-        match self.command {}
+        match self.command {
+            Command::Run(command) => command.execute(),
+            Command::Aggregate(command) => command.execute(),
+        }
     }
 }

@@ -32,7 +32,9 @@ pub fn distance(a: Option<Middle>, b: Option<Middle>) -> Option<Middle> {
 pub fn is_little(distance: Middle, beside: Middle) -> bool {
     match (distance, beside) {
         (Middle::Collapsed, _) => false,
-        (Middle::Rotation(distance), Middle::Rotation(beside)) => distance <= LITTLE.max(LITTLE_SHARE * beside),
+        (Middle::Rotation(distance), Middle::Rotation(beside)) => {
+            distance <= LITTLE.max(LITTLE_SHARE * beside)
+        }
         (Middle::Rotation(distance), Middle::Collapsed) => distance <= LITTLE,
     }
 }

@@ -50,6 +50,3 @@ pub const FINDINGS: [Finding; 14] = [
     sensitivity::COEFFICIENTS_LITTLE,
     sensitivity::COEFFICIENTS_SLENDER_PARALLEL,
 ];
-
-#[cfg(test)]
-mod synthetic;

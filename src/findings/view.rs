@@ -113,8 +113,9 @@ impl<'a> View<'a> {
     pub fn smallest_and_largest(&self, configuration: Configuration, parameter: Parameter) -> (Level, Level) {
         let value = |level: Level| {
             let mut rows = self.rows().map(|row| (&row.case, row.parameter_value));
-            let of_level =
-                |case: &Case| (case.configuration, case.parameter, case.level) == (configuration, parameter, level);
+            let of_level = |case: &Case| {
+                (case.configuration, case.parameter, case.level) == (configuration, parameter, level)
+            };
             rows.find(|(case, _)| of_level(case)).and_then(|(_, value)| value)
         };
         match (value(Level::Low), value(Level::High)) {

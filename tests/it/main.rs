@@ -3,5 +3,9 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod ground_formats;
+mod ground_mutations;
+mod ground_samples;
+mod ground_suite;
 mod shared;
 mod verification;
