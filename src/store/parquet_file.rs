@@ -60,8 +60,8 @@ impl<R> ParquetFile<R> {
     ///
     /// # Errors
     /// [`Error::Io`] or [`Error::Table`] if the disk refuses.
-    pub fn finish(mut self) -> Result<()> {
-        self.writer.finish().map_err(|e| Error::table(&self.path, e))?;
+    pub fn finish(self) -> Result<()> {
+        // This writes the last row group and the footer too.
         let file = self.writer.into_inner().map_err(|e| Error::table(&self.path, e))?;
         durable::put_in_place(file, &self.path)
     }
