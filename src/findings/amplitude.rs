@@ -100,7 +100,7 @@ pub(super) const PARALLEL_FIVEFOLD: Finding = Finding {
     name: "about five times more",
     claim: "rotations are about five times larger when the floor is parallel to the façade",
     source: "section 4.3, Fig. 14",
-    criterion: "the median ratio of parallel to perpendicular over the crack-height curves lies within 2.5 to 7.5 (holds), beyond 2.5 to 10 (does not), or between (undecided)",
+    criterion: "the median ratio of parallel to perpendicular over the crack-height curves is 2.5 to 7.5; undecided up to 10",
     check: parallel_fivefold,
 };
 

@@ -19,7 +19,10 @@ pub(super) const REVERSE_SCALE: Finding = Finding {
 };
 
 fn reverse_scale(view: &View) -> Answer {
-    rises(view, Parameter::Thickness, Slender::Large, &Configuration::ALL)
+    let slender = rises(view, Parameter::Thickness, Slender::Large, &Configuration::ALL);
+    let moderate = rises(view, Parameter::Thickness, Slender::Moderate, &Configuration::ALL);
+    let numbers = format!("{}. For h/b ≤ 14, which do not decide: {}", slender.numbers, moderate.numbers);
+    Answer { verdict: slender.verdict, numbers }
 }
 
 /// Section 4.3: "where the floor is parallel to the façade, this phenomenon is amplified".

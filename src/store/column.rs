@@ -140,9 +140,14 @@ pub fn print_csv<'c, R: 'c>(
     rows: impl IntoIterator<Item = impl std::borrow::Borrow<R>>,
 ) -> std::io::Result<()> {
     let mut csv = csv::Writer::from_writer(out);
-    csv.write_record(columns.clone().map(|column| column.name))?;
+    // The writer wraps what the stream said; a reader that has gone must stay recognisable.
+    let unwrapped = |e: csv::Error| match e.into_kind() {
+        csv::ErrorKind::Io(e) => e,
+        other => std::io::Error::other(format!("{other:?}")),
+    };
+    csv.write_record(columns.clone().map(|column| column.name)).map_err(unwrapped)?;
     for row in rows {
-        csv.write_record(columns.clone().map(|column| column.text(row.borrow())))?;
+        csv.write_record(columns.clone().map(|column| column.text(row.borrow()))).map_err(unwrapped)?;
     }
     csv.flush()
 }
