@@ -5,6 +5,7 @@
 mod aggregate;
 mod output;
 mod run;
+mod simulate;
 
 use clap::{Parser, Subcommand};
 
@@ -22,6 +23,7 @@ pub struct Cli {
 enum Command {
     Run(run::RunCommand),
     Aggregate(aggregate::AggregateCommand),
+    Simulate(simulate::SimulateArgs),
 }
 
 impl Cli {
@@ -33,6 +35,7 @@ impl Cli {
         match self.command {
             Command::Run(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
+            Command::Simulate(args) => simulate::execute(&args),
         }
     }
 }

@@ -115,7 +115,7 @@ impl RockingWall {
     fn impulses_push(&self, to: Contact, theta: Pair, omega: Pair, v_before: &Rates) -> bool {
         let posture = self.posture(to, theta);
         let jump = posture.rates(omega).minus(*v_before);
-        let impulses = self.masses.joint_forces(&posture, &jump, 0.0);
+        let impulses = self.masses.impulses(&posture, &jump);
         let size = impulses.ground.normal.abs() + impulses.ground.shear.abs() + impulses.crack.normal.abs();
         self.joints().filter(|joint| to.at(*joint).is_closed()).all(|joint| {
             let corners = impulses.at(joint).corners(self.width_m(joint));

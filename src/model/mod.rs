@@ -16,6 +16,7 @@ pub use crushing::crushed_widths_m;
 pub use effect::Effect;
 pub use impact::Impact;
 pub use joint::{JointForce, JointForces};
+pub(crate) use motion::Aftermath;
 pub use motion::MotionRate;
 pub use posture::Pair;
 pub(crate) use rocking::opening;

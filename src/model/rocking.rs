@@ -95,11 +95,7 @@ impl RockingWall {
         theta_dd: Pair,
         ground: Vector,
     ) -> JointForces {
-        let posture = self.posture(contact, state.theta);
-        let with_gravity = Vector::new(ground.x, ground.y + G_M_S2);
-        let accelerations = posture.accelerations(state.omega, theta_dd, with_gravity);
-        let top_force = self.motion(contact).top_force_n(state.theta, state.omega);
-        self.masses.joint_forces(&posture, &accelerations, top_force)
+        self.motion(contact).aftermath(state.theta, state.omega, theta_dd, ground).forces
     }
 
     /// Smallest corner force of the closed joints, over the weight of the wall; none where all joints are open.

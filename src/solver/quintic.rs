@@ -13,6 +13,19 @@ pub struct Point {
     pub acceleration: [f64; 2],
 }
 
+impl Point {
+    /// This motion a short time later, along its parabola.
+    #[must_use]
+    pub fn after(&self, short_s: f64) -> Self {
+        let (x, v, a) = (self.position, self.velocity, self.acceleration);
+        Self {
+            position: [0, 1].map(|i| x[i] + short_s * (v[i] + 0.5 * short_s * a[i])),
+            velocity: [0, 1].map(|i| v[i] + short_s * a[i]),
+            acceleration: a,
+        }
+    }
+}
+
 /// Both coordinates over a step, each a polynomial of degree five in the share of the step that has passed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quintic {
