@@ -7,6 +7,8 @@ mod output;
 mod run;
 mod simulate;
 
+use std::io::Write;
+
 use clap::{Parser, Subcommand};
 
 use crate::error::Result;
@@ -37,5 +39,19 @@ impl Cli {
             Command::Aggregate(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),
         }
+    }
+}
+
+/// Prints data to stdout; a reader that closes the pipe early has seen enough.
+///
+/// # Errors
+/// What the system says, other than that the pipe is closed.
+fn print(text: &str) -> Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(crate::Error::io("print", std::path::Path::new("stdout"), e))
+        }
+        _ => Ok(()),
     }
 }

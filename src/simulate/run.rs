@@ -64,7 +64,7 @@ impl<'a, O: Observer> Run<'a, O> {
             rest: RestLimits::new(&rocking),
             collapse_rad: wall.collapse_rotation_rad(),
             controller,
-            tally: Tally::default(),
+            tally: Tally::new(rocking.joints().count()),
             observer,
             contact: Contact::REST,
             now: Point { position: wall.parameters().initial_rotation_rad, ..Point::default() },
