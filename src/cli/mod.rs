@@ -2,6 +2,9 @@
 //!
 //! stdout is for data, stderr for people.
 
+mod aggregate;
+mod output;
+mod run;
 mod simulate;
 
 use std::io::Write;
@@ -20,6 +23,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Run(run::RunCommand),
+    Aggregate(aggregate::AggregateCommand),
     Simulate(simulate::SimulateArgs),
 }
 
@@ -30,6 +35,8 @@ impl Cli {
     /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
     pub fn execute(self) -> Result<()> {
         match self.command {
+            Command::Run(command) => command.execute(),
+            Command::Aggregate(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),
         }
     }

@@ -1,6 +1,7 @@
 //! Ground motion: accelerograms, the files they come in, and the suites that list them.
 
 mod accelerogram;
+mod code_spectrum;
 mod fft;
 mod integrate;
 mod intensity;
@@ -11,6 +12,7 @@ mod suite_file;
 mod unit;
 
 pub use accelerogram::{Accelerogram, InvalidAccelerogram};
+pub use code_spectrum::{COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Site, Soil, SuiteCheck, Topography};
 pub use integrate::Motion;
 pub use intensity::IntensityMeasures;
 pub use read::{Format, ReadOptions, Record, read, read_bytes};
