@@ -30,6 +30,12 @@ pub enum Error {
         /// What the library said.
         message: String,
     },
+    /// A figure or page could not be drawn; this is a defect of the program to report.
+    #[error("a picture could not be drawn: {message}")]
+    Picture {
+        /// What the drawing library said.
+        message: String,
+    },
     /// A run of a checked plan turned out impossible; this is a defect of the program to report.
     #[error("run {position} of the plan: {message}")]
     Plan {

@@ -46,6 +46,7 @@
 //! | [`store`] | responses | files that appear whole or not at all |
 //! | [`aggregate`] | those files alone | medians and quantiles over the records |
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
+//! | [`report`] | result folders, runs | pages and pictures |
 //! | [`cli`] | the command line | the above, and messages for people |
 
 pub mod aggregate;
@@ -57,6 +58,7 @@ pub mod ground;
 pub mod input;
 pub mod model;
 pub mod plan;
+pub mod report;
 pub mod simulate;
 pub mod solver;
 pub mod store;

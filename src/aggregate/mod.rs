@@ -1,10 +1,12 @@
 //! From runs to medians: reads only the Parquet files of a study.
 
+mod by_record;
 mod medians;
 mod quantile;
 mod scan;
 mod table;
 
+pub use by_record::{ReferenceRun, reference_runs};
 pub use medians::{Case, Measure, Median, Medians, Middle, VariantNote};
 pub use quantile::{LEVELS, quantiles};
 pub use scan::aggregate;

@@ -28,7 +28,7 @@ pub fn aggregate(folder: &Path) -> Result<Medians> {
     read().map_err(|e| Error::table(folder, e))
 }
 
-fn scan(files: &[PathBuf]) -> PolarsResult<LazyFrame> {
+pub(super) fn scan(files: &[PathBuf]) -> PolarsResult<LazyFrame> {
     let paths: PolarsResult<Vec<_>> = files.iter().map(|path| PlRefPath::try_from_path(path)).collect();
     let hive_options = HiveOptions { enabled: Some(false), ..Default::default() };
     // The record stands in the files too, and their names may hold what a pattern would read as a wildcard.
@@ -134,7 +134,12 @@ fn case(frame: &DataFrame, i: usize) -> PolarsResult<Case> {
     })
 }
 
-fn named<T>(frame: &DataFrame, name: &str, i: usize, find: impl Fn(&str) -> Option<T>) -> PolarsResult<T> {
+pub(super) fn named<T>(
+    frame: &DataFrame,
+    name: &str,
+    i: usize,
+    find: impl Fn(&str) -> Option<T>,
+) -> PolarsResult<T> {
     let value = text(frame, name, i)?;
     find(&value).ok_or_else(
         || polars_err!(ComputeError: "column {name} holds {value:?}, which this version does not know"),
@@ -145,15 +150,15 @@ fn absent(name: &str) -> PolarsError {
     polars_err!(ComputeError: "column {name} lacks a value that every run has")
 }
 
-fn text(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<String> {
+pub(super) fn text(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<String> {
     frame.column(name)?.str()?.get(i).map(str::to_owned).ok_or_else(|| absent(name))
 }
 
-fn number(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<f64> {
+pub(super) fn number(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<f64> {
     frame.column(name)?.f64()?.get(i).ok_or_else(|| absent(name))
 }
 
-fn count(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<u64> {
+pub(super) fn count(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<u64> {
     frame.column(name)?.u64()?.get(i).ok_or_else(|| absent(name))
 }
 

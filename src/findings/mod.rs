@@ -17,7 +17,7 @@ mod view;
 
 pub use report::report;
 pub use verdict::{Answer, Verdict, Vote};
-pub use view::View;
+pub use view::{Point, Slender, View};
 
 /// A conclusion of the source and how it is checked.
 pub struct Finding {

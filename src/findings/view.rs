@@ -46,6 +46,11 @@ impl<'a> View<'a> {
         Self { medians, variant }
     }
 
+    /// Name of the variant.
+    pub fn variant(&self) -> &'a str {
+        self.variant
+    }
+
     /// All rows of the variant.
     pub fn rows(&self) -> impl Iterator<Item = &'a Median> {
         let variant = self.variant;

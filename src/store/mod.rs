@@ -13,7 +13,7 @@ pub use column::{Column, Encoding, Read, Stage, print_csv};
 pub use durable::write_durably;
 pub use folder::{OutputFolder, run_files};
 pub use history::{HistoryWriter, write_history};
-pub use manifest::{Manifest, file_sha256};
+pub use manifest::{FileNote, Manifest, RecordNote, SuiteNote, file_sha256};
 pub use parquet_file::ParquetFile;
 pub use schema::{COLUMNS, SCHEMA_VERSION};
 pub use sink::RunSink;

@@ -1,0 +1,211 @@
+//! A panel of curves over slenderness; collapses stand in a band of their own above all numbers.
+
+use std::ops::Range;
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::colours::{COLLAPSE, Colour, INK, Mark};
+use super::svg::{Drawn, Hit, Told, svg};
+use super::words::tick;
+use crate::aggregate::Middle;
+use crate::error::Result;
+
+/// Size of a panel in its own units; text is set for panels half a page wide.
+const SIZE: (u32, u32) = (720, 460);
+/// Height of text.
+const TEXT: i32 = 21;
+
+/// A point of a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurvePoint {
+    /// Abscissa.
+    pub x: f64,
+    /// Ordinate: a number, or a collapse.
+    pub y: Middle,
+    /// Whether some of what it stands for collapsed although it did not: drawn hollow.
+    pub partly_collapsed: bool,
+    /// What it tells under the pointer.
+    pub tip: String,
+}
+
+/// A curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Colour.
+    pub colour: Colour,
+    /// Shape of its points.
+    pub mark: Mark,
+    /// Points, abscissa increasing.
+    pub points: Vec<CurvePoint>,
+}
+
+/// A panel of curves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// Title.
+    pub title: String,
+    /// Abscissa with its unit.
+    pub x_label: String,
+    /// Ordinate with its unit.
+    pub y_label: String,
+    /// Abscissae shown.
+    pub x: Range<f64>,
+    /// Largest ordinate shown as a number.
+    pub y_top: f64,
+    /// Whether there is a band for collapses above.
+    pub collapse_band: bool,
+    /// A line across, and what it means.
+    pub threshold: Option<(f64, &'static str)>,
+    /// The curves.
+    pub curves: Vec<Curve>,
+}
+
+type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+impl Panel {
+    /// The panel as SVG.
+    ///
+    /// # Errors
+    /// [`crate::Error::Picture`] if plotters refuses.
+    pub fn svg(&self) -> Result<String> {
+        svg(SIZE, &format!("{}: {} over {}", self.title, self.y_label, self.x_label), |area| self.draw(area))
+    }
+
+    /// Draws it.
+    fn draw<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<Told, DB> {
+        let top = if self.collapse_band { self.y_top * 1.14 } else { self.y_top };
+        let mut chart = ChartBuilder::on(area)
+            .margin_left(8)
+            .margin_right(14)
+            .margin_top(6)
+            .margin_bottom(4)
+            .caption(&self.title, ("sans-serif", TEXT + 3).into_font().color(&INK.rgb()))
+            .x_label_area_size(58)
+            .y_label_area_size(82)
+            .build_cartesian_2d(self.x.clone(), 0.0..top)?;
+        self.mesh(&mut chart)?;
+        self.bands(&mut chart)?;
+        let mut told = Told::default();
+        for curve in &self.curves {
+            self.curve(&mut chart, curve, &mut told.hits)?;
+        }
+        Ok(told)
+    }
+
+    fn mesh<DB: DrawingBackend>(&self, chart: &mut Chart<DB>) -> Drawn<(), DB> {
+        let text = ("sans-serif", TEXT).into_font().color(&INK.rgb());
+        // The band above the numbers has no numbers.
+        let y_text = |y: &f64| if *y > self.y_top * 1.0001 { String::new() } else { tick(*y) };
+        let x_text = |x: &f64| tick(*x);
+        chart
+            .configure_mesh()
+            .disable_x_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(INK.rgb().mix(0.12))
+            .axis_style(INK.rgb().mix(0.6))
+            .x_labels(10)
+            .y_labels(7)
+            .x_label_formatter(&x_text)
+            .y_label_formatter(&y_text)
+            .label_style(text.clone())
+            .axis_desc_style(text)
+            .x_desc(&self.x_label)
+            .y_desc(&self.y_label)
+            .draw()
+    }
+
+    fn bands<DB: DrawingBackend>(&self, chart: &mut Chart<DB>) -> Drawn<(), DB> {
+        let (left, right) = (self.x.start, self.x.end);
+        let small = |colour: Colour, v_pos| {
+            ("sans-serif", TEXT - 3).into_font().color(&colour.rgb()).pos(Pos::new(HPos::Left, v_pos))
+        };
+        if self.collapse_band {
+            let band = [(left, self.y_top), (right, self.y_top * 1.14)];
+            chart.draw_series([Rectangle::new(band, COLLAPSE.rgb().mix(0.09).filled())])?;
+            let place = (left + 0.01 * (right - left), self.y_top * 1.07);
+            chart.draw_series([Text::new("collapse", place, small(COLLAPSE, VPos::Center))])?;
+        }
+        if let Some((y, meaning)) = self.threshold.filter(|(y, _)| *y < self.y_top) {
+            let style = INK.rgb().mix(0.55).stroke_width(1);
+            chart.draw_series(DashedLineSeries::new([(left, y), (right, y)], 5, 4, style))?;
+            let place = (left + 0.01 * (right - left), y);
+            chart.draw_series([Text::new(meaning, place, small(INK, VPos::Bottom))])?;
+        }
+        Ok(())
+    }
+
+    fn curve<DB: DrawingBackend>(
+        &self,
+        chart: &mut Chart<DB>,
+        curve: &Curve,
+        hits: &mut Vec<Hit>,
+    ) -> Drawn<(), DB> {
+        let colour = curve.colour.rgb();
+        for pair in curve.points.windows(2) {
+            let ends = [0, 1].map(|i| (pair[i].x, self.height(pair[i].y)));
+            let collapses = pair.iter().any(|point| point.y == Middle::Collapsed);
+            if collapses {
+                chart.draw_series(DashedLineSeries::new(ends, 6, 5, colour.mix(0.6).stroke_width(2)))?;
+            } else {
+                chart.draw_series(LineSeries::new(ends, colour.stroke_width(2)))?;
+            }
+        }
+        for point in &curve.points {
+            let at = (point.x, self.height(point.y));
+            draw_mark(chart, curve, point, at)?;
+            hits.push(Hit {
+                at: chart.backend_coord(&at),
+                tip: point.tip.clone(),
+                colour: curve.colour.hex(),
+            });
+        }
+        Ok(())
+    }
+
+    fn height(&self, y: Middle) -> f64 {
+        match y {
+            Middle::Rotation(y) => y,
+            Middle::Collapsed => self.y_top * 1.07,
+        }
+    }
+}
+
+fn draw_mark<DB: DrawingBackend>(
+    chart: &mut Chart<DB>,
+    curve: &Curve,
+    point: &CurvePoint,
+    at: (f64, f64),
+) -> Drawn<(), DB> {
+    let colour = curve.colour.rgb();
+    if point.y == Middle::Collapsed {
+        chart.draw_series([Cross::new(at, 6, colour.stroke_width(3))])?;
+        return Ok(());
+    }
+    draw_shape(chart, curve.mark, at, 6, colour.filled())?;
+    if point.partly_collapsed {
+        draw_shape(chart, curve.mark, at, 3, WHITE.filled())?;
+    }
+    Ok(())
+}
+
+fn draw_shape<DB: DrawingBackend>(
+    chart: &mut Chart<DB>,
+    mark: Mark,
+    at: (f64, f64),
+    size: i32,
+    style: ShapeStyle,
+) -> Drawn<(), DB> {
+    let place = EmptyElement::at(at);
+    match mark {
+        Mark::Circle => chart.draw_series([place + Circle::new((0, 0), size, style)])?,
+        Mark::Square => {
+            let corners = [(1 - size, 1 - size), (size - 1, size - 1)];
+            chart.draw_series([place + Rectangle::new(corners, style)])?
+        }
+        Mark::Triangle => chart.draw_series([place + TriangleMarker::new((0, 0), size + 2, style)])?,
+    };
+    Ok(())
+}

@@ -1,0 +1,213 @@
+//! A page: sections of text, figures and tables, made into one HTML file that needs nothing else.
+
+use minijinja::{AutoEscape, Environment, context};
+use serde::Serialize;
+
+use super::svg::failed;
+use crate::error::Result;
+
+/// A page.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Page {
+    /// Title.
+    pub title: String,
+    /// What it shows, in a sentence or two.
+    pub lead: String,
+    /// Numbers to read first.
+    pub numbers: Vec<Number>,
+    /// What is generated, assumed, or missing, each a sentence.
+    pub notes: Vec<String>,
+    /// The sections.
+    pub sections: Vec<Section>,
+    /// Where it comes from: names and values.
+    pub provenance: Vec<(String, String)>,
+    /// Files behind it.
+    pub files: Vec<Link>,
+}
+
+/// A number to read first.
+#[derive(Debug, Clone, Serialize)]
+pub struct Number {
+    /// The number.
+    pub value: String,
+    /// What it counts.
+    pub meaning: String,
+}
+
+/// A section.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Section {
+    /// Anchor.
+    pub id: String,
+    /// Title.
+    pub title: String,
+    /// Paragraphs above the figures.
+    pub text: Vec<String>,
+    /// The wall in motion.
+    pub motion: Option<Motion>,
+    /// Figures.
+    pub figures: Vec<Figure>,
+    /// Tables.
+    pub tables: Vec<Table>,
+}
+
+/// A figure: panels under one legend.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Figure {
+    /// Anchor.
+    pub id: String,
+    /// Title.
+    pub title: String,
+    /// The figure of the paper it answers to.
+    pub paper: Option<String>,
+    /// Curves.
+    pub legend: Vec<Key>,
+    /// Panels as SVG.
+    pub panels: Vec<String>,
+    /// Whether each panel takes the whole width.
+    pub wide: bool,
+    /// What it shows.
+    pub caption: String,
+    /// Files behind it.
+    pub links: Vec<Link>,
+}
+
+/// A curve in a legend.
+#[derive(Debug, Clone, Serialize)]
+pub struct Key {
+    /// Name.
+    pub label: String,
+    /// Colour.
+    pub colour: String,
+    /// Shape of its points.
+    pub mark: super::colours::Mark,
+}
+
+/// A link to a file beside the page.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Link {
+    /// Text.
+    pub text: String,
+    /// Relative address.
+    pub href: String,
+}
+
+/// A table; the first cell of each row heads it.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Table {
+    /// What it shows.
+    pub caption: String,
+    /// Heads of the columns.
+    pub head: Vec<String>,
+    /// Rows.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+/// A cell of a table.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Cell {
+    /// Text.
+    pub text: String,
+    /// Class that colours it; empty for none.
+    pub class: &'static str,
+}
+
+impl From<String> for Cell {
+    fn from(text: String) -> Self {
+        Self { text, class: "" }
+    }
+}
+
+/// The wall in motion: data for the script.
+#[derive(Debug, Clone, Serialize)]
+pub struct Motion {
+    /// Data, JSON that is safe inside a script element.
+    pub data: String,
+}
+
+impl Page {
+    /// The page as HTML.
+    ///
+    /// # Errors
+    /// [`crate::Error::Picture`] if the template refuses, which is a defect.
+    pub fn html(&self) -> Result<String> {
+        let mut environment = Environment::new();
+        environment.set_auto_escape_callback(|_| AutoEscape::Html);
+        environment.add_template("page", include_str!("templates/page.html")).map_err(failed)?;
+        let moves = self.sections.iter().any(|section| section.motion.is_some());
+        let page = context! {
+            page => self,
+            style => include_str!("templates/style.css"),
+            script => include_str!("templates/figures.js"),
+            motion => moves.then_some(include_str!("templates/motion.js")),
+            version => env!("CARGO_PKG_VERSION"),
+        };
+        environment.get_template("page").and_then(|template| template.render(page)).map_err(failed)
+    }
+}
+
+/// Text as it stands in HTML and in its attributes.
+pub fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            other => safe.push(other),
+        }
+    }
+    safe
+}
+
+/// A relative address of a file: odd bytes as %XX, slashes kept.
+pub fn address(path: &str) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/._-=".contains(&byte);
+    path.bytes()
+        .map(|byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") })
+        .collect()
+}
+
+/// JSON that cannot end the script element it stands in.
+pub fn script_safe(json: &serde_json::Value) -> String {
+    json.to_string().replace('<', "\\u003c").replace("\u{2028}", "\\u2028").replace("\u{2029}", "\\u2029")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_texts_cannot_become_markup() {
+        let page = Page {
+            title: "<script>alert(1)</script>".into(),
+            notes: vec!["a & b".into()],
+            files: vec![Link { text: "x".into(), href: address("runs/record=a%20b/\"") }],
+            ..Page::default()
+        };
+        let html = page.html().expect("a page");
+        assert!(!html.contains("<script>alert"));
+        assert!(html.contains("&lt;script&gt;alert(1)") && html.contains("a &amp; b"));
+        assert!(
+            html.contains("runs/record=a%2520b/%22") || html.contains("runs&#x2f;record=a%2520b&#x2f;%22")
+        );
+    }
+
+    #[test]
+    fn regress_data_cannot_end_its_script() {
+        let text = script_safe(&serde_json::json!({ "name": "</script><b>" }));
+        assert!(!text.contains('<') && text.contains("\\u003c/script>"));
+    }
+
+    #[test]
+    fn regress_a_page_asks_the_network_for_nothing() {
+        let html = Page::default().html().expect("a page");
+        let allowed = html.replace("http://www.w3.org/2000/svg", "");
+        assert_eq!(html.matches("<link").count(), 1, "the empty icon alone");
+        for reach in ["http:", "https:", "src=", "@import", "fetch("] {
+            assert!(!allowed.contains(reach), "{reach}");
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The page of a sweep: the paper's figures 12 and 14 to 20 from one's own medians and runs.
+
+mod by_record;
+mod medians;
+mod tables;
+
+use std::path::Path;
+
+use super::page::{Number, Page, Section};
+use super::provenance;
+use crate::aggregate::{Medians, aggregate, write_medians};
+use crate::error::{InputError, Result};
+use crate::findings::{FINDINGS, Verdict, View};
+use crate::store::Manifest;
+
+/// The page of the sweep in a folder; its medians are written there first, for the page links to them.
+///
+/// # Errors
+/// An input error for a folder without results; whatever reading and drawing meet.
+pub fn page(folder: &Path, manifest: &Manifest) -> Result<Page> {
+    let medians = aggregate(folder)?;
+    let Some(base) = medians.variants.first() else {
+        return Err(InputError::file(folder, "run files without a run", "the results of a sweep").into());
+    };
+    write_medians(&folder.join("medians.parquet"), &medians)?;
+    let view = View::new(&medians, &base.name);
+    let links = provenance::run_links(folder)?;
+    Ok(Page {
+        title: format!("Sweep “{}”", manifest.plan),
+        lead: format!(
+            "Largest rotations of two-body façades under {} {} records, one parameter at a time at its three levels.",
+            manifest.suite.records.len(),
+            if manifest.suite.generated { "generated" } else { "recorded" }
+        ),
+        numbers: numbers(&medians, &view),
+        notes: provenance::notes(manifest, &medians),
+        sections: vec![
+            findings(&medians, &view),
+            medians::section(&view)?,
+            by_record::section(folder, &view, &links)?,
+            assumptions(&medians),
+        ],
+        provenance: provenance::of(manifest),
+        files: provenance::files(links),
+    })
+}
+
+fn numbers(medians: &Medians, view: &View) -> Vec<Number> {
+    let total =
+        |of: fn(&crate::aggregate::VariantNote) -> u64| -> u64 { medians.variants.iter().map(of).sum() };
+    let holds = FINDINGS.iter().filter(|finding| (finding.check)(view).verdict == Verdict::Holds).count();
+    let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
+    vec![
+        number(total(|v| v.runs).to_string(), "runs"),
+        number(total(|v| v.collapsed).to_string(), "collapsed"),
+        number(total(|v| v.failed).to_string(), "failed"),
+        number(format!("{holds} of {}", FINDINGS.len()), "conclusions of the paper hold here"),
+    ]
+}
+
+fn findings(medians: &Medians, view: &View) -> Section {
+    let mut tables = vec![tables::findings(view)];
+    if medians.variants.len() > 1 {
+        tables.push(tables::by_variant(medians));
+    }
+    Section {
+        id: "conclusions".into(),
+        title: "The paper’s conclusions against these results".into(),
+        text: vec![
+            "Each conclusion has a criterion that was fixed beforehand; the numbers decide. Nothing is fitted.".into(),
+        ],
+        tables,
+        ..Section::default()
+    }
+}
+
+fn assumptions(medians: &Medians) -> Section {
+    Section {
+        id: "assumptions".into(),
+        title: "What the paper leaves open, and what was assumed".into(),
+        text: vec!["The first variant is the one the figures show.".into()],
+        tables: vec![tables::assumptions(medians)],
+        ..Section::default()
+    }
+}

@@ -1,0 +1,101 @@
+//! Figures 18 and 19: the reference façades under each record.
+
+use std::path::Path;
+
+use super::super::colours::of_curve;
+use super::super::curves::{Curve, CurvePoint, Panel};
+use super::super::page::{Figure, Key, Link, Section};
+use super::super::words;
+use super::medians::{SIGNIFICANT, title, x_range, y_label};
+use crate::aggregate::{Measure, Middle, ReferenceRun, reference_runs};
+use crate::error::Result;
+use crate::findings::View;
+use crate::input::survey::Configuration;
+
+/// The section: a figure a body, a curve a record.
+///
+/// # Errors
+/// Whatever reading the runs and drawing meet.
+pub fn section(folder: &Path, view: &View, links: &[Link]) -> Result<Section> {
+    let first = |c: Configuration| view.parameters(c).first().map(|&parameter| (c, parameter));
+    let among: Vec<_> = Configuration::ALL.into_iter().filter_map(first).collect();
+    let runs = reference_runs(folder, view.variant(), &among)?;
+    let bodies = [(Measure::LowerOwn, "Fig. 18"), (Measure::UpperOwn, "Fig. 19")];
+    let figures = bodies.map(|(body, number)| figure(view, &runs, body, number, links));
+    Ok(Section {
+        id: "records".into(),
+        title: "Record by record".into(),
+        text: vec![
+            "The reference façades, all parameters at their means, under each record. A cross in the red band: the wall collapsed. Press a record to see it alone.".into(),
+        ],
+        figures: figures.into_iter().collect::<Result<_>>()?,
+        ..Section::default()
+    })
+}
+
+fn figure(view: &View, runs: &[ReferenceRun], body: Measure, number: &str, links: &[Link]) -> Result<Figure> {
+    let panel = |configuration| panel(view, runs, configuration, body);
+    let upper = body == Measure::UpperOwn;
+    Ok(Figure {
+        id: if upper { "records-upper" } else { "records-lower" }.into(),
+        title: format!("{} body under each record", if upper { "Upper" } else { "Lower" }),
+        paper: Some(number.into()),
+        legend: legend(runs),
+        panels: Configuration::ALL.map(|c| panel(c).svg()).into_iter().collect::<Result<_>>()?,
+        caption: "Largest rotation of the reference façades by slenderness h/b, one curve a record.".into(),
+        links: links.to_vec(),
+        ..Figure::default()
+    })
+}
+
+/// Names of the records in the order of the suite, with their earthquakes.
+fn records(runs: &[ReferenceRun]) -> Vec<(&str, &str)> {
+    let mut names: Vec<(u64, &str, &str)> =
+        runs.iter().map(|run| (run.record_id, run.record.as_str(), run.event.as_str())).collect();
+    names.sort_unstable();
+    names.dedup();
+    names.into_iter().map(|(_, name, event)| (name, event)).collect()
+}
+
+fn legend(runs: &[ReferenceRun]) -> Vec<Key> {
+    let key = |(index, (name, event)): (usize, (&str, &str))| {
+        let (colour, mark) = of_curve(index);
+        let label = if event.is_empty() { name.to_owned() } else { format!("{name} ({event})") };
+        Key { label, colour: colour.hex(), mark }
+    };
+    records(runs).into_iter().enumerate().map(key).collect()
+}
+
+fn panel(view: &View, runs: &[ReferenceRun], configuration: Configuration, body: Measure) -> Panel {
+    let of_body = |run: &ReferenceRun| run.rotation[usize::from(body == Measure::UpperOwn)];
+    let all: Vec<Middle> = runs.iter().filter_map(of_body).collect();
+    let rotation = |middle: &Middle| match middle {
+        Middle::Rotation(rotation) => Some(*rotation),
+        Middle::Collapsed => None,
+    };
+    let largest = all.iter().filter_map(rotation).fold(SIGNIFICANT.0, f64::max);
+    let point = |run: &ReferenceRun| {
+        let y = of_body(run)?;
+        let value = match y {
+            Middle::Rotation(rotation) => format!("{} = {rotation:.4}", y_label(body)),
+            Middle::Collapsed => "collapsed".into(),
+        };
+        let tip = format!("{}\nh/b {}: {value}", run.record, run.slenderness);
+        Some(CurvePoint { x: run.slenderness, y, partly_collapsed: false, tip })
+    };
+    let curve = |(index, (name, _)): (usize, (&str, &str))| {
+        let (colour, mark) = of_curve(index);
+        let own = |run: &&ReferenceRun| run.record == name && run.configuration == configuration;
+        Curve { colour, mark, points: runs.iter().filter(own).filter_map(point).collect() }
+    };
+    Panel {
+        title: title(configuration, body),
+        x_label: "slenderness h/b".into(),
+        y_label: y_label(body).into(),
+        x: x_range(view),
+        y_top: words::rounded_up(1.02 * largest),
+        collapse_band: all.contains(&Middle::Collapsed),
+        threshold: Some(SIGNIFICANT),
+        curves: records(runs).into_iter().enumerate().map(curve).collect(),
+    }
+}

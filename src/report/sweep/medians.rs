@@ -1,0 +1,188 @@
+//! Figures 12, 14 to 17 and 20: medians over the records against slenderness, a curve a level.
+
+use super::super::colours::of_curve;
+use super::super::curves::{Curve, CurvePoint, Panel};
+use super::super::page::{Figure, Key, Link, Section};
+use super::super::words;
+use crate::aggregate::{Measure, Median, Middle};
+use crate::error::Result;
+use crate::findings::{Slender, View};
+use crate::input::pipeline::Parameter;
+use crate::input::survey::Configuration;
+use crate::plan::Level;
+
+/// θ/α the paper calls significant (sections 4.3 and 5).
+pub(super) const SIGNIFICANT: (f64, &str) = (0.05, "significant, 0.05");
+
+/// The section with a figure for each parameter.
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub fn section(view: &View) -> Result<Section> {
+    Ok(Section {
+        id: "medians".into(),
+        title: "Medians over the records".into(),
+        text: vec![
+            "The median over the records of the largest rotation of each body, over the slenderness angle of that body. A cross in the red band: the median record made the wall collapse. A hollow point: some records did, the median one did not. Press a level to see it alone.".into(),
+        ],
+        figures: rows(view).iter().map(|row| figure(view, row)).collect::<Result<_>>()?,
+        ..Section::default()
+    })
+}
+
+/// A figure's parameters, one a floor: the paper puts the two kinds of floor mass into one figure.
+type Row = Vec<(Configuration, Parameter)>;
+
+fn rows(view: &View) -> Vec<Row> {
+    let place = |parameter| match parameter {
+        Parameter::Thickness => 12,
+        Parameter::CrackHeight => 14,
+        Parameter::Strength => 15,
+        Parameter::Stiffness => 16,
+        Parameter::DiaphragmMass | Parameter::CarriageMass => 17,
+        Parameter::Restitution => 20,
+    };
+    let of = |number: u32| -> Row {
+        let parameters = |c: Configuration| view.parameters(c).into_iter().map(move |p| (c, p));
+        Configuration::ALL.into_iter().flat_map(parameters).filter(|(_, p)| place(*p) == number).collect()
+    };
+    [12, 14, 15, 16, 17, 20].map(of).into_iter().filter(|row| !row.is_empty()).collect()
+}
+
+fn figure(view: &View, row: &Row) -> Result<Figure> {
+    let frame = Frame::of(view, row);
+    let mut panels = Vec::new();
+    for body in Measure::BODIES {
+        for &(configuration, parameter) in row {
+            panels.push(frame.panel(view, configuration, parameter, body).svg()?);
+        }
+    }
+    let mut names: Vec<&str> = row.iter().map(|&(_, p)| words::parameter(p)).collect();
+    names.dedup();
+    let first = row[0].1;
+    let number = match first {
+        Parameter::Thickness => "Fig. 12",
+        Parameter::CrackHeight => "Fig. 14",
+        Parameter::Strength => "Fig. 15",
+        Parameter::Stiffness => "Fig. 16",
+        Parameter::DiaphragmMass | Parameter::CarriageMass => "Fig. 17",
+        Parameter::Restitution => "Fig. 20",
+    };
+    Ok(Figure {
+        id: first.name().replace('_', "-"),
+        title: format!("Influence of the {}", names.join(" and ")),
+        paper: Some(number.into()),
+        legend: legend(view, row),
+        panels,
+        caption: "Median over the records of the largest rotation, by slenderness h/b; the other parameters at their means.".into(),
+        links: vec![Link { text: "medians.parquet".into(), href: "medians.parquet".into() }],
+        ..Figure::default()
+    })
+}
+
+/// One key a level; where the floors differ in its value, both are told.
+fn legend(view: &View, row: &Row) -> Vec<Key> {
+    let key = |level: Level| {
+        let label = |&(configuration, parameter): &(Configuration, Parameter)| {
+            let value = of_level(view, configuration, parameter, level).and_then(|row| row.parameter_value);
+            words::level(parameter, level, value)
+        };
+        let mut labels: Vec<String> = row.iter().map(label).collect();
+        labels.dedup();
+        if let [a, b] = &labels[..] {
+            let value = b.split_once(": ").map_or(b.as_str(), |(_, value)| value);
+            labels = vec![format!("{a} (perpendicular), {value} (parallel)")];
+        }
+        let (colour, mark) = of_curve(level.index());
+        Key { label: labels.concat(), colour: colour.hex(), mark }
+    };
+    Level::ALL.map(key).to_vec()
+}
+
+fn of_level<'a>(
+    view: &View<'a>,
+    configuration: Configuration,
+    parameter: Parameter,
+    level: Level,
+) -> Option<&'a Median> {
+    let of = (configuration, parameter, level);
+    view.rows().find(|row| (row.case.configuration, row.case.parameter, row.case.level) == of)
+}
+
+/// What the panels of a figure share, so that they can be compared by eye.
+struct Frame {
+    y_top: f64,
+    collapse_band: bool,
+}
+
+impl Frame {
+    fn of(view: &View, row: &Row) -> Self {
+        let shown = |median: &&Median| {
+            row.contains(&(median.case.configuration, median.case.parameter))
+                && Measure::BODIES.contains(&median.measure)
+        };
+        let middles: Vec<Middle> = view.rows().filter(shown).filter_map(Median::middle).collect();
+        let rotation = |middle: &Middle| match middle {
+            Middle::Rotation(rotation) => Some(*rotation),
+            Middle::Collapsed => None,
+        };
+        let largest = middles.iter().filter_map(rotation).fold(SIGNIFICANT.0, f64::max);
+        Self { y_top: words::rounded_up(1.02 * largest), collapse_band: middles.contains(&Middle::Collapsed) }
+    }
+
+    fn panel(&self, view: &View, configuration: Configuration, parameter: Parameter, body: Measure) -> Panel {
+        let curve = |level: Level| {
+            let (colour, mark) = of_curve(level.index());
+            let point = |slenderness: f64| {
+                let median = view.row(configuration, parameter, level, (slenderness, body))?;
+                point(median, body)
+            };
+            let points = view.slendernesses(Slender::Any).into_iter().filter_map(point).collect();
+            Curve { colour, mark, points }
+        };
+        Panel {
+            title: title(configuration, body),
+            x_label: "slenderness h/b".into(),
+            y_label: y_label(body).into(),
+            x: x_range(view),
+            y_top: self.y_top,
+            collapse_band: self.collapse_band,
+            threshold: Some(SIGNIFICANT),
+            curves: Level::ALL.map(curve).to_vec(),
+        }
+    }
+}
+
+fn point(median: &Median, body: Measure) -> Option<CurvePoint> {
+    let y = median.middle()?;
+    let case = &median.case;
+    let value = match y {
+        Middle::Rotation(rotation) => format!("median {} = {rotation:.4}", y_label(body)),
+        Middle::Collapsed => "the median record collapsed".into(),
+    };
+    let tip = format!(
+        "{}\nh/b {}: {value}\n{} of {} records collapsed",
+        words::level(case.parameter, case.level, median.parameter_value),
+        case.slenderness,
+        median.collapsed,
+        median.runs - median.failed
+    );
+    Some(CurvePoint { x: case.slenderness, y, partly_collapsed: median.collapsed > 0, tip })
+}
+
+pub(super) fn title(configuration: Configuration, body: Measure) -> String {
+    let body = if body == Measure::LowerOwn { "lower body" } else { "upper body" };
+    format!("{}: {body}", words::floor(configuration))
+}
+
+pub(super) fn y_label(body: Measure) -> &'static str {
+    if body == Measure::LowerOwn { "max |θ₁|/α₁" } else { "max |θ₂|/α₂" }
+}
+
+/// All slendernesses with room at both sides.
+pub(super) fn x_range(view: &View) -> std::ops::Range<f64> {
+    let all = view.slendernesses(Slender::Any);
+    let (first, last) = (all.first().copied().unwrap_or(0.0), all.last().copied().unwrap_or(1.0));
+    let room = (0.06 * (last - first)).max(0.5);
+    first - room..last + room
+}

@@ -1,0 +1,94 @@
+//! Findings and assumptions as tables.
+
+use super::super::page::{Cell, Table};
+use crate::aggregate::{Medians, VariantNote};
+use crate::findings::{FINDINGS, Verdict, View};
+
+fn verdict(verdict: Verdict) -> Cell {
+    let class = match verdict {
+        Verdict::Holds => "holds",
+        Verdict::DoesNot => "does-not",
+        Verdict::Undecided => "undecided",
+    };
+    Cell { text: verdict.name().to_owned(), class }
+}
+
+fn heads(heads: &[&str]) -> Vec<String> {
+    heads.iter().map(|&head| head.to_owned()).collect()
+}
+
+/// Every conclusion with its criterion, its verdict and the numbers that decide.
+pub fn findings(view: &View) -> Table {
+    let row = |(index, finding): (usize, &crate::findings::Finding)| {
+        let answer = (finding.check)(view);
+        vec![
+            Cell::from(format!("{}. {}", index + 1, finding.name)),
+            verdict(answer.verdict),
+            Cell::from(format!("{} ({})", finding.claim, finding.source)),
+            Cell::from(answer.numbers),
+            Cell::from(finding.criterion.to_owned()),
+        ]
+    };
+    Table {
+        caption: format!("Conclusions under variant “{}”", view.variant()),
+        head: heads(&["conclusion", "verdict", "the paper says", "found", "holds if"]),
+        rows: FINDINGS.iter().enumerate().map(row).collect(),
+    }
+}
+
+/// The verdicts under every set of assumptions.
+pub fn by_variant(medians: &Medians) -> Table {
+    let mut head = heads(&["conclusion"]);
+    head.extend(medians.variants.iter().map(|variant| variant.name.clone()));
+    let row = |(index, finding): (usize, &crate::findings::Finding)| {
+        let mut row = vec![Cell::from(format!("{}. {}", index + 1, finding.name))];
+        let of = |variant: &VariantNote| (finding.check)(&View::new(medians, &variant.name)).verdict;
+        row.extend(medians.variants.iter().map(|variant| verdict(of(variant))));
+        row
+    };
+    Table {
+        caption: "The same conclusions under every variant of the assumptions".into(),
+        head,
+        rows: FINDINGS.iter().enumerate().map(row).collect(),
+    }
+}
+
+/// The assumptions of every variant and how its runs ended.
+pub fn assumptions(medians: &Medians) -> Table {
+    let row = |v: &VariantNote| {
+        let residual = v.energy_residual.map_or("–".to_owned(), |residual| format!("{residual:.0e}"));
+        [
+            v.name.clone(),
+            format!("{} m", v.length_m),
+            format!("{} kg/m³", v.density_kg_m3),
+            v.law.clone(),
+            format!("{:e} rad/s", v.capture_velocity_rad_s),
+            format!("{:e}", v.tolerance),
+            v.runs.to_string(),
+            v.collapsed.to_string(),
+            v.failed.to_string(),
+            residual,
+        ]
+        .map(Cell::from)
+        .to_vec()
+    };
+    let names = [
+        "variant",
+        "length of strip",
+        "density",
+        "impact law",
+        "capture velocity",
+        "tolerance",
+        "runs",
+        "collapsed",
+        "failed",
+        "largest energy residual",
+    ];
+    Table {
+        caption:
+            "Energy residual: the energy of a run not accounted for, over the energy that passed through it"
+                .into(),
+        head: heads(&names),
+        rows: medians.variants.iter().map(row).collect(),
+    }
+}
