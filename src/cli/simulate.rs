@@ -9,7 +9,8 @@ use crate::error::{Error, InputError, Result};
 use crate::ground::{Accelerogram, ReadOptions, read};
 use crate::input::load_wall;
 use crate::model::{PATTERN_NAMES, Wall};
-use crate::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate_observed};
+use crate::report::{PlotFile, RunPicture, Watch};
+use crate::simulate::{Accuracy, Outcome, Response, Shaking, simulate_observed};
 use crate::store::write_history;
 
 /// Simulate one wall under one record, or its free release.
@@ -20,6 +21,7 @@ use crate::store::write_history;
 ///   mrbd simulate inputs/walls/table_wall.toml --record gilroy.AT2
 ///   mrbd simulate wall.toml --record east.csv --scale 1.2 --vertical up.csv --json
 ///   mrbd simulate wall.toml --record record.txt --dt 0.005 --history run.parquet
+///   mrbd simulate wall.toml --record record.AT2 --plot run.html
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment, allow_negative_numbers = true)]
 pub struct SimulateArgs {
@@ -58,6 +60,9 @@ pub struct SimulateArgs {
     /// Write the rotations at every sample to a .csv or .parquet file.
     #[arg(long, value_name = "FILE")]
     history: Option<PathBuf>,
+    /// Draw the run into a .svg or .html file; the page shows the wall in motion too.
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
     /// Print the results as JSON.
     #[arg(long)]
     json: bool,
@@ -72,16 +77,29 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     let shaking = shaking(args)?;
     let accuracy = accuracy(args.tolerance)?;
     check_moves(&wall, args)?;
-    let mut history = History::new(history_step_s(args, &shaking)?);
-    let response = match &args.history {
-        Some(path) => {
-            let writer = write_history(path)?;
-            let response = simulate_observed(&wall, &shaking, accuracy, &mut history);
-            writer.finish(&history)?;
-            response
-        }
-        None => crate::simulate::simulate(&wall, &shaking, accuracy),
+    let history = args.history.as_deref().map(write_history).transpose()?;
+    let plot = args.plot.as_deref().map(PlotFile::new).transpose()?;
+    let mut watch = Watch::new(history_step_s(args, &shaking)?);
+    let response = if history.is_some() || plot.is_some() {
+        simulate_observed(&wall, &shaking, accuracy, &mut watch)
+    } else {
+        crate::simulate::simulate(&wall, &shaking, accuracy)
     };
+    if let Some(writer) = history {
+        writer.finish(&watch.history)?;
+    }
+    if let Some(plot) = plot {
+        let record_name = args.record.as_deref().map(|path| record_name(path, args.scale));
+        plot.write(&RunPicture {
+            wall: &wall,
+            wall_name: &file_name(&args.wall),
+            shaking: &shaking,
+            record_name: record_name.as_deref(),
+            accuracy,
+            watch: &watch,
+            response: &response,
+        })?;
+    }
     super::print(&if args.json {
         format!("{:#}", as_json(&wall, &response))
     } else {
@@ -91,6 +109,15 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
         Outcome::Failed { time_s, reason } => Err(Error::Run { time_s, reason }),
         _ => Ok(()),
     }
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+fn record_name(path: &Path, scale: f64) -> String {
+    let name = file_name(path);
+    if scale == 1.0 { name } else { format!("{name} × {scale}") }
 }
 
 fn wall(args: &SimulateArgs) -> Result<Wall> {

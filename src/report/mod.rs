@@ -17,8 +17,10 @@ mod curves;
 mod folder;
 mod page;
 mod provenance;
+mod run;
 mod svg;
 mod sweep;
 mod words;
 
 pub use folder::{PAGE_NAME, report};
+pub use run::{ImpactMark, PlotFile, RunPicture, Watch};

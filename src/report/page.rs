@@ -97,6 +97,8 @@ pub struct Link {
 pub struct Table {
     /// What it shows.
     pub caption: String,
+    /// Whether its cells are sentences, which stand below each other on a narrow page.
+    pub prose: bool,
     /// Heads of the columns.
     pub head: Vec<String>,
     /// Rows.

@@ -28,16 +28,16 @@ pub fn page(folder: &Path, manifest: &Manifest) -> Result<Page> {
     Ok(Page {
         title: format!("Sweep “{}”", manifest.plan),
         lead: format!(
-            "Largest rotations of two-body façades under {} {} records, one parameter at a time at its three levels.",
+            "Largest rotations of two-body façades under {} {} ground motions, one parameter at a time at its three levels.",
             manifest.suite.records.len(),
             if manifest.suite.generated { "generated" } else { "recorded" }
         ),
         numbers: numbers(&medians, &view),
         notes: provenance::notes(manifest, &medians),
         sections: vec![
-            findings(&medians, &view),
             medians::section(&view)?,
             by_record::section(folder, &view, &links)?,
+            findings(&medians, &view),
             assumptions(&medians),
         ],
         provenance: provenance::of(manifest),

@@ -8,7 +8,11 @@ use crate::plan::Level;
 pub fn tick(value: f64) -> String {
     let text = format!("{value:.4}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    match text.strip_prefix('-') {
+        Some("0") => "0".to_owned(),
+        Some(digits) => format!("−{digits}"),
+        None => text.to_owned(),
+    }
 }
 
 /// The least of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not below a positive value.
@@ -66,7 +70,7 @@ mod tests {
 
     #[test]
     fn regress_ticks_have_no_idle_digits() {
-        assert_eq!([0.0, 0.05, 8.0, -0.00001, 1.25].map(tick), ["0", "0.05", "8", "0", "1.25"]);
+        assert_eq!([0.0, 0.05, 8.0, -0.00001, -1.25].map(tick), ["0", "0.05", "8", "0", "−1.25"]);
     }
 
     #[test]

@@ -30,6 +30,7 @@ pub fn findings(view: &View) -> Table {
         ]
     };
     Table {
+        prose: true,
         caption: format!("Conclusions under variant “{}”", view.variant()),
         head: heads(&["conclusion", "verdict", "the paper says", "found", "holds if"]),
         rows: FINDINGS.iter().enumerate().map(row).collect(),
@@ -48,6 +49,7 @@ pub fn by_variant(medians: &Medians) -> Table {
     };
     Table {
         caption: "The same conclusions under every variant of the assumptions".into(),
+        prose: false,
         head,
         rows: FINDINGS.iter().enumerate().map(row).collect(),
     }
@@ -88,6 +90,7 @@ pub fn assumptions(medians: &Medians) -> Table {
         caption:
             "Energy residual: the energy of a run not accounted for, over the energy that passed through it"
                 .into(),
+        prose: false,
         head: heads(&names),
         rows: medians.variants.iter().map(row).collect(),
     }

@@ -1,0 +1,243 @@
+//! One run: histories of rotations, patterns, impacts and ground motion, and the wall in motion.
+
+mod histories;
+mod motion;
+mod plot_file;
+mod watch;
+
+pub use plot_file::PlotFile;
+pub use watch::{ImpactMark, Watch};
+
+use super::page::{Cell, Figure, Motion, Number, Page, Section, Table, script_safe};
+use crate::error::Result;
+use crate::model::{PATTERN_NAMES, Wall};
+use crate::simulate::{Accuracy, Outcome, Response, Shaking};
+use histories::Window;
+
+/// Everything a picture of a run is made from.
+#[derive(Debug, Clone, Copy)]
+pub struct RunPicture<'a> {
+    /// The wall.
+    pub wall: &'a Wall,
+    /// Name of the wall, for titles.
+    pub wall_name: &'a str,
+    /// What shook it.
+    pub shaking: &'a Shaking,
+    /// Name of the record, for titles; none: a free release.
+    pub record_name: Option<&'a str>,
+    /// How accurately it was run.
+    pub accuracy: Accuracy,
+    /// What was seen of it.
+    pub watch: &'a Watch,
+    /// How it ended.
+    pub response: &'a Response,
+}
+
+/// Histories shorter than this are not shown a second time from nearby, s.
+const SHORT_S: f64 = 8.0;
+/// What is shown from nearby before and after the largest rotation, s.
+const NEARBY_S: (f64, f64) = (2.0, 3.0);
+
+impl RunPicture<'_> {
+    /// The histories as one SVG that stands alone.
+    ///
+    /// # Errors
+    /// [`crate::Error::Picture`] if plotters refuses.
+    pub fn svg(&self) -> Result<String> {
+        self.histories(&self.whole())
+    }
+
+    /// The page of the run: the wall in motion, histories, numbers.
+    ///
+    /// # Errors
+    /// [`crate::Error::Picture`] if plotters or the template refuses.
+    pub fn html(&self) -> Result<String> {
+        let page = Page {
+            title: self.title(),
+            lead: self.outcome(),
+            numbers: self.numbers(),
+            notes: self.notes(),
+            sections: vec![self.motion_section(), self.history_section()?, self.number_section()],
+            provenance: self.provenance(),
+            ..Page::default()
+        };
+        page.html()
+    }
+
+    fn title(&self) -> String {
+        match self.record_name {
+            Some(record) => format!("{} under {record}", self.wall_name),
+            None => format!("{}, free release", self.wall_name),
+        }
+    }
+
+    fn outcome(&self) -> String {
+        match &self.response.outcome {
+            Outcome::Stood => format!("The wall stood until the end at {:.2} s.", self.response.end_time_s),
+            Outcome::Collapsed { time_s } => format!("The wall collapsed at {time_s:.3} s."),
+            Outcome::Failed { time_s, reason } => format!("The run failed at {time_s:.3} s: {reason}."),
+        }
+    }
+
+    fn numbers(&self) -> Vec<Number> {
+        let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
+        let [lower, upper] = self.response.theta_max_over_alpha_i().map(|ratio| format!("{ratio:.3}"));
+        let mut numbers = vec![number(lower, "largest |θ₁|/α₁, lower body")];
+        if self.wall.is_cracked() {
+            numbers.push(number(upper, "largest |θ₂|/α₂, upper body"));
+        } else {
+            numbers = vec![number(lower_of(self.response), "largest |θ|/α")];
+        }
+        let top_mm = 1e3 * self.response.top_displacement_m.value;
+        numbers.push(number(format!("{top_mm:+.1} mm"), "largest displacement of the top"));
+        numbers.push(number(self.response.impacts.total().to_string(), "impacts"));
+        numbers
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let restitution = self.wall.parameters().restitution;
+        let mut notes = vec![format!(
+            "Assumed: impact law “{}”, capture velocity {:e} rad/s, collapse at {} αᵢ.",
+            restitution.law.name(),
+            restitution.capture_velocity_rad_s,
+            self.wall.parameters().collapse_rotation_ratio
+        )];
+        if self.shaking.vertical.is_some() {
+            notes.push("The vertical component acted too; the figures show the horizontal one.".into());
+        }
+        let tensions: u64 = self.response.demand.iter().map(|demand| demand.tensions).sum();
+        if tensions > 0 {
+            notes.push(format!(
+                "A pivot came under tension {tensions} times: there a real wall would have left the ground, which the model forbids."
+            ));
+        }
+        notes
+    }
+
+    fn motion_section(&self) -> Section {
+        Section {
+            id: "motion".into(),
+            title: "The wall in motion".into(),
+            text: vec![
+                "Rotations are drawn larger than they are; corners that touch stay in contact at any magnification. An impact flashes where it strikes.".into(),
+            ],
+            motion: Some(Motion { data: script_safe(&motion::data(self)) }),
+            ..Section::default()
+        }
+    }
+
+    fn history_section(&self) -> Result<Section> {
+        let figure = |id: &str, title: &str, window: &Window| -> Result<Figure> {
+            Ok(Figure {
+                id: id.into(),
+                title: title.into(),
+                paper: Some("Figs. 7 to 9".into()),
+                panels: vec![self.histories(window)?],
+                wide: true,
+                caption: "From above: rotations over slenderness angles; pattern; impacts, higher the faster they close; ground acceleration.".into(),
+                ..Figure::default()
+            })
+        };
+        let mut figures = vec![figure("history", "The whole run", &self.whole())?];
+        if let Some(window) = self.nearby() {
+            figures.push(figure("nearby", "Around the largest rotation", &window)?);
+        }
+        Ok(Section { id: "histories".into(), title: "Histories".into(), figures, ..Section::default() })
+    }
+
+    fn number_section(&self) -> Section {
+        let r = self.response;
+        let row = |name: &str, value: String| vec![Cell::from(name.to_owned()), Cell::from(value)];
+        let peak = |i: usize| {
+            let peak = r.theta_max_rad[i];
+            format!("{:+.6} rad at {:.3} s; α = {:.5} rad", peak.value, peak.time_s, r.alpha_i_rad[i])
+        };
+        let patterns = PATTERN_NAMES.iter().zip(r.pattern_time_s).filter(|(_, time_s)| *time_s > 0.0);
+        let patterns: Vec<String> = patterns.map(|(name, time_s)| format!("{name} {time_s:.3} s")).collect();
+        let mut rows = vec![row("largest θ₁", peak(0))];
+        if self.wall.is_cracked() {
+            rows.push(row("largest θ₂", peak(1)));
+        }
+        rows.push(row("time in patterns", patterns.join(", ")));
+        rows.push(row("impacts", format!("{}, {} captured", r.impacts.total(), r.impacts.captured)));
+        rows.push(row("openings", r.openings.total().to_string()));
+        rows.push(row("friction needed at the ground", format!("{:.3}", r.demand[0].friction)));
+        if self.wall.is_cracked() {
+            rows.push(row("friction needed at the crack", format!("{:.3}", r.demand[1].friction)));
+        }
+        rows.push(row(
+            "energy not accounted for",
+            format!("{:.1e} of what passed through", r.energy.residual()),
+        ));
+        Section {
+            id: "numbers".into(),
+            title: "Numbers".into(),
+            tables: vec![Table {
+                caption: "Maxima are true maxima, between samples too".into(),
+                head: vec!["quantity".into(), "value".into()],
+                prose: false,
+                rows,
+            }],
+            ..Section::default()
+        }
+    }
+
+    fn provenance(&self) -> Vec<(String, String)> {
+        let p = self.wall.parameters();
+        let pair = |name: &str, value: String| (name.to_owned(), value);
+        let crack = p.crack_height_m.map_or("uncracked".to_owned(), |h1| format!("crack at {h1} m"));
+        vec![
+            pair("program", format!("mrbd {}", env!("CARGO_PKG_VERSION"))),
+            pair(
+                "wall",
+                format!(
+                    "{}: {} m thick, {} m high, {crack}, {} kg",
+                    self.wall_name, p.thickness_m, p.height_m, p.mass_kg
+                ),
+            ),
+            pair(
+                "corners",
+                format!(
+                    "{:.4} m apart at the ground, {:.4} m at the crack",
+                    p.lower_width_m, p.upper_width_m
+                ),
+            ),
+            pair(
+                "floor",
+                format!(
+                    "{} kg, carriage {} kg, {} N/m",
+                    p.diaphragm_mass_kg, p.carriage_mass_kg, p.stiffness_n_per_m
+                ),
+            ),
+            pair("coefficients C_l", format!("{:?}", p.restitution.coefficients)),
+            pair("record", self.record_name.unwrap_or("none, a free release").to_owned()),
+            pair("tolerance", format!("{:e} of αᵢ", self.accuracy.tolerance)),
+        ]
+    }
+
+    fn whole(&self) -> Window {
+        let last_s = self.watch.history.rows.last().map_or(0.0, |row| row.time_s);
+        Window { from_s: 0.0, to_s: last_s.max(self.response.end_time_s).max(self.watch.history.step_s()) }
+    }
+
+    /// The seconds around the largest rotation, or before the collapse.
+    fn nearby(&self) -> Option<Window> {
+        let whole = self.whole();
+        if whole.to_s < SHORT_S {
+            return None;
+        }
+        let ratios = self.response.theta_max_over_alpha_i();
+        let larger = usize::from(ratios[1] > ratios[0]);
+        let peak_s = self.response.theta_max_rad[larger].time_s;
+        let from_s = (peak_s - NEARBY_S.0).min(whole.to_s - NEARBY_S.0 - NEARBY_S.1).max(0.0);
+        Some(Window { from_s, to_s: (from_s + NEARBY_S.0 + NEARBY_S.1).min(whole.to_s) })
+    }
+
+    fn histories(&self, window: &Window) -> Result<String> {
+        histories::svg(self, window)
+    }
+}
+
+fn lower_of(response: &Response) -> String {
+    format!("{:.3}", response.theta_max_over_alpha_i()[0])
+}
