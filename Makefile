@@ -5,7 +5,7 @@ SHARED_SUITE := ../shared/records/natural7/suite.toml
 # The suite the sweep runs on: SUITE=FILE, else the records beside the repository, where there are any.
 CHOSEN_SUITE := $(or $(SUITE),$(wildcard inputs/records/emilia7/suite.toml),$(wildcard $(SHARED_SUITE)))
 
-.PHONY: sweep test bench lint docs clean
+.PHONY: sweep test test-browser bench lint docs clean
 
 sweep: ## run the parametric sweep of the paper, aggregate it and print the medians and the checked conclusions
 ifeq ($(CHOSEN_SUITE),)
@@ -14,10 +14,19 @@ ifeq ($(CHOSEN_SUITE),)
 	@exit 2
 else
 	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep --force
+	@echo "The page of the results:"
+	@cargo run --release --locked --quiet --bin mrbd -- report outputs/sweep
 endif
 
 test: ## all tests
 	cargo test --release --locked
+
+test-browser: ## the pages in a real headless Chromium: no errors, figures present, interactions work
+ifeq ($(shell command -v chromium),)
+	@echo "make test-browser: skipped, chromium is not installed (apt-get install chromium)"
+else
+	cargo test --release --locked --test it -- --ignored in_chromium
+endif
 
 bench: ## time and work of one run, beside its arithmetic
 	cargo bench --locked

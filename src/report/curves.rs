@@ -119,20 +119,23 @@ impl Panel {
 
     fn bands<DB: DrawingBackend>(&self, chart: &mut Chart<DB>) -> Drawn<(), DB> {
         let (left, right) = (self.x.start, self.x.end);
-        let small = |colour: Colour, v_pos| {
-            ("sans-serif", TEXT - 3).into_font().color(&colour.rgb()).pos(Pos::new(HPos::Left, v_pos))
+        let small = |colour: Colour, h_pos, v_pos| {
+            ("sans-serif", TEXT - 3).into_font().color(&colour.rgb()).pos(Pos::new(h_pos, v_pos))
         };
         if self.collapse_band {
             let band = [(left, self.y_top), (right, self.y_top * 1.14)];
             chart.draw_series([Rectangle::new(band, COLLAPSE.rgb().mix(0.09).filled())])?;
             let place = (left + 0.01 * (right - left), self.y_top * 1.07);
-            chart.draw_series([Text::new("collapse", place, small(COLLAPSE, VPos::Center))])?;
+            chart.draw_series([Text::new("collapse", place, small(COLLAPSE, HPos::Left, VPos::Center))])?;
         }
         if let Some((y, meaning)) = self.threshold.filter(|(y, _)| *y < self.y_top) {
             let style = INK.rgb().mix(0.55).stroke_width(1);
             chart.draw_series(DashedLineSeries::new([(left, y), (right, y)], 5, 4, style))?;
-            let place = (left + 0.01 * (right - left), y);
-            chart.draw_series([Text::new(meaning, place, small(INK, VPos::Bottom))])?;
+            // Between line and axis there must be room for its name; the caption names it too.
+            if y > 0.12 * self.y_top {
+                let place = (right - 0.01 * (right - left), y - 0.015 * self.y_top);
+                chart.draw_series([Text::new(meaning, place, small(INK, HPos::Right, VPos::Top))])?;
+            }
         }
         Ok(())
     }

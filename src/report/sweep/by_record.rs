@@ -42,7 +42,7 @@ fn figure(view: &View, runs: &[ReferenceRun], body: Measure, number: &str, links
         paper: Some(number.into()),
         legend: legend(runs),
         panels: Configuration::ALL.map(|c| panel(c).svg()).into_iter().collect::<Result<_>>()?,
-        caption: "Largest rotation of the reference façades by slenderness h/b, one curve a record.".into(),
+        caption: "Largest rotation of the reference façades by slenderness h/b, one curve a record. Dashed line: 0.05, which the paper calls significant.".into(),
         links: links.to_vec(),
         ..Figure::default()
     })

@@ -74,7 +74,7 @@ fn figure(view: &View, row: &Row) -> Result<Figure> {
         paper: Some(number.into()),
         legend: legend(view, row),
         panels,
-        caption: "Median over the records of the largest rotation, by slenderness h/b; the other parameters at their means.".into(),
+        caption: "Median over the records of the largest rotation, by slenderness h/b; the other parameters at their means. Dashed line: 0.05, which the paper calls significant.".into(),
         links: vec![Link { text: "medians.parquet".into(), href: "medians.parquet".into() }],
         ..Figure::default()
     })
