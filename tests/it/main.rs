@@ -4,6 +4,7 @@
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
 mod ground_formats;
+mod ground_generated;
 mod ground_intensity;
 mod ground_mutations;
 mod ground_samples;
