@@ -2,6 +2,10 @@
 //!
 //! stdout is for data, stderr for people.
 
+mod simulate;
+
+use std::io::Write;
+
 use clap::{Parser, Subcommand};
 
 use crate::error::Result;
@@ -15,7 +19,9 @@ pub struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    Simulate(simulate::SimulateArgs),
+}
 
 impl Cli {
     /// Runs the command that was asked for.
@@ -23,6 +29,22 @@ impl Cli {
     /// # Errors
     /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
     pub fn execute(self) -> Result<()> {
-        match self.command {}
+        match self.command {
+            Command::Simulate(args) => simulate::execute(&args),
+        }
+    }
+}
+
+/// Prints data to stdout; a reader that closes the pipe early has seen enough.
+///
+/// # Errors
+/// What the system says, other than that the pipe is closed.
+fn print(text: &str) -> Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(crate::Error::io("print", std::path::Path::new("stdout"), e))
+        }
+        _ => Ok(()),
     }
 }

@@ -157,6 +157,30 @@ impl Contact {
     }
 }
 
+/// The joints that touch at an instant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Touching {
+    /// The joint at the ground: θ_1 = 0.
+    pub ground: bool,
+    /// The joint at the crack: θ_2 = θ_1.
+    pub crack: bool,
+}
+
+impl Touching {
+    /// The joints that are closed in a contact state.
+    pub fn closed_in(contact: Contact) -> Self {
+        Self { ground: contact.ground.is_closed(), crack: contact.crack.is_closed() }
+    }
+
+    /// Whether this joint touches.
+    pub fn at(self, joint: Joint) -> bool {
+        match joint {
+            Joint::Ground => self.ground,
+            Joint::Crack => self.crack,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,7 +1,15 @@
 //! One run: a wall under a ground motion, from the first sample to the end of free motion.
 
+mod events;
+mod ground_path;
+mod history;
 mod response;
+mod rest;
+mod run;
+mod tally;
 
+pub use ground_path::FREE_RELEASE_STEP_S;
+pub use history::{History, HistoryRow, Observer};
 pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
 
 use crate::ground::Accelerogram;
@@ -32,6 +40,16 @@ impl Default for Accuracy {
 }
 
 /// Runs one wall; pure: the same inputs give the same bits on any thread.
-pub fn simulate(_wall: &Wall, _shaking: &Shaking, _accuracy: Accuracy) -> Response {
-    unimplemented!("being written")
+pub fn simulate(wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
+    simulate_observed(wall, shaking, accuracy, &mut ())
+}
+
+/// Runs one wall and tells an observer every stretch of it; the response has the same bits as without.
+pub fn simulate_observed(
+    wall: &Wall,
+    shaking: &Shaking,
+    accuracy: Accuracy,
+    observer: &mut impl Observer,
+) -> Response {
+    run::Run::new(wall, shaking, accuracy, observer).go()
 }

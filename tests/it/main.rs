@@ -3,6 +3,7 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod cli_simulate;
 mod ground_formats;
 mod ground_generated;
 mod ground_intensity;
@@ -10,3 +11,4 @@ mod ground_mutations;
 mod ground_samples;
 mod ground_suite;
 mod shared;
+mod verification;

@@ -1,0 +1,182 @@
+//! Impacts: instantaneous, plastic, without sliding or bouncing (model section 5).
+//!
+//! The velocities after an impact are the projection, in the mass metric, of those before onto the velocities
+//! that the new contact state allows; the coefficient of the change of pattern then scales them.
+
+use super::MechanicsError;
+use super::Table2Change;
+use super::contact::{Contact, Joint, Pivot, Touching};
+use super::motion::Freedom;
+use super::posture::{Pair, Rates};
+use super::rocking::{RockingWall, State, opening};
+use super::wall::ImpactLaw;
+
+/// Separations and impulses within this share of the motion's own size count as zero: some hundred roundings.
+const ROUNDING: f64 = 1e-13;
+
+/// What came of an impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// Contact state after.
+    pub contact: Contact,
+    /// Angular velocities after, rad/s.
+    pub omega: Pair,
+    /// The change of Table 2, if it is one.
+    pub change: Option<Table2Change>,
+    /// Whether a joint was held closed because it would open slower than the capture velocity.
+    pub captured: bool,
+    /// Kinetic energy lost, J; negative where a coefficient above 1 adds energy.
+    pub loss_j: f64,
+}
+
+impl Table2Change {
+    /// Which change of Table 2 this is, mirrored changes included.
+    pub fn of(from: Contact, to: Contact) -> Option<Self> {
+        let same_corner = from.ground == to.ground;
+        let index = match (from.pattern_number()?, to.pattern_number()?, same_corner) {
+            (1, 2, true) => 0,  // C_1: 1a to 2a
+            (2, 1, true) => 1,  // C_2: 2a to 1a
+            (1, 2, false) => 2, // C_3: 1a to 2b
+            (2, 1, false) => 3, // C_4: 2a to 1b
+            (3, 1, false) => 4, // C_5: 3a to 1b
+            (3, 3, false) => 5, // C_6: 3a to 3b
+            (1, 3, true) => 6,  // C_7: 1a to 3a
+            (2, 3, true) => 7,  // C_8: 2a to 3a
+            _ => return None,
+        };
+        Some(Table2Change(index))
+    }
+}
+
+impl RockingWall {
+    /// The outcome of an impact at a state whose touching joints have zero opening.
+    ///
+    /// # Errors
+    /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
+    pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
+        let admissible = self.admissible_outcomes(from, touching, state);
+        let mut outcomes = admissible.iter().flatten();
+        let Some(&plastic) = outcomes.next() else {
+            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count: 0 });
+        };
+        let further = outcomes.count();
+        if further > 0 {
+            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count: 1 + further });
+        }
+        let v_before = self.posture(from, state.theta).rates(state.omega);
+        let (contact, projected) = self.captured(plastic, touching, state.theta, &v_before);
+        let change = Table2Change::of(from, contact);
+        let omega = self.scaled(change, contact, projected, touching, state.theta, &v_before);
+        let before_j = self.motion(from).kinetic_energy_j(state.theta, state.omega);
+        let after_j = self.motion(contact).kinetic_energy_j(state.theta, omega);
+        Ok(Impact { contact, omega, change, captured: contact != plastic, loss_j: before_j - after_j })
+    }
+
+    /// Every admissible contact state after an impact, closed states first; exactly one is expected.
+    ///
+    /// Admissible: every closed joint receives impulses that push at both corners, every opened joint separates.
+    /// Ties within rounding go to the closed state.
+    pub fn admissible_outcomes(
+        &self,
+        from: Contact,
+        touching: Touching,
+        state: &State,
+    ) -> [Option<Contact>; 9] {
+        let v_before = self.posture(from, state.theta).rates(state.omega);
+        let mut found = [None; 9];
+        let candidates = self.states_touching(from, touching);
+        let admissible = candidates.filter(|c| self.is_admissible(*c, touching, state.theta, &v_before));
+        found.iter_mut().zip(admissible).for_each(|(slot, contact)| *slot = Some(contact));
+        found
+    }
+
+    /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
+    fn projected(&self, to: Contact, theta: Pair, v_before: &Rates) -> Pair {
+        let motion = self.motion(to);
+        if motion.freedom == Freedom::None {
+            return [0.0, 0.0];
+        }
+        let momenta = self.masses.momenta(&self.posture(to, theta), v_before);
+        motion.mass_matrix(theta).solve(motion.freedom, momenta)
+    }
+
+    fn is_admissible(&self, to: Contact, touching: Touching, theta: Pair, v_before: &Rates) -> bool {
+        let omega = self.projected(to, theta, v_before);
+        let speed = v_before.theta[0].abs().max(v_before.theta[1].abs());
+        let separates = |joint: Joint| {
+            to.at(joint).is_closed()
+                || !touching.at(joint)
+                || to.at(joint).sign() * opening(joint, omega) > ROUNDING * speed
+        };
+        self.joints().all(separates) && self.impulses_push(to, theta, omega, v_before)
+    }
+
+    /// Whether the impulses at both corners of every closed joint are compressive.
+    fn impulses_push(&self, to: Contact, theta: Pair, omega: Pair, v_before: &Rates) -> bool {
+        let posture = self.posture(to, theta);
+        let jump = posture.rates(omega).minus(*v_before);
+        let impulses = self.masses.impulses(&posture, &jump);
+        let size = impulses.ground.normal.abs() + impulses.ground.shear.abs() + impulses.crack.normal.abs();
+        self.joints().filter(|joint| to.at(*joint).is_closed()).all(|joint| {
+            let corners = impulses.at(joint).corners(self.width_m(joint));
+            corners.iter().all(|impulse| *impulse >= -ROUNDING * size * self.slimness())
+        })
+    }
+
+    /// Height over the narrowest joint: how much a moment's rounding is magnified in a corner impulse.
+    fn slimness(&self) -> f64 {
+        let p = self.wall().parameters();
+        let narrowest = self.joints().map(|joint| self.width_m(joint)).fold(f64::INFINITY, f64::min);
+        p.height_m / narrowest
+    }
+
+    /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
+    /// the impact, until none is left.
+    fn captured(
+        &self,
+        plastic: Contact,
+        touching: Touching,
+        theta: Pair,
+        v_before: &Rates,
+    ) -> (Contact, Pair) {
+        let limit = self.wall().parameters().restitution.capture_velocity_rad_s;
+        let mut contact = plastic;
+        loop {
+            let omega = self.projected(contact, theta, v_before);
+            let slow = self.joints().find(|joint| {
+                let opened = touching.at(*joint) && contact.at(*joint).is_open();
+                opened && opening(*joint, omega).abs() < limit
+            });
+            match slow {
+                Some(joint) => contact = contact.with(joint, Pivot::Closed),
+                None => return (contact, omega),
+            }
+        }
+    }
+
+    /// Scales the projected velocities by the coefficient of the change.
+    fn scaled(
+        &self,
+        change: Option<Table2Change>,
+        contact: Contact,
+        omega: Pair,
+        touching: Touching,
+        theta: Pair,
+        v_before: &Rates,
+    ) -> Pair {
+        let restitution = self.wall().parameters().restitution;
+        let Some(change) = change else { return omega };
+        let c_l = restitution.coefficients[change.index()];
+        let u = match restitution.law {
+            // Eq. 7 of the paper.
+            ImpactLaw::Whole => [0.0, 0.0],
+            // The motion if every touching joint stuck: what the impact cannot see.
+            ImpactLaw::Contact => {
+                let stuck = self.joints().filter(|joint| touching.at(*joint));
+                let stuck = stuck.fold(contact, |state, joint| state.with(joint, Pivot::Closed));
+                self.projected(stuck, theta, v_before)
+            }
+        };
+        [0, 1].map(|i| u[i] + c_l * (omega[i] - u[i]))
+    }
+}

@@ -1,0 +1,104 @@
+//! Where everything is: arms between corners, centres of mass and the top, turned by the rotations.
+
+use super::contact::Contact;
+use super::vector::{Vector, sin_cos};
+use super::wall::Wall;
+
+/// Two numbers, one for each body.
+pub type Pair = [f64; 2];
+
+/// Arms of one contact state in the axes of the bodies, at zero rotation, m.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Arms {
+    /// Pivot at the ground, x of O.
+    pub o_x: f64,
+    /// G1 - O.
+    pub g1: Vector,
+    /// Q - O, with Q the pivot at the crack.
+    pub q: Vector,
+    /// G2 - Q.
+    pub g2: Vector,
+    /// C - Q.
+    pub c: Vector,
+    /// Pivot at the crack, from the middle of the joint along the joint: s_2 b_2/2.
+    pub q_x: f64,
+}
+
+impl Arms {
+    /// Arms of the reference positions of model section 1 about the pivots of `contact`.
+    pub fn new(wall: &Wall, contact: Contact) -> Self {
+        let p = wall.parameters();
+        let [h1, h2] = wall.height_m;
+        let o_x = contact.ground.sign() * p.lower_width_m / 2.0;
+        let q_x = if wall.is_cracked() { contact.crack.sign() * p.upper_width_m / 2.0 } else { 0.0 };
+        Self {
+            o_x,
+            g1: Vector::new(-o_x, h1 / 2.0),
+            q: Vector::new(q_x - o_x, h1),
+            g2: Vector::new(-q_x, h2 / 2.0),
+            c: Vector::new(p.eccentricity_m - q_x, h2),
+            q_x,
+        }
+    }
+}
+
+/// The arms turned by the rotations: r_1, r_Q, r_2, r_C of model section 3, in the world's axes, m.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Posture {
+    pub o_x: f64,
+    pub r_1: Vector,
+    pub r_q: Vector,
+    pub r_2: Vector,
+    pub r_c: Vector,
+    /// Q seen from the middle of the crack.
+    pub q_from_middle: Vector,
+    /// Sine and cosine of θ_1.
+    pub turn_1: (f64, f64),
+}
+
+impl Posture {
+    pub fn new(arms: &Arms, theta: Pair) -> Self {
+        let turn_1 = sin_cos(theta[0]);
+        let turn_2 = sin_cos(theta[1]);
+        Self {
+            o_x: arms.o_x,
+            r_1: arms.g1.rotated(turn_1),
+            r_q: arms.q.rotated(turn_1),
+            r_2: arms.g2.rotated(turn_2),
+            r_c: arms.c.rotated(turn_2),
+            q_from_middle: Vector::new(arms.q_x, 0.0).rotated(turn_1),
+            turn_1,
+        }
+    }
+
+    /// Velocities J θ' of the mass points.
+    pub fn rates(&self, omega: Pair) -> Rates {
+        let q = self.r_q.turned() * omega[0];
+        Rates {
+            g1: self.r_1.turned() * omega[0],
+            g2: q + self.r_2.turned() * omega[1],
+            c: q + self.r_c.turned() * omega[1],
+            theta: omega,
+        }
+    }
+}
+
+/// Velocities of the mass points, or their jumps: (x1, y1, θ1, x2, y2, θ2, xC, yC) of model section 3.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rates {
+    pub g1: Vector,
+    pub g2: Vector,
+    pub c: Vector,
+    pub theta: Pair,
+}
+
+impl Rates {
+    pub fn minus(self, other: Self) -> Self {
+        Self {
+            g1: self.g1 - other.g1,
+            g2: self.g2 - other.g2,
+            c: self.c - other.c,
+            theta: [self.theta[0] - other.theta[0], self.theta[1] - other.theta[1]],
+        }
+    }
+}

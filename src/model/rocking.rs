@@ -1,0 +1,195 @@
+//! The nine contact states of one wall, each with its arms and equations of motion.
+
+use super::MechanicsError;
+use super::contact::{Contact, Joint, Pivot, Touching};
+use super::effect::Laws;
+use super::joint::{JointForces, Masses};
+use super::motion::{Motion, MotionRate};
+use super::posture::{Arms, Pair, Posture};
+use super::vector::Vector;
+use super::wall::{G_M_S2, Wall};
+
+/// Rotations (rad) and angular velocities (rad/s) of the two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct State {
+    /// θ_1, θ_2.
+    pub theta: Pair,
+    /// θ_1', θ_2'.
+    pub omega: Pair,
+}
+
+/// A wall ready to move.
+#[derive(Debug, Clone)]
+pub struct RockingWall {
+    wall: Wall,
+    pub(super) masses: Masses,
+    pub(super) arms: [Arms; 9],
+    pub(super) motions: [Motion; 9],
+}
+
+impl RockingWall {
+    /// Works out the equations of motion of every contact state.
+    pub fn new(wall: &Wall) -> Self {
+        let p = wall.parameters();
+        let laws = Laws::new(p.carriage_mass_kg, p.stiffness_n_per_m, &p.effects);
+        Self {
+            masses: Masses::new(wall, laws.carriage_mass_kg),
+            arms: Contact::ALL.map(|contact| Arms::new(wall, contact)),
+            motions: Contact::ALL.map(|contact| Motion::new(wall, contact, laws)),
+            wall: wall.clone(),
+        }
+    }
+
+    /// The wall.
+    pub fn wall(&self) -> &Wall {
+        &self.wall
+    }
+
+    #[inline]
+    pub(crate) fn motion(&self, contact: Contact) -> &Motion {
+        &self.motions[contact.index()]
+    }
+
+    pub(super) fn posture(&self, contact: Contact, theta: Pair) -> Posture {
+        Posture::new(&self.arms[contact.index()], theta)
+    }
+
+    /// Angular accelerations and powers in a contact state under a ground acceleration in m/s².
+    pub fn rate(&self, contact: Contact, state: &State, ground: Vector) -> MotionRate {
+        self.motion(contact).rate(state.theta, state.omega, ground)
+    }
+
+    /// Kinetic, gravity and spring energy, J; zero at rest.
+    pub fn energy_j(&self, contact: Contact, state: &State) -> f64 {
+        self.motion(contact).energy_j(state.theta, state.omega)
+    }
+
+    /// Horizontal displacement of the top, relative to the ground, m.
+    pub fn top_displacement_m(&self, contact: Contact, theta: Pair) -> f64 {
+        self.motion(contact).top_displacement_m(theta)
+    }
+
+    /// Horizontal displacement of the middle of the crack (of the top of an uncracked wall), relative to the ground, m,
+    /// at a rotation of the lower body.
+    pub fn crack_displacement_m(&self, theta_1: f64) -> f64 {
+        let o_x = Pivot::of_angle(theta_1).sign() * self.wall.parameters().lower_width_m / 2.0;
+        o_x + Vector::new(-o_x, self.wall.height_m[0]).rotated(theta_1.sin_cos()).x
+    }
+
+    /// Time in which an error of velocity becomes one of rotation, s: the inverse of the frequency of small motion of
+    /// the whole wall on the spring, or of its rocking where there is no spring.
+    pub fn response_time_s(&self) -> f64 {
+        let p = self.wall.parameters();
+        let motion = self.motion(Contact { ground: Pivot::Right, crack: Pivot::Closed });
+        let mass = motion.mass_matrix([0.0; 2]).quadratic([1.0, 1.0]);
+        let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
+        let stiffness = p.stiffness_n_per_m * p.height_m * p.height_m + weight * p.height_m / 2.0;
+        (mass / stiffness).sqrt()
+    }
+
+    /// Forces through both joints in a contact state with these angular accelerations.
+    pub fn joint_forces(
+        &self,
+        contact: Contact,
+        state: &State,
+        theta_dd: Pair,
+        ground: Vector,
+    ) -> JointForces {
+        self.motion(contact).aftermath(state.theta, state.omega, theta_dd, ground).forces
+    }
+
+    /// Smallest corner force of the closed joints, over the weight of the wall; none where all joints are open.
+    ///
+    /// While it is not negative the closed joints stay closed: the paper's |M_E| <= |M_I| (Eqs. 3 to 6).
+    pub fn smallest_corner_force(&self, contact: Contact, forces: &JointForces) -> Option<f64> {
+        let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
+        let mut smallest = None;
+        for joint in self.joints() {
+            if contact.at(joint).is_closed() {
+                let [left, right] = forces.at(joint).corners(self.width_m(joint));
+                let least = left.min(right) / weight;
+                smallest = Some(smallest.map_or(least, |s: f64| s.min(least)));
+            }
+        }
+        smallest
+    }
+
+    /// The joints the wall has: an uncracked wall has no crack.
+    pub(crate) fn joints(&self) -> impl Iterator<Item = Joint> + use<> {
+        let cracked = self.wall.is_cracked();
+        [Joint::Ground, Joint::Crack].into_iter().take(if cracked { 2 } else { 1 })
+    }
+
+    pub(crate) fn width_m(&self, joint: Joint) -> f64 {
+        let p = self.wall.parameters();
+        match joint {
+            Joint::Ground => p.lower_width_m,
+            Joint::Crack => p.upper_width_m,
+        }
+    }
+
+    /// The contact state in which the wall goes on from a state whose joints in `contact` are closed or open:
+    /// the one in which fewest joints open, its closed joints compressed at both corners and its opened joints
+    /// accelerating apart (model section 4).
+    ///
+    /// # Errors
+    /// [`MechanicsError::NoContactState`] where there is none.
+    pub fn settle(&self, contact: Contact, state: &State, ground: Vector) -> Result<Contact, MechanicsError> {
+        for opened in 0..=2 {
+            let mut candidates = self.states_opening(contact, opened);
+            if let Some(found) = candidates.find(|c| self.carries(contact, *c, state, ground)) {
+                return Ok(found);
+            }
+        }
+        Err(MechanicsError::NoContactState { from: contact.name() })
+    }
+
+    /// States that open `count` of the closed joints of `contact` and leave the others as they are.
+    fn states_opening(&self, contact: Contact, count: usize) -> impl Iterator<Item = Contact> {
+        self.states_touching(contact, Touching::closed_in(contact))
+            .filter(move |c| c.open_joints() == contact.open_joints() + count)
+    }
+
+    /// Every state of the joints that touch, the others as in `contact`; closed before right before left.
+    pub(super) fn states_touching(
+        &self,
+        contact: Contact,
+        touching: Touching,
+    ) -> impl Iterator<Item = Contact> + use<> {
+        let free_crack = touching.crack && self.wall.is_cracked();
+        let choices = |free: bool, now: Pivot| -> &'static [Pivot] {
+            match (free, now) {
+                (true, _) => &Pivot::ALL,
+                (false, Pivot::Closed) => &[Pivot::Closed],
+                (false, Pivot::Right) => &[Pivot::Right],
+                (false, Pivot::Left) => &[Pivot::Left],
+            }
+        };
+        let cracks = choices(free_crack, contact.crack);
+        choices(touching.ground, contact.ground)
+            .iter()
+            .flat_map(move |&ground| cracks.iter().map(move |&crack| Contact { ground, crack }))
+    }
+
+    fn carries(&self, before: Contact, candidate: Contact, state: &State, ground: Vector) -> bool {
+        let theta_dd = self.rate(candidate, state, ground).theta_dd;
+        let apart = |joint: Joint| {
+            let opens = before.at(joint).is_closed() && candidate.at(joint).is_open();
+            !opens || candidate.at(joint).sign() * opening(joint, theta_dd) > 0.0
+        };
+        if !self.joints().all(apart) {
+            return false;
+        }
+        let forces = self.joint_forces(candidate, state, theta_dd, ground);
+        self.smallest_corner_force(candidate, &forces).is_none_or(|least| least >= 0.0)
+    }
+}
+
+/// Opening of a joint that goes with a pair of body rotations, velocities or accelerations: θ_1, or θ_2 - θ_1.
+#[inline]
+pub(crate) fn opening(joint: Joint, pair: Pair) -> f64 {
+    match joint {
+        Joint::Ground => pair[0],
+        Joint::Crack => pair[1] - pair[0],
+    }
+}

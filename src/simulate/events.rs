@@ -1,0 +1,127 @@
+//! What happens first inside a step: a joint closes, a joint opens, a body passes its collapse rotation.
+
+use crate::model::{Contact, Joint, Pair, Touching, opening};
+use crate::solver::{Bernstein, Quintic};
+
+/// What ends a step early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Event {
+    /// A body passes its collapse rotation.
+    Collapses,
+    /// An open joint closes; closed joints touch too.
+    Strikes(Touching),
+    /// A closed joint lifts at a corner.
+    Opens,
+}
+
+impl Event {
+    /// The gap that closes.
+    pub fn gap(self) -> Option<fn(Pair) -> f64> {
+        match self {
+            Event::Strikes(Touching { crack: true, ground: false }) => {
+                Some(|pair| opening(Joint::Crack, pair))
+            }
+            Event::Strikes(Touching { crack: true, ground: true }) => Some(|pair| pair[1]),
+            Event::Strikes(_) => Some(|pair| opening(Joint::Ground, pair)),
+            _ => None,
+        }
+    }
+}
+
+/// Two closings nearer than this share of a step are one: roundings could not tell their order.
+const SAME_INSTANT: f64 = 1e-12;
+/// Corner forces are looked at inside a step where the nearer end is within this share of their size and change of
+/// zero: between ends that are farther away a smooth force cannot dip below zero, because the motion turns by less
+/// than a tenth of a radian of its own period within a step.
+const NEAR_ZERO: f64 = 0.05;
+
+/// The first event inside a step and the share of the step at which it happens.
+///
+/// Ties go to collapse, then to the closing of joints, then to opening: a collapsed wall does not strike, and a joint
+/// that closes changes the forces that would open another.
+pub(super) fn first_event(
+    contact: Contact,
+    motion: &Quintic,
+    collapse_rad: Pair,
+    corner_force: (Option<f64>, Option<f64>),
+    force_at: impl Fn(f64) -> f64,
+) -> Option<(Event, f64)> {
+    let collapse = first_collapse(motion, collapse_rad).map(|share| (Event::Collapses, share));
+    let strike = first_strike(contact, motion);
+    let opening = match corner_force {
+        (Some(start), Some(end)) => first_lift(start, end, force_at).map(|share| (Event::Opens, share)),
+        _ => None,
+    };
+    [collapse, strike, opening].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
+}
+
+fn first_collapse(motion: &Quintic, limit_rad: Pair) -> Option<f64> {
+    let crossing = |i: usize| {
+        let theta = motion.coordinate(i);
+        if theta.magnitude_bound() < limit_rad[i] {
+            return None;
+        }
+        let up = theta.below(limit_rad[i]).first_root();
+        let down = theta.times(-1.0).below(limit_rad[i]).first_root();
+        earlier(up, down)
+    };
+    earlier(crossing(0), crossing(1))
+}
+
+fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.min(b)),
+        (a, b) => a.or(b),
+    }
+}
+
+fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
+    let closing = |sign: f64, gap: &Bernstein<6>| -> Option<f64> {
+        if sign == 0.0 {
+            return None;
+        }
+        let gap = gap.times(sign);
+        if gap.is_surely_positive() { None } else { gap.first_root_after_start() }
+    };
+    let ground = closing(contact.ground.sign(), motion.coordinate(0));
+    let crack = closing(contact.crack.sign(), motion.difference());
+    let first = earlier(ground, crack)?;
+    let now = |at: Option<f64>| at.is_some_and(|share| share - first <= SAME_INSTANT);
+    let touching = Touching {
+        ground: now(ground) || contact.ground.is_closed(),
+        crack: now(crack) || contact.crack.is_closed(),
+    };
+    Some((Event::Strikes(touching), first))
+}
+
+/// Share at which the smallest corner force, not negative at the start, turns negative; on the negative side.
+fn first_lift(start: f64, end: f64, force_at: impl Fn(f64) -> f64) -> Option<f64> {
+    if end < 0.0 {
+        return Some(lift_between((0.0, start), (1.0, end), force_at));
+    }
+    let size = start.abs().max(end.abs()) + (end - start).abs();
+    if start.min(end) > NEAR_ZERO * size {
+        return None;
+    }
+    let middle = force_at(0.5);
+    (middle < 0.0).then(|| lift_between((0.0, start), (0.5, middle), force_at))
+}
+
+/// Narrows a bracket by the Illinois form of false position; gives its negative side.
+fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..60 {
+        if negative.0 - positive.0 <= SAME_INSTANT {
+            break;
+        }
+        let share = positive.0 + (negative.0 - positive.0) * positive.1 / (positive.1 - negative.1);
+        let force = force_at(share.clamp(positive.0, negative.0));
+        if force < 0.0 {
+            positive.1 *= 0.5;
+            negative = (share, force);
+        } else {
+            negative.1 *= 0.5;
+            positive = (share, force);
+        }
+    }
+    negative.0
+}

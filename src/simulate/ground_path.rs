@@ -1,0 +1,79 @@
+//! The ground acceleration as the wall sees it: linear pieces, falling to zero within a step after the last sample.
+
+use super::Shaking;
+use crate::model::Vector;
+
+/// Step of a free release, which has no record: its history is written at this step, s.
+pub const FREE_RELEASE_STEP_S: f64 = 0.005;
+
+/// Piecewise linear ground acceleration.
+#[derive(Debug, Clone)]
+pub(crate) struct GroundPath {
+    step_s: f64,
+    /// Samples, one zero appended; empty for a free release.
+    samples: Vec<Vector>,
+    end_s: f64,
+}
+
+/// A piece of the path on which the ground acceleration is linear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Piece {
+    pub start_s: f64,
+    pub length_s: f64,
+    from: Vector,
+    slope: Vector,
+}
+
+impl Piece {
+    /// Ground acceleration at a time after the start of the piece, m/s².
+    #[inline]
+    pub fn at(&self, offset_s: f64) -> Vector {
+        self.from + self.slope * offset_s
+    }
+}
+
+impl GroundPath {
+    pub fn new(shaking: &Shaking) -> Self {
+        let Some(horizontal) = &shaking.horizontal else {
+            return Self { step_s: FREE_RELEASE_STEP_S, samples: Vec::new(), end_s: shaking.tail_s };
+        };
+        let x = horizontal.acceleration_m_s2();
+        let y = shaking.vertical.as_ref().map_or(&[][..], |v| v.acceleration_m_s2());
+        let count = x.len().max(y.len()) + 1;
+        let sample = |of: &[f64], k: usize| of.get(k).copied().unwrap_or(0.0);
+        let samples = (0..count).map(|k| Vector { x: sample(x, k), y: sample(y, k) }).collect();
+        Self { step_s: horizontal.step_s(), samples, end_s: horizontal.duration_s() + shaking.tail_s }
+    }
+
+    /// Time between samples, s.
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    /// End of the run, s.
+    pub fn end_s(&self) -> f64 {
+        self.end_s
+    }
+
+    /// The `k`-th piece: one between samples, and one of no acceleration from the last to the end of the run.
+    #[inline]
+    pub fn piece(&self, k: usize) -> Option<Piece> {
+        let start_s = k as f64 * self.step_s;
+        let left_s = self.end_s - start_s;
+        // What is left after the last whole step may be a rounding.
+        if left_s <= 1e-9 * self.step_s {
+            return None;
+        }
+        let zero = Vector::default();
+        match (self.samples.get(k), self.samples.get(k + 1)) {
+            (Some(&from), Some(&to)) => {
+                let length_s = self.step_s.min(left_s);
+                Some(Piece { start_s, length_s, from, slope: (to - from) * (1.0 / self.step_s) })
+            }
+            _ if k + 1 == self.samples.len().max(1) => {
+                Some(Piece { start_s, length_s: left_s, from: zero, slope: zero })
+            }
+            _ => None,
+        }
+    }
+}

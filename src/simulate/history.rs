@@ -1,0 +1,88 @@
+//! Watching a run: the rotations at every sample of the record.
+
+use crate::model::{Contact, Pair};
+use crate::solver::Quintic;
+
+/// Told every stretch of a run, in order.
+pub trait Observer {
+    /// The wall moved in a contact state from a time in seconds, along a quintic.
+    fn moved(&mut self, start_s: f64, contact: Contact, motion: &Quintic);
+    /// The wall stood still from one time to another, s.
+    fn stood(&mut self, from_s: f64, to_s: f64);
+    /// The run ended.
+    fn ended(&mut self, time_s: f64, contact: Contact, theta: Pair);
+}
+
+/// Watches nothing.
+impl Observer for () {
+    fn moved(&mut self, _: f64, _: Contact, _: &Quintic) {}
+    fn stood(&mut self, _: f64, _: f64) {}
+    fn ended(&mut self, _: f64, _: Contact, _: Pair) {}
+}
+
+/// One row of a history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HistoryRow {
+    /// Time, s.
+    pub time_s: f64,
+    /// Rotations θ_1, θ_2, rad.
+    pub theta_rad: Pair,
+    /// Contact state from this time on.
+    pub contact: Contact,
+}
+
+/// Rotations and patterns at every sample, from the start to the end of the run or the collapse.
+#[derive(Debug, Clone)]
+pub struct History {
+    step_s: f64,
+    /// The rows, one a sample.
+    pub rows: Vec<HistoryRow>,
+}
+
+/// A sample this near the end of a run, as a share of the step, lies on it: times are sums of roundings.
+const NEAR_END: f64 = 1e-6;
+
+impl History {
+    /// An empty history at a step in seconds.
+    pub fn new(step_s: f64) -> Self {
+        Self { step_s, rows: Vec::new() }
+    }
+
+    /// Time between rows, s.
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
+    fn next_s(&self) -> f64 {
+        self.rows.len() as f64 * self.step_s
+    }
+
+    fn push(&mut self, theta_rad: Pair, contact: Contact) {
+        self.rows.push(HistoryRow { time_s: self.next_s(), theta_rad, contact });
+    }
+
+    fn samples_before(&self, end_s: f64) -> bool {
+        self.next_s() < end_s - NEAR_END * self.step_s
+    }
+}
+
+impl Observer for History {
+    fn moved(&mut self, start_s: f64, contact: Contact, motion: &Quintic) {
+        while self.samples_before(start_s + motion.h()) {
+            let share = ((self.next_s() - start_s) / motion.h()).clamp(0.0, 1.0);
+            self.push(motion.position(share), contact);
+        }
+    }
+
+    fn stood(&mut self, _: f64, to_s: f64) {
+        while self.samples_before(to_s) {
+            self.push([0.0, 0.0], Contact::REST);
+        }
+    }
+
+    fn ended(&mut self, time_s: f64, contact: Contact, theta: Pair) {
+        if self.next_s() <= time_s + NEAR_END * self.step_s {
+            self.push(theta, contact);
+        }
+    }
+}

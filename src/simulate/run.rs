@@ -1,0 +1,343 @@
+//! The loop of one run: stand, move, open, strike, until the end.
+
+use super::events::{Event, first_event};
+use super::ground_path::{GroundPath, Piece};
+use super::history::Observer;
+use super::response::{Outcome, Peak, Response};
+use super::rest::RestLimits;
+use super::tally::Tally;
+use super::{Accuracy, Shaking};
+use crate::model::{Aftermath, Contact, MechanicsError, Pair, RockingWall, State, Touching, Vector, Wall};
+use crate::solver::{Controller, DormandPrince, ErrorScale, Point, Quintic, Rate, STAGES, Step};
+
+/// Error of a step allowed, as a share of the error of a run. Impacts magnify what is there before them: over the
+/// verification walls a step error of 1e-9 α_i ends as up to 3e-7 α_i in well-conditioned runs, and on most walls the
+/// record's own step is shorter than this asks for, so it costs little.
+const STEP_SHARE: f64 = 1e-3;
+
+/// An opening is placed this share of a sample step after the instant its corner force vanishes, so that the joint
+/// does accelerate apart; it moves nothing by more than roundings.
+const AFTER_OPENING: f64 = 1e-9;
+
+/// A time so short that a parabola is exact over it: its cube times any jerk of a wall is below roundings.
+const SHORT_S: f64 = 1e-9;
+/// Newton corrections of an event's time; one suffices but for grazing impacts.
+const MOST_CORRECTIONS: u32 = 4;
+
+/// Events without progress, one after another, that count as a defect: a burst of impacts ends by capture long before.
+const MOST_EVENTS_AT_ONCE: u32 = 1000;
+/// Progress, as a share of a sample step, that an event must make not to count as stalled.
+const PROGRESS: f64 = 1e-6;
+
+/// Where the run stands.
+pub(super) struct Run<'a, O> {
+    wall: RockingWall,
+    ground: GroundPath,
+    rest: RestLimits,
+    collapse_rad: Pair,
+    controller: Controller,
+    tally: Tally,
+    observer: &'a mut O,
+    contact: Contact,
+    now: Point,
+    quadrature_rate: Pair,
+    /// Smallest corner force of the closed joints now.
+    corner_force: Option<f64>,
+    /// Velocity of the top now, m/s.
+    top_velocity_m_s: f64,
+    stalled: u32,
+}
+
+/// Why a run ended before its time.
+enum Stop {
+    Collapsed { time_s: f64 },
+    Failed { time_s: f64, reason: String },
+}
+
+impl<'a, O: Observer> Run<'a, O> {
+    pub fn new(wall: &Wall, shaking: &Shaking, accuracy: Accuracy, observer: &'a mut O) -> Self {
+        let rocking = RockingWall::new(wall);
+        let ground = GroundPath::new(shaking);
+        let scale = ErrorScale { position: wall.alpha_i_rad(), time_s: rocking.response_time_s() };
+        let controller = Controller::new(scale, STEP_SHARE * accuracy.tolerance, ground.step_s());
+        Self {
+            rest: RestLimits::new(&rocking),
+            collapse_rad: wall.collapse_rotation_rad(),
+            controller,
+            tally: Tally::new(rocking.joints().count()),
+            observer,
+            contact: Contact::REST,
+            now: Point { position: wall.parameters().initial_rotation_rad, ..Point::default() },
+            quadrature_rate: [0.0; 2],
+            corner_force: None,
+            top_velocity_m_s: 0.0,
+            stalled: 0,
+            wall: rocking,
+            ground,
+        }
+    }
+
+    pub fn go(mut self) -> Response {
+        let outcome = match self.start().and_then(|()| self.all_pieces()) {
+            Ok(()) => Outcome::Stood,
+            Err(Stop::Collapsed { time_s }) => Outcome::Collapsed { time_s },
+            Err(Stop::Failed { time_s, reason }) => Outcome::Failed { time_s, reason },
+        };
+        self.response(outcome)
+    }
+
+    fn state(&self) -> State {
+        State { theta: self.now.position, omega: self.now.velocity }
+    }
+
+    fn start(&mut self) -> Result<(), Stop> {
+        let ground = self.ground.piece(0).map_or(Vector::default(), |piece| piece.at(0.0));
+        let released = Contact::of_rotations(self.now.position);
+        self.tally.energy.initial_j = self.wall.energy_j(released, &self.state());
+        self.tally.energy.passed_through_j = self.tally.energy.initial_j.abs();
+        self.tally.rotations(0.0, &Quintic::new(&self.now, &self.now, 0.0));
+        self.tally.top(self.wall.top_displacement_m(released, self.now.position), 0.0);
+        if (0..2).any(|i| self.now.position[i].abs() >= self.collapse_rad[i]) {
+            self.contact = released;
+            return Err(Stop::Collapsed { time_s: 0.0 });
+        }
+        self.enter(released, ground, 0.0)
+    }
+
+    /// Goes on in the contact state that carries the joint forces, opening joints where it must.
+    fn enter(&mut self, contact: Contact, ground: Vector, time_s: f64) -> Result<(), Stop> {
+        let settled = self.wall.settle(contact, &self.state(), ground).map_err(|e| failed(time_s, &e))?;
+        if settled != contact {
+            self.tally.opening(contact, settled);
+        }
+        self.contact = settled;
+        let rate = self.wall.rate(settled, &self.state(), ground);
+        self.tally.work.evaluations += 1;
+        self.now.acceleration = rate.theta_dd;
+        self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
+        let after = self.aftermath(&self.now, ground);
+        self.corner_force = self.wall.smallest_corner_force(settled, &after.forces);
+        self.top_velocity_m_s = after.top_velocity_m_s;
+        Ok(())
+    }
+
+    fn all_pieces(&mut self) -> Result<(), Stop> {
+        let mut k = 0;
+        while let Some(piece) = self.ground.piece(k) {
+            let mut offset_s = 0.0;
+            while offset_s < piece.length_s {
+                offset_s = match self.contact {
+                    Contact::REST => self.stand(&piece, offset_s)?,
+                    _ => self.advance(&piece, offset_s)?,
+                };
+            }
+            k += 1;
+        }
+        Ok(())
+    }
+
+    /// Stands until a corner lifts or the piece ends; gives the offset reached.
+    fn stand(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
+        let lift_off = self.rest.lift_off_s(piece, from_s);
+        let to_s = lift_off.map_or(piece.length_s, |s| self.after_opening(s, piece));
+        self.tally.pattern_time_s[Contact::REST.index()] += to_s - from_s;
+        let friction = self.rest.friction(piece.at(from_s)).max(self.rest.friction(piece.at(to_s)));
+        for (demand, factor) in self.tally.demand.iter_mut().zip(self.rest.friction_factors()) {
+            demand.friction = demand.friction.max(friction * factor);
+        }
+        self.observer.stood(piece.start_s + from_s, piece.start_s + to_s);
+        if lift_off.is_some() {
+            self.enter(Contact::REST, piece.at(to_s), piece.start_s + to_s)?;
+        }
+        Ok(to_s)
+    }
+
+    fn after_opening(&self, offset_s: f64, piece: &Piece) -> f64 {
+        (offset_s + AFTER_OPENING * self.ground.step_s()).min(piece.length_s)
+    }
+
+    /// Moves over one step, or up to the first event inside it; gives the offset reached.
+    fn advance(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
+        let remaining_s = piece.length_s - from_s;
+        let step = self.accepted_step(piece, from_s, remaining_s);
+        let motion = Quintic::new(&step.start, &step.end, step.h);
+        let after = self.aftermath(&step.end, piece.at(from_s + step.h));
+        let end_force = self.wall.smallest_corner_force(self.contact, &after.forces);
+        let force_at =
+            |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
+        let corner_force = (self.corner_force, end_force);
+        match first_event(self.contact, &motion, self.collapse_rad, corner_force, force_at) {
+            None => {
+                self.corner_force = end_force;
+                self.keep(piece.start_s + from_s, &step, &motion, &after);
+                self.stalled = 0;
+                // The end of a piece is reached exactly, not up to a rounding.
+                Ok(if step.h == remaining_s { piece.length_s } else { from_s + step.h })
+            }
+            Some((event, share)) => self.meet(event, share, piece, from_s, &step),
+        }
+    }
+
+    fn aftermath(&self, point: &Point, ground: Vector) -> Aftermath {
+        self.wall.motion(self.contact).aftermath(point.position, point.velocity, point.acceleration, ground)
+    }
+
+    fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
+        let state = State { theta: motion.position(share), omega: motion.velocity(share) };
+        let theta_dd = self.wall.rate(self.contact, &state, ground).theta_dd;
+        let forces = self.wall.joint_forces(self.contact, &state, theta_dd, ground);
+        self.wall.smallest_corner_force(self.contact, &forces).unwrap_or(f64::INFINITY)
+    }
+
+    fn accepted_step(&mut self, piece: &Piece, from_s: f64, remaining_s: f64) -> Step {
+        loop {
+            let step = self.step(piece, from_s, self.controller.next_s(remaining_s));
+            if self.controller.accepts(&step) {
+                return step;
+            }
+            self.tally.work.rejected_steps += 1;
+        }
+    }
+
+    fn step(&mut self, piece: &Piece, from_s: f64, h: f64) -> Step {
+        self.tally.work.evaluations += STAGES;
+        let motion = self.wall.motion(self.contact);
+        DormandPrince::step(self.now, self.quadrature_rate, h, |after_s, theta, omega| {
+            let rate = motion.rate(theta, omega, piece.at(from_s + after_s));
+            Rate { acceleration: rate.theta_dd, quadrature: [rate.ground_power_w, rate.loss_power_w] }
+        })
+    }
+
+    /// Makes the end of a step the present.
+    fn keep(&mut self, start_s: f64, step: &Step, motion: &Quintic, after: &Aftermath) {
+        self.tally.work.steps += 1;
+        self.tally.pattern_time_s[self.contact.index()] += step.h;
+        self.tally.rotations(start_s, motion);
+        self.top_displacement(start_s, motion, after);
+        self.tally.forces(&after.forces);
+        self.tally.energy(step.quadrature);
+        self.observer.moved(start_s, self.contact, motion);
+        self.now = step.end;
+        self.quadrature_rate = step.end_quadrature_rate;
+    }
+
+    /// Raises the largest top displacement, between the ends of the step too where the top turns back inside.
+    fn top_displacement(&mut self, start_s: f64, motion: &Quintic, after: &Aftermath) {
+        self.tally.top(after.top_displacement_m, start_s + motion.h());
+        let (before, now) = (self.top_velocity_m_s, after.top_velocity_m_s);
+        self.top_velocity_m_s = now;
+        if before * now < 0.0 {
+            // The velocity is all but linear over the little that is left of a swing.
+            let share = before / (before - now);
+            let x_c = self.wall.top_displacement_m(self.contact, motion.position(share));
+            self.tally.top(x_c, start_s + share * motion.h());
+        }
+    }
+
+    /// Steps again up to the event, and lets it happen.
+    fn meet(
+        &mut self,
+        event: Event,
+        share: f64,
+        piece: &Piece,
+        from_s: f64,
+        whole: &Step,
+    ) -> Result<f64, Stop> {
+        let mut h = share * whole.h;
+        if matches!(event, Event::Opens) {
+            h = (h + AFTER_OPENING * self.ground.step_s()).min(whole.h);
+        }
+        let mut step = self.step(piece, from_s, h);
+        if let Some(gap) = event.gap() {
+            step = self.onto_contact(piece, from_s, step, gap);
+        }
+        let to_s = from_s + step.h;
+        let (start_s, time_s) = (piece.start_s + from_s, piece.start_s + to_s);
+        self.progress(step.h, time_s)?;
+        let after = self.aftermath(&step.end, piece.at(to_s));
+        self.keep(start_s, &step, &Quintic::new(&step.start, &step.end, step.h), &after);
+        match event {
+            Event::Collapses => return Err(Stop::Collapsed { time_s }),
+            Event::Opens => self.enter(self.contact, piece.at(to_s), time_s)?,
+            Event::Strikes(touching) => self.strike(touching, piece.at(to_s), time_s)?,
+        }
+        Ok(to_s.min(piece.length_s))
+    }
+
+    /// Moves the end of a step onto the zero of a gap: the quintic that found it is only as accurate as the step.
+    ///
+    /// To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow, and what is
+    /// small beside the wall's rotation is not small beside it.
+    fn onto_contact(&mut self, piece: &Piece, from_s: f64, mut step: Step, gap: fn(Pair) -> f64) -> Step {
+        for _ in 0..MOST_CORRECTIONS {
+            let late_s = gap(step.end.position) / gap(step.end.velocity);
+            if late_s.abs() <= SHORT_S {
+                step.end = step.end.after(-late_s);
+                step.h -= late_s;
+                break;
+            }
+            let h = step.h - late_s;
+            if !(h > 0.0 && h < 2.0 * step.h) {
+                break;
+            }
+            step = self.step(piece, from_s, h);
+        }
+        step
+    }
+
+    fn progress(&mut self, h: f64, time_s: f64) -> Result<(), Stop> {
+        self.stalled = if h < PROGRESS * self.ground.step_s() { self.stalled + 1 } else { 0 };
+        if self.stalled > MOST_EVENTS_AT_ONCE {
+            let reason =
+                format!("{MOST_EVENTS_AT_ONCE} events without progress in pattern {}", self.contact.name());
+            return Err(Stop::Failed { time_s, reason });
+        }
+        Ok(())
+    }
+
+    /// An impact: joints that touch close exactly, velocities change, and the wall goes on.
+    fn strike(&mut self, touching: Touching, ground: Vector, time_s: f64) -> Result<(), Stop> {
+        if touching.ground {
+            self.now.position[0] = 0.0;
+        }
+        if touching.crack {
+            self.now.position[1] = self.now.position[0];
+        }
+        let impact =
+            self.wall.impact(self.contact, touching, &self.state()).map_err(|e| failed(time_s, &e))?;
+        self.tally.impact(&impact);
+        self.now.velocity = impact.omega;
+        self.enter(impact.contact, ground, time_s)
+    }
+
+    fn response(mut self, outcome: Outcome) -> Response {
+        let end_time_s = match outcome {
+            Outcome::Stood => self.ground.end_s(),
+            Outcome::Collapsed { time_s } | Outcome::Failed { time_s, .. } => time_s,
+        };
+        self.tally.energy.final_j = self.wall.energy_j(self.contact, &self.state());
+        self.observer.ended(end_time_s, self.contact, self.now.position);
+        let wall = self.wall.wall();
+        let lower = self.tally.theta_max[0];
+        Response {
+            outcome,
+            end_time_s,
+            theta_max_rad: self.tally.theta_max,
+            alpha_i_rad: wall.alpha_i_rad(),
+            alpha_rad: wall.alpha_rad(),
+            top_displacement_m: self.tally.top_max,
+            // The middle of the crack moves monotonically with θ_1, so both are largest together.
+            crack_displacement_m: Peak { value: self.wall.crack_displacement_m(lower.value), ..lower },
+            pattern_time_s: self.tally.pattern_time_s,
+            impacts: self.tally.impacts,
+            openings: self.tally.openings,
+            energy: self.tally.energy,
+            demand: self.tally.demand,
+            work: self.tally.work,
+        }
+    }
+}
+
+fn failed(time_s: f64, error: &MechanicsError) -> Stop {
+    Stop::Failed { time_s, reason: error.to_string() }
+}

@@ -1,0 +1,97 @@
+//! Keeping account of a run while it goes: maxima, pattern times, friction, tension, energy.
+
+use super::response::{EnergyLedger, Impacts, JointDemand, Openings, Peak, Work};
+use crate::model::{Contact, Impact, JointForces};
+use crate::solver::Quintic;
+
+/// Everything a run adds up.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Tally {
+    pub theta_max: [Peak; 2],
+    pub top_max: Peak,
+    pub pattern_time_s: [f64; 9],
+    pub impacts: Impacts,
+    pub openings: Openings,
+    pub energy: EnergyLedger,
+    pub demand: [JointDemand; 2],
+    pub work: Work,
+    in_tension: [bool; 2],
+    /// Joints the wall has: one, or two where it is cracked.
+    joints: usize,
+}
+
+impl Tally {
+    /// Nothing yet, for a wall with this many joints.
+    pub fn new(joints: usize) -> Self {
+        Self { joints, ..Self::default() }
+    }
+
+    /// Raises the largest rotations by what happens inside a step.
+    #[inline]
+    pub fn rotations(&mut self, start_s: f64, motion: &Quintic) {
+        for i in 0..2 {
+            let theta = motion.coordinate(i);
+            let so_far = self.theta_max[i].value.abs();
+            if theta.magnitude_bound() > so_far {
+                let sign = if theta.0[0] + theta.0[5] < 0.0 { -1.0 } else { 1.0 };
+                // A step may cross zero; both sides count.
+                for sign in [sign, -sign] {
+                    let (value, share) = theta.times(sign).maximum();
+                    if value > self.theta_max[i].value.abs() {
+                        self.theta_max[i] =
+                            Peak { value: sign * value, time_s: start_s + share * motion.h() };
+                    }
+                }
+            }
+        }
+    }
+
+    /// Raises the largest top displacement.
+    #[inline]
+    pub fn top(&mut self, displacement_m: f64, time_s: f64) {
+        if displacement_m.abs() > self.top_max.value.abs() {
+            self.top_max = Peak { value: displacement_m, time_s };
+        }
+    }
+
+    /// Counts friction and tension at both joints.
+    #[inline]
+    pub fn forces(&mut self, forces: &JointForces) {
+        for (i, force) in [forces.ground, forces.crack].iter().enumerate().take(self.joints) {
+            let tension = force.normal < 0.0;
+            let demand = &mut self.demand[i];
+            if force.normal > 0.0 {
+                demand.friction = demand.friction.max(force.shear.abs() / force.normal);
+            }
+            demand.tensions += u64::from(tension && !self.in_tension[i]);
+            self.in_tension[i] = tension;
+        }
+    }
+
+    /// Adds the work of the ground and the losses of effects over a step.
+    #[inline]
+    pub fn energy(&mut self, [work_j, loss_j]: [f64; 2]) {
+        self.energy.ground_work_j += work_j;
+        self.energy.effect_loss_j += loss_j;
+        self.energy.passed_through_j += work_j.abs() + loss_j.abs();
+    }
+
+    /// Counts an impact and its loss.
+    pub fn impact(&mut self, impact: &Impact) {
+        self.impacts.count(impact.change, impact.captured);
+        self.energy.impact_loss_j += impact.loss_j;
+        self.energy.passed_through_j += impact.loss_j.abs();
+    }
+
+    /// Counts an opening.
+    pub fn opening(&mut self, from: Contact, to: Contact) {
+        let o = &mut self.openings;
+        match (from.pattern_number(), to.pattern_number()) {
+            (None, Some(3)) => o.rest_to_3 += 1,
+            (None, Some(4)) => o.rest_to_4 += 1,
+            (None, _) => o.rest_to_both += 1,
+            (Some(3), _) => o.crack += 1,
+            _ => o.ground += 1,
+        }
+    }
+}

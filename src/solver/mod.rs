@@ -1,0 +1,15 @@
+//! Integration of second-order motion between events, and where inside a step an event lies.
+//!
+//! Knows no masonry: two coordinates, their velocities, an acceleration, two quadratures.
+//! A step carries positions, velocities and accelerations at both ends; the [`Quintic`] through them is what
+//! events, maxima and histories are read from, and is as accurate as the step itself.
+
+mod bernstein;
+mod controller;
+mod dormand_prince;
+mod quintic;
+
+pub use bernstein::Bernstein;
+pub use controller::{Controller, ErrorScale};
+pub use dormand_prince::{DormandPrince, Rate, STAGES, Step};
+pub use quintic::{Point, Quintic};

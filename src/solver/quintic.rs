@@ -1,0 +1,108 @@
+//! The quintic through positions, velocities and accelerations at both ends of a step.
+
+use super::bernstein::Bernstein;
+
+/// Positions, velocities and accelerations of the two coordinates at an instant.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Point {
+    /// Positions.
+    pub position: [f64; 2],
+    /// Velocities.
+    pub velocity: [f64; 2],
+    /// Accelerations.
+    pub acceleration: [f64; 2],
+}
+
+impl Point {
+    /// This motion a short time later, along its parabola.
+    #[must_use]
+    pub fn after(&self, short_s: f64) -> Self {
+        let (x, v, a) = (self.position, self.velocity, self.acceleration);
+        Self {
+            position: [0, 1].map(|i| x[i] + short_s * (v[i] + 0.5 * short_s * a[i])),
+            velocity: [0, 1].map(|i| v[i] + short_s * a[i]),
+            acceleration: a,
+        }
+    }
+}
+
+/// Both coordinates over a step, each a polynomial of degree five in the share of the step that has passed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Quintic {
+    h: f64,
+    coordinate: [Bernstein<6>; 2],
+    difference: Bernstein<6>,
+}
+
+impl Quintic {
+    /// Through both ends of a step of length `h`.
+    #[inline]
+    pub fn new(start: &Point, end: &Point, h: f64) -> Self {
+        let coordinate = [0, 1].map(|i| {
+            let at = |p: &Point| [p.position[i], p.velocity[i], p.acceleration[i]];
+            hermite(at(start), at(end), h)
+        });
+        // From the differences at the ends, not from the two polynomials: coordinates that start together,
+        // or move together, differ by an exact zero.
+        let apart = |p: &Point| [p.position, p.velocity, p.acceleration].map(|pair| pair[1] - pair[0]);
+        Self { h, coordinate, difference: hermite(apart(start), apart(end), h) }
+    }
+
+    /// Length of the step.
+    pub fn h(&self) -> f64 {
+        self.h
+    }
+
+    /// One coordinate.
+    #[inline]
+    pub fn coordinate(&self, i: usize) -> &Bernstein<6> {
+        &self.coordinate[i]
+    }
+
+    /// Second coordinate less the first.
+    #[inline]
+    pub fn difference(&self) -> &Bernstein<6> {
+        &self.difference
+    }
+
+    /// Positions at a share of the step.
+    pub fn position(&self, share: f64) -> [f64; 2] {
+        self.coordinate.map(|c| c.value(share))
+    }
+
+    /// Velocities at a share of the step.
+    pub fn velocity(&self, share: f64) -> [f64; 2] {
+        self.coordinate.map(|c| c.derivative().value(share) / self.h)
+    }
+}
+
+/// Bernstein form of the quintic with these positions, velocities and accelerations at both ends.
+#[inline]
+fn hermite([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], h: f64) -> Bernstein<6> {
+    let (v0, v1) = (v0 * h / 5.0, v1 * h / 5.0);
+    let (a0, a1) = (a0 * h * h / 20.0, a1 * h * h / 20.0);
+    Bernstein([x0, x0 + v0, x0 + 2.0 * v0 + a0, x1 - 2.0 * v1 + a1, x1 - v1, x1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_reproduces_quintics() {
+        let x = |t: f64| 1.0 - 2.0 * t + 0.5 * t.powi(2) + t.powi(3) - 3.0 * t.powi(4) + 0.7 * t.powi(5);
+        let v = |t: f64| -2.0 + t + 3.0 * t.powi(2) - 12.0 * t.powi(3) + 3.5 * t.powi(4);
+        let a = |t: f64| 1.0 + 6.0 * t - 36.0 * t.powi(2) + 14.0 * t.powi(3);
+        let at =
+            |t: f64| Point { position: [x(t), -x(t)], velocity: [v(t), -v(t)], acceleration: [a(t), -a(t)] };
+        let h = 0.8;
+        let quintic = Quintic::new(&at(0.0), &at(h), h);
+        for i in 0..=10 {
+            let share = f64::from(i) / 10.0;
+            // A few roundings of numbers near one.
+            assert!((quintic.position(share)[0] - x(share * h)).abs() < 1e-14);
+            assert!((quintic.velocity(share)[1] + v(share * h)).abs() < 1e-13);
+            assert!((quintic.difference().value(share) + 2.0 * x(share * h)).abs() < 1e-14);
+        }
+    }
+}
