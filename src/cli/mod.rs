@@ -2,6 +2,7 @@
 //!
 //! stdout is for data, stderr for people.
 
+mod records;
 mod simulate;
 
 use std::io::Write;
@@ -20,6 +21,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Records(records::RecordsArgs),
     Simulate(simulate::SimulateArgs),
 }
 
@@ -30,6 +32,7 @@ impl Cli {
     /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
     pub fn execute(self) -> Result<()> {
         match self.command {
+            Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }
     }
