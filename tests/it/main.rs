@@ -4,6 +4,7 @@
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
 mod cli_simulate;
+mod grazing_contact;
 mod ground_formats;
 mod ground_generated;
 mod ground_intensity;
