@@ -1,13 +1,16 @@
 //! What a study says, for people: assumptions, medians, findings, and how they depend on the assumptions.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use super::tables::print_tables;
 use super::text::{aligned, wrapped};
 use super::variants::shift;
-use super::{FINDINGS, View};
+use super::{FINDINGS, Finding, View};
 use crate::aggregate::{Medians, VariantNote};
+use crate::error::{Error, Result};
 use crate::input::survey::Configuration;
+use crate::store::write_durably;
 
 /// Prints everything; the first variant is the one whose medians are shown whole.
 ///
@@ -35,6 +38,28 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
         shifts(out, medians, base)?;
     }
     Ok(())
+}
+
+/// Writes every finding under every variant as CSV: answer, numbers, criterion.
+///
+/// # Errors
+/// [`crate::Error::Io`] if the disk refuses.
+pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
+    let failed = |e: csv::Error| Error::table(path, e);
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    csv.write_record(["variant", "finding", "answer", "numbers", "claim", "source", "holds_if"])
+        .map_err(failed)?;
+    for variant in &medians.variants {
+        let view = View::new(medians, &variant.name);
+        for finding in &FINDINGS {
+            let answer = (finding.check)(&view);
+            let Finding { name, claim, source, criterion, .. } = finding;
+            let row = [&variant.name, name, answer.verdict.name(), &answer.numbers, claim, source, criterion];
+            csv.write_record(row).map_err(failed)?;
+        }
+    }
+    let bytes = csv.into_inner().map_err(|e| Error::table(path, e))?;
+    write_durably(path, &bytes)
 }
 
 fn heading(out: &mut dyn Write, text: &str) -> io::Result<()> {
