@@ -5,6 +5,7 @@
 
 mod cli_simulate;
 mod ground_formats;
+mod ground_generated;
 mod ground_intensity;
 mod ground_mutations;
 mod ground_samples;
