@@ -54,7 +54,8 @@ pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
         for finding in &FINDINGS {
             let answer = (finding.check)(&view);
             let Finding { name, claim, source, criterion, .. } = finding;
-            let row = [&variant.name, name, answer.verdict.name(), &answer.numbers, claim, source, criterion];
+            let row: [&str; 7] =
+                [&variant.name, name, answer.verdict.name(), &answer.numbers, claim, source, criterion];
             csv.write_record(row).map_err(failed)?;
         }
     }
