@@ -38,7 +38,7 @@ pub struct RunCommand {
     /// Threads; without it one for each processor. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
-    /// Run again over results of the same plan.
+    /// Replace the results of an earlier study in the folder.
     #[arg(long)]
     force: bool,
 }

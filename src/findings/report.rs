@@ -7,7 +7,7 @@ use super::tables::print_tables;
 use super::text::{aligned, wrapped};
 use super::variants::shift;
 use super::{FINDINGS, Finding, View};
-use crate::aggregate::{Medians, VariantNote};
+use crate::aggregate::{MOVED_SHARE, Measure, Medians, Moved, VariantNote};
 use crate::error::{Error, Result};
 use crate::input::survey::Configuration;
 use crate::store::write_durably;
@@ -144,27 +144,41 @@ fn matrix(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
 }
 
 fn shifts(out: &mut dyn Write, medians: &Medians, base: &VariantNote) -> io::Result<()> {
-    let head = ["variant", "floor", "median |Δ|", "largest |Δ|", "at", "stood / fell"];
+    let head = ["variant", "floor", "median |Δ|", "largest |Δ|", "at", "stood/fell", "runs moved"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for variant in &medians.variants[1..] {
         for configuration in Configuration::ALL {
-            let shift = shift(medians, &base.name, &variant.name, configuration);
-            let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
-            let place = shift.largest.as_ref().map_or("-".to_owned(), |(case, measure)| {
-                let body = if *measure == crate::aggregate::Measure::LowerOwn { "θ1" } else { "θ2" };
-                let level = case.level.name(case.parameter);
-                format!("{body}, {} {level}, h/b {}", case.parameter.name(), case.slenderness)
-            });
-            rows.push(vec![
-                variant.name.clone(),
-                configuration.name().to_owned(),
-                number(shift.median()),
-                number(shift.max()),
-                place,
-                shift.changed_sides.to_string(),
-            ]);
+            rows.push(shift_row(medians, &base.name, &variant.name, configuration));
         }
     }
     writeln!(out, "{}", aligned(&rows))?;
-    writeln!(out, "stood / fell: medians that stood under one of the two and collapsed under the other.")
+    let notes = format!(
+        "stood/fell: medians that stood under one of the two and collapsed under the other. runs moved: runs whose largest rotation differs by more than {} %, or whose outcome does; where only the tolerance differs, these are the ill-conditioned runs.",
+        100.0 * MOVED_SHARE
+    );
+    writeln!(out, "{}", wrapped(&notes, 0))
+}
+
+fn shift_row(medians: &Medians, base: &str, variant: &str, configuration: Configuration) -> Vec<String> {
+    let shift = shift(medians, base, variant, configuration);
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
+    let place = shift.largest.as_ref().map_or("-".to_owned(), |(case, measure)| {
+        let body = if *measure == Measure::LowerOwn { "θ1" } else { "θ2" };
+        let level = case.level.name(case.parameter);
+        format!("{body}, {} {level}, h/b {}", case.parameter.name(), case.slenderness)
+    });
+    let of_floor = |moved: &&Moved| moved.variant == variant && moved.configuration == configuration.name();
+    let moved =
+        medians.moved.iter().find(of_floor).map_or("-".to_owned(), |moved| {
+            format!("{:.1} %", 100.0 * moved.moved as f64 / moved.runs as f64)
+        });
+    vec![
+        variant.to_owned(),
+        configuration.name().to_owned(),
+        number(shift.median()),
+        number(shift.max()),
+        place,
+        shift.changed_sides.to_string(),
+        moved,
+    ]
 }
