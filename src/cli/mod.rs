@@ -4,6 +4,7 @@
 
 mod aggregate;
 mod output;
+mod records;
 mod run;
 mod simulate;
 
@@ -25,6 +26,7 @@ pub struct Cli {
 enum Command {
     Run(run::RunCommand),
     Aggregate(aggregate::AggregateCommand),
+    Records(records::RecordsArgs),
     Simulate(simulate::SimulateArgs),
 }
 
@@ -37,6 +39,7 @@ impl Cli {
         match self.command {
             Command::Run(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
+            Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }
     }

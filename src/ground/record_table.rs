@@ -80,6 +80,17 @@ impl TableRow {
                 return Err(InputError::key(path, key, value.to_string(), allowed));
             }
         }
-        Ok(())
+        self.check_archive_id(path, index)
+    }
+
+    /// The id becomes part of the name of a file.
+    fn check_archive_id(&self, path: &Path, index: usize) -> Result<(), InputError> {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
+        if !self.archive_id.is_empty() && self.archive_id.chars().all(is_plain) {
+            return Ok(());
+        }
+        let found = format!("`{}`", self.archive_id.escape_debug());
+        let key = format!("records[{index}].archive_id");
+        Err(InputError::key(path, key, found, "letters, digits, dots, dashes and underlines"))
     }
 }

@@ -12,10 +12,10 @@ mod peaks;
 mod rest;
 mod write;
 
+use super::Accelerogram;
 use super::code_spectrum::Site;
 use super::pulse::Pulse;
 use super::record_table::{RecordTable, TableRow};
-use super::{Accelerogram, Motion};
 
 pub use write::write_suite;
 

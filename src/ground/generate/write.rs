@@ -2,9 +2,13 @@
 
 use std::path::Path;
 
-use crate::error::{Error, InputError, Result};
-use crate::ground::record_table::{RecordTable, TableRow};
+use crate::error::{Error, Result};
+use crate::ground::record_table::RecordTable;
+use crate::ground::suite_file::{RecordEntry, SuiteFile};
 use crate::ground::{Accelerogram, write_two_columns};
+
+const NOTE: &str = "Generated, not measured: each record has the peak acceleration and velocity of its row and a length \
+    that fits its magnitude and distance, but is noise brought to a smooth spectrum.";
 
 /// Writes `records`, generated for the rows of `table` with `seed`, into `folder`, with a `suite.toml` that lists them.
 ///
@@ -18,47 +22,20 @@ pub fn write_suite(
     seed: u64,
 ) -> Result<()> {
     std::fs::create_dir_all(folder).map_err(|e| Error::io("make the folder", folder, e))?;
-    let mut suite = header(name, table, seed);
+    let mut entries = Vec::with_capacity(records.len());
     for (row, record) in table.records.iter().zip(records) {
-        let file = file_name(row)?;
+        let file = format!("generated_{}_{}.csv", row.id, row.archive_id);
         write_two_columns(&folder.join(&file), record)?;
-        suite += &entry(row, &file);
+        entries.push(RecordEntry::of_row(row, file));
     }
-    write(&folder.join("suite.toml"), &suite)
-}
-
-fn write(path: &Path, text: &str) -> Result<()> {
-    std::fs::write(path, text).map_err(|e| Error::io("write", path, e))
-}
-
-fn file_name(row: &TableRow) -> Result<String, InputError> {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-    if row.archive_id.chars().all(is_plain) && !row.archive_id.starts_with('.') {
-        return Ok(format!("generated_{}_{}.csv", row.id, row.archive_id));
-    }
-    let allowed = "letters, digits, dots, dashes and underlines, for it becomes the name of a file";
-    Err(InputError::option("archive_id", format!("`{}`", row.archive_id.escape_debug()), allowed))
-}
-
-fn header(name: &str, table: &RecordTable, seed: u64) -> String {
-    let note = "Generated, not measured: each record has the peak acceleration and velocity of its row and a length that \
-        fits its magnitude and distance, but is noise brought to a smooth spectrum.";
-    let source = format!("mrbd records generate --seed {seed}, after: {}", table.source);
-    format!("name = {}\ngenerated = true\nnote = {}\nsource = {}\n", text(name), text(note), text(&source))
-}
-
-fn entry(row: &TableRow, file: &str) -> String {
-    let TableRow { id, magnitude, distance_km, scale, pga_g, pgv_m_s, .. } = row;
-    let (file, event, date) = (text(file), text(&row.event), text(&row.date));
-    let (station, soil) = (text(&row.station), text(&row.soil));
-    format!(
-        "\n[[records]]\nid = {id}\nfile = {file}\nevent = {event}\ndate = {date}\nmagnitude = {magnitude:?}\n\
-        station = {station}\ndistance_km = {distance_km:?}\nsoil = {soil}\nscale = {scale:?}\npga_g = {pga_g:?}\n\
-        pgv_m_s = {pgv_m_s:?}\n"
-    )
-}
-
-/// A TOML string.
-fn text(value: &str) -> String {
-    toml::Value::String(value.to_owned()).to_string()
+    let suite = SuiteFile {
+        name: name.to_owned(),
+        generated: true,
+        note: NOTE.to_owned(),
+        source: format!("mrbd records generate --seed {seed}, after: {}", table.source),
+        unit: None,
+        step_s: None,
+        records: entries,
+    };
+    suite.write(&folder.join("suite.toml"))
 }
