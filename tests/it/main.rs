@@ -3,5 +3,9 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod impacts;
+mod matrix_form;
+mod matrix_model;
 mod shared;
 mod verification;
+mod walls;
