@@ -13,6 +13,9 @@ use super::wall::ImpactLaw;
 
 /// Separations and impulses within this share of the motion's own size count as zero: some hundred roundings.
 const ROUNDING: f64 = 1e-13;
+/// Outcomes whose velocities differ by less than this share of those before are one: what [`ROUNDING`] lets an impulse
+/// miss moves a light body on a heavy one by up to some ten thousand times as much.
+const SAME_OUTCOME: f64 = 1e-9;
 
 /// What came of an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,7 +78,8 @@ impl RockingWall {
     /// Every admissible contact state after an impact, closed states first; exactly one is expected.
     ///
     /// Admissible: every closed joint receives impulses that push at both corners, every opened joint separates.
-    /// Ties within rounding go to the closed state.
+    /// Ties within rounding go to the closed state: a joint that approaches slower than the roundings of the bodies' own
+    /// speed neither separates nor is pushed by more than roundings, and the state with fewest open joints is taken.
     pub fn admissible_outcomes(
         &self,
         from: Contact,
@@ -83,11 +87,33 @@ impl RockingWall {
         state: &State,
     ) -> [Option<Contact>; 9] {
         let v_before = self.posture(from, state.theta).rates(state.omega);
+        let admissible = |to: &Contact, impulse_rounding: f64| {
+            self.is_admissible(*to, touching, state.theta, &v_before, impulse_rounding)
+        };
+        let candidates = || self.states_touching(from, touching);
         let mut found = [None; 9];
-        let candidates = self.states_touching(from, touching);
-        let admissible = candidates.filter(|c| self.is_admissible(*c, touching, state.theta, &v_before));
-        found.iter_mut().zip(admissible).for_each(|(slot, contact)| *slot = Some(contact));
+        let mut count = 0;
+        for contact in candidates().filter(|c| admissible(c, 0.0)) {
+            let same = |other: &Contact| self.same_outcome(*other, contact, state.theta, &v_before);
+            if !found.iter().flatten().any(same) {
+                found[count] = Some(contact);
+                count += 1;
+            }
+        }
+        if count == 0 {
+            let rounding = ROUNDING * self.masses.largest_momentum(&v_before);
+            let mut ties: Vec<Contact> = candidates().filter(|c| admissible(c, rounding)).collect();
+            ties.sort_by_key(|c| c.open_joints());
+            found[0] = ties.first().copied();
+        }
         found
+    }
+
+    /// Whether two contact states leave the same velocities up to roundings.
+    fn same_outcome(&self, a: Contact, b: Contact, theta: Pair, v_before: &Rates) -> bool {
+        let [omega_a, omega_b] = [a, b].map(|to| self.projected(to, theta, v_before));
+        let speed = v_before.theta[0].abs().max(v_before.theta[1].abs());
+        (0..2).all(|i| (omega_a[i] - omega_b[i]).abs() <= SAME_OUTCOME * speed)
     }
 
     /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
@@ -100,26 +126,44 @@ impl RockingWall {
         motion.mass_matrix(theta).solve(motion.freedom, momenta)
     }
 
-    fn is_admissible(&self, to: Contact, touching: Touching, theta: Pair, v_before: &Rates) -> bool {
+    /// `impulse_rounding`: impulses that may be missing beyond the roundings of the impulses themselves.
+    fn is_admissible(
+        &self,
+        to: Contact,
+        touching: Touching,
+        theta: Pair,
+        v_before: &Rates,
+        impulse_rounding: f64,
+    ) -> bool {
         let omega = self.projected(to, theta, v_before);
-        let speed = v_before.theta[0].abs().max(v_before.theta[1].abs());
+        // Where no state is clear, an opening as slow as roundings is still an opening.
+        let clearly = if impulse_rounding == 0.0 { ROUNDING } else { 0.0 };
+        let slowest = clearly * v_before.theta[0].abs().max(v_before.theta[1].abs());
         let separates = |joint: Joint| {
             to.at(joint).is_closed()
                 || !touching.at(joint)
-                || to.at(joint).sign() * opening(joint, omega) > ROUNDING * speed
+                || to.at(joint).sign() * opening(joint, omega) > slowest
         };
-        self.joints().all(separates) && self.impulses_push(to, theta, omega, v_before)
+        self.joints().all(separates) && self.impulses_push(to, theta, omega, v_before, impulse_rounding)
     }
 
     /// Whether the impulses at both corners of every closed joint are compressive.
-    fn impulses_push(&self, to: Contact, theta: Pair, omega: Pair, v_before: &Rates) -> bool {
+    fn impulses_push(
+        &self,
+        to: Contact,
+        theta: Pair,
+        omega: Pair,
+        v_before: &Rates,
+        impulse_rounding: f64,
+    ) -> bool {
         let posture = self.posture(to, theta);
         let jump = posture.rates(omega).minus(*v_before);
         let impulses = self.masses.joint_forces(&posture, &jump, 0.0);
         let size = impulses.ground.normal.abs() + impulses.ground.shear.abs() + impulses.crack.normal.abs();
+        let missing = (ROUNDING * size + impulse_rounding) * self.slimness();
         self.joints().filter(|joint| to.at(*joint).is_closed()).all(|joint| {
             let corners = impulses.at(joint).corners(self.width_m(joint));
-            corners.iter().all(|impulse| *impulse >= -ROUNDING * size * self.slimness())
+            corners.iter().all(|impulse| *impulse >= -missing)
         })
     }
 
@@ -139,13 +183,12 @@ impl RockingWall {
         theta: Pair,
         v_before: &Rates,
     ) -> (Contact, Pair) {
-        let limit = self.wall().parameters().restitution.capture_velocity_rad_s;
         let mut contact = plastic;
         loop {
             let omega = self.projected(contact, theta, v_before);
             let slow = self.joints().find(|joint| {
                 let opened = touching.at(*joint) && contact.at(*joint).is_open();
-                opened && opening(*joint, omega).abs() < limit
+                opened && opening(*joint, omega).abs() < self.capture_rad_s
             });
             match slow {
                 Some(joint) => contact = contact.with(joint, Pivot::Closed),
