@@ -47,10 +47,11 @@ impl Tally {
         }
     }
 
-    /// Counts friction and tension at both joints.
+    /// Counts friction and tension at the joints the wall has: an uncracked one has no crack.
     #[inline]
-    pub fn forces(&mut self, forces: &JointForces) {
-        for (i, force) in [forces.ground, forces.crack].iter().enumerate() {
+    pub fn forces(&mut self, forces: &JointForces, cracked: bool) {
+        let joints = if cracked { 2 } else { 1 };
+        for (i, force) in [forces.ground, forces.crack].iter().enumerate().take(joints) {
             let tension = force.normal < 0.0;
             let demand = &mut self.demand[i];
             if force.normal > 0.0 {
