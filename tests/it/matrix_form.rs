@@ -123,7 +123,10 @@ fn analytic_joint_forces_balance_each_body() {
             let found = wall.joint_forces(contact, &state, theta_dd, ground);
             let expected = matrices.through_joints(contact, &state, theta_dd, ground);
             let (_, size) = matrices.forcing(contact, &state, ground);
-            let moments = size.sum() + (matrices.mass_matrix(contact, state.theta) * nalgebra::Vector2::from(theta_dd)).abs().sum();
+            let moments = size.sum()
+                + (matrices.mass_matrix(contact, state.theta) * nalgebra::Vector2::from(theta_dd))
+                    .abs()
+                    .sum();
             // Moments over the narrowest joint are the largest forces that are added up.
             let forces = moments / parameters.lower_width_m.min(parameters.upper_width_m);
             for (joint, found, expected) in

@@ -56,16 +56,8 @@ impl MatrixWall {
         let h = [h1, p.height_m - h1];
         let m = h.map(|h_i| p.mass_kg * h_i / p.height_m);
         let i = [0, 1].map(|k| m[k] * (p.thickness_m * p.thickness_m + h[k] * h[k]) / 12.0);
-        let mut wall = Self {
-            p: p.clone(),
-            h,
-            m,
-            i,
-            m_dp: p.carriage_mass_kg,
-            k_3: 0.0,
-            c_top: 0.0,
-            c_joint: [0.0; 2],
-        };
+        let mut wall =
+            Self { p: p.clone(), h, m, i, m_dp: p.carriage_mass_kg, k_3: 0.0, c_top: 0.0, c_joint: [0.0; 2] };
         for effect in &p.effects {
             match effect {
                 Effect::CarriageMass { mass_kg } => wall.m_dp += mass_kg,
@@ -277,11 +269,7 @@ impl MatrixWall {
 
     /// Contact states that an impact may lead to: touching joints in any state, the others as they are.
     pub fn candidates(from: Contact, touching: Touching) -> Vec<Contact> {
-        let agrees =
-            |to: &Contact, joint: Joint| touching.at(joint) || to.at(joint) == from.at(joint);
-        Contact::ALL
-            .into_iter()
-            .filter(|to| agrees(to, Joint::Ground) && agrees(to, Joint::Crack))
-            .collect()
+        let agrees = |to: &Contact, joint: Joint| touching.at(joint) || to.at(joint) == from.at(joint);
+        Contact::ALL.into_iter().filter(|to| agrees(to, Joint::Ground) && agrees(to, Joint::Crack)).collect()
     }
 }
