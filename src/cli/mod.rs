@@ -2,6 +2,12 @@
 //!
 //! stdout is for data, stderr for people.
 
+mod aggregate;
+mod output;
+mod records;
+mod run;
+mod simulate;
+
 use clap::{Parser, Subcommand};
 
 use crate::error::Result;
@@ -15,7 +21,12 @@ pub struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    Run(run::RunCommand),
+    Aggregate(aggregate::AggregateCommand),
+    Records(records::RecordsArgs),
+    Simulate(simulate::SimulateArgs),
+}
 
 impl Cli {
     /// Runs the command that was asked for.
@@ -23,6 +34,11 @@ impl Cli {
     /// # Errors
     /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
     pub fn execute(self) -> Result<()> {
-        match self.command {}
+        match self.command {
+            Command::Run(command) => command.execute(),
+            Command::Aggregate(command) => command.execute(),
+            Command::Records(args) => records::execute(&args),
+            Command::Simulate(args) => simulate::execute(&args),
+        }
     }
 }

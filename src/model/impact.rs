@@ -6,8 +6,7 @@
 use super::MechanicsError;
 use super::Table2Change;
 use super::contact::{Contact, Joint, Pivot, Touching};
-use super::motion::Freedom;
-use super::posture::{Pair, Rates};
+use super::posture::{Pair, Posture, Rates, Turns};
 use super::rocking::{RockingWall, State, opening};
 use super::wall::ImpactLaw;
 
@@ -51,27 +50,30 @@ impl Table2Change {
     }
 }
 
+/// An impact while it is worked out: the posture, and the velocities of the mass points before.
+struct Strike {
+    touching: Touching,
+    turns: Turns,
+    v_before: Rates,
+}
+
 impl RockingWall {
     /// The outcome of an impact at a state whose touching joints have zero opening.
     ///
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
-        let admissible = self.admissible_outcomes(from, touching, state);
-        let mut outcomes = admissible.iter().flatten();
-        let Some(&plastic) = outcomes.next() else {
-            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count: 0 });
+        let strike = self.strike(from, touching, state);
+        let outcomes = self.admissible(from, &strike);
+        let (Some(plastic), None) = (outcomes[0], outcomes[1]) else {
+            let count = outcomes.iter().flatten().count();
+            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count });
         };
-        let further = outcomes.count();
-        if further > 0 {
-            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count: 1 + further });
-        }
-        let v_before = self.posture(from, state.theta).rates(state.omega);
-        let (contact, projected) = self.captured(plastic, touching, state.theta, &v_before);
+        let (contact, projected) = self.captured(plastic, &strike);
         let change = Table2Change::of(from, contact);
-        let omega = self.scaled(change, contact, projected, touching, state.theta, &v_before);
-        let before_j = self.motion(from).kinetic_energy_j(state.theta, state.omega);
-        let after_j = self.motion(contact).kinetic_energy_j(state.theta, omega);
+        let omega = self.scaled(change, contact, projected, &strike);
+        let before_j = self.motion(from).kinetic_energy_j(strike.turns, state.omega);
+        let after_j = self.motion(contact).kinetic_energy_j(strike.turns, omega);
         Ok(Impact { contact, omega, change, captured: contact != plastic, loss_j: before_j - after_j })
     }
 
@@ -86,79 +88,78 @@ impl RockingWall {
         touching: Touching,
         state: &State,
     ) -> [Option<Contact>; 9] {
-        let v_before = self.posture(from, state.theta).rates(state.omega);
-        let admissible = |to: &Contact, impulse_rounding: f64| {
-            self.is_admissible(*to, touching, state.theta, &v_before, impulse_rounding)
-        };
-        let candidates = || self.states_touching(from, touching);
+        self.admissible(from, &self.strike(from, touching, state))
+    }
+
+    fn strike(&self, from: Contact, touching: Touching, state: &State) -> Strike {
+        let turns = Turns::new(state.theta);
+        Strike { touching, turns, v_before: self.posture(from, turns).rates(state.omega) }
+    }
+
+    fn admissible(&self, from: Contact, strike: &Strike) -> [Option<Contact>; 9] {
+        let candidates = || self.states_touching(from, strike.touching);
         let mut found = [None; 9];
         let mut count = 0;
-        for contact in candidates().filter(|c| admissible(c, 0.0)) {
-            let same = |other: &Contact| self.same_outcome(*other, contact, state.theta, &v_before);
+        for contact in candidates().filter(|to| self.is_admissible(*to, strike, 0.0)) {
+            let same = |other: &Contact| self.same_outcome(*other, contact, strike);
             if !found.iter().flatten().any(same) {
                 found[count] = Some(contact);
                 count += 1;
             }
         }
         if count == 0 {
-            let rounding = ROUNDING * self.masses.largest_momentum(&v_before);
-            let mut ties: Vec<Contact> = candidates().filter(|c| admissible(c, rounding)).collect();
-            ties.sort_by_key(|c| c.open_joints());
-            found[0] = ties.first().copied();
+            let rounding = ROUNDING * self.masses.largest_momentum(&strike.v_before);
+            let ties = candidates().filter(|to| self.is_admissible(*to, strike, rounding));
+            found[0] = ties.min_by_key(|to| to.open_joints());
         }
         found
     }
 
     /// Whether two contact states leave the same velocities up to roundings.
-    fn same_outcome(&self, a: Contact, b: Contact, theta: Pair, v_before: &Rates) -> bool {
-        let [omega_a, omega_b] = [a, b].map(|to| self.projected(to, theta, v_before));
-        let speed = v_before.theta[0].abs().max(v_before.theta[1].abs());
+    fn same_outcome(&self, a: Contact, b: Contact, strike: &Strike) -> bool {
+        let [omega_a, omega_b] = [a, b].map(|to| self.projected(to, strike));
+        let speed = strike.v_before.theta[0].abs().max(strike.v_before.theta[1].abs());
         (0..2).all(|i| (omega_a[i] - omega_b[i]).abs() <= SAME_OUTCOME * speed)
     }
 
-    /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
-    fn projected(&self, to: Contact, theta: Pair, v_before: &Rates) -> Pair {
-        let motion = self.motion(to);
-        if motion.freedom == Freedom::None {
-            return [0.0, 0.0];
-        }
-        let momenta = self.masses.momenta(&self.posture(to, theta), v_before);
-        motion.mass_matrix(theta).solve(motion.freedom, momenta)
-    }
-
     /// `impulse_rounding`: impulses that may be missing beyond the roundings of the impulses themselves.
-    fn is_admissible(
-        &self,
-        to: Contact,
-        touching: Touching,
-        theta: Pair,
-        v_before: &Rates,
-        impulse_rounding: f64,
-    ) -> bool {
-        let omega = self.projected(to, theta, v_before);
+    fn is_admissible(&self, to: Contact, strike: &Strike, impulse_rounding: f64) -> bool {
+        let posture = self.posture(to, strike.turns);
+        let omega = self.projected_onto(to, &posture, strike);
         // Where no state is clear, an opening as slow as roundings is still an opening.
         let clearly = if impulse_rounding == 0.0 { ROUNDING } else { 0.0 };
-        let slowest = clearly * v_before.theta[0].abs().max(v_before.theta[1].abs());
+        let slowest = clearly * strike.v_before.theta[0].abs().max(strike.v_before.theta[1].abs());
         let separates = |joint: Joint| {
             to.at(joint).is_closed()
-                || !touching.at(joint)
+                || !strike.touching.at(joint)
                 || to.at(joint).sign() * opening(joint, omega) > slowest
         };
-        self.joints().all(separates) && self.impulses_push(to, theta, omega, v_before, impulse_rounding)
+        self.joints().all(separates)
+            && self.impulses_push(to, &posture, omega, &strike.v_before, impulse_rounding)
+    }
+
+    /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
+    fn projected_onto(&self, to: Contact, posture: &Posture, strike: &Strike) -> Pair {
+        let motion = self.motion(to);
+        let momenta = self.masses.momenta(posture, &strike.v_before);
+        motion.mass_matrix(strike.turns).solve(motion.freedom, momenta)
+    }
+
+    fn projected(&self, to: Contact, strike: &Strike) -> Pair {
+        self.projected_onto(to, &self.posture(to, strike.turns), strike)
     }
 
     /// Whether the impulses at both corners of every closed joint are compressive.
     fn impulses_push(
         &self,
         to: Contact,
-        theta: Pair,
+        posture: &Posture,
         omega: Pair,
         v_before: &Rates,
         impulse_rounding: f64,
     ) -> bool {
-        let posture = self.posture(to, theta);
         let jump = posture.rates(omega).minus(*v_before);
-        let impulses = self.masses.joint_forces(&posture, &jump, 0.0);
+        let impulses = self.masses.impulses(posture, &jump);
         let size = impulses.ground.normal.abs() + impulses.ground.shear.abs() + impulses.crack.normal.abs();
         let missing = (ROUNDING * size + impulse_rounding) * self.slimness();
         self.joints().filter(|joint| to.at(*joint).is_closed()).all(|joint| {
@@ -176,18 +177,12 @@ impl RockingWall {
 
     /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
     /// the impact, until none is left.
-    fn captured(
-        &self,
-        plastic: Contact,
-        touching: Touching,
-        theta: Pair,
-        v_before: &Rates,
-    ) -> (Contact, Pair) {
+    fn captured(&self, plastic: Contact, strike: &Strike) -> (Contact, Pair) {
         let mut contact = plastic;
         loop {
-            let omega = self.projected(contact, theta, v_before);
+            let omega = self.projected(contact, strike);
             let slow = self.joints().find(|joint| {
-                let opened = touching.at(*joint) && contact.at(*joint).is_open();
+                let opened = strike.touching.at(*joint) && contact.at(*joint).is_open();
                 opened && opening(*joint, omega).abs() < self.capture_rad_s
             });
             match slow {
@@ -198,15 +193,7 @@ impl RockingWall {
     }
 
     /// Scales the projected velocities by the coefficient of the change.
-    fn scaled(
-        &self,
-        change: Option<Table2Change>,
-        contact: Contact,
-        omega: Pair,
-        touching: Touching,
-        theta: Pair,
-        v_before: &Rates,
-    ) -> Pair {
+    fn scaled(&self, change: Option<Table2Change>, contact: Contact, omega: Pair, strike: &Strike) -> Pair {
         let restitution = self.wall().parameters().restitution;
         let Some(change) = change else { return omega };
         let c_l = restitution.coefficients[change.index()];
@@ -215,9 +202,9 @@ impl RockingWall {
             ImpactLaw::Whole => [0.0, 0.0],
             // The motion if every touching joint stuck: what the impact cannot see.
             ImpactLaw::Contact => {
-                let stuck = self.joints().filter(|joint| touching.at(*joint));
+                let stuck = self.joints().filter(|joint| strike.touching.at(*joint));
                 let stuck = stuck.fold(contact, |state, joint| state.with(joint, Pivot::Closed));
-                self.projected(stuck, theta, v_before)
+                self.projected(stuck, strike)
             }
         };
         [0, 1].map(|i| u[i] + c_l * (omega[i] - u[i]))

@@ -1,4 +1,4 @@
-//! Forces (or impulses) through the joints by d'Alembert's balance of everything above (model section 4).
+//! Forces and impulses through the joints by d'Alembert's balance of everything above (model section 4).
 
 use super::contact::Joint;
 use super::posture::{Posture, Rates};
@@ -62,20 +62,19 @@ impl Masses {
         Self { m: wall.mass_kg, i: wall.inertia_kg_m2, m_d, m_dp: carriage_mass_kg }
     }
 
-    /// Joint forces that give the mass points these accelerations (gravity included) against a horizontal force
-    /// at the top; for velocity jumps and no force, the impulses.
-    pub fn joint_forces(&self, posture: &Posture, rates: &Rates, top_force: f64) -> JointForces {
+    /// Impulses through the joints that make the mass points' velocities jump so.
+    pub fn impulses(&self, posture: &Posture, jump: &Rates) -> JointForces {
         let p = posture;
-        let lower = rates.g1 * self.m[0];
-        let upper = rates.g2 * self.m[1];
+        let lower = jump.g1 * self.m[0];
+        let upper = jump.g2 * self.m[1];
         // The carriage counts in x only.
-        let top = Vector::new((self.m_d + self.m_dp) * rates.c.x - top_force, self.m_d * rates.c.y);
+        let top = Vector::new((self.m_d + self.m_dp) * jump.c.x, self.m_d * jump.c.y);
         let through_crack = upper + top;
-        let about_q = p.r_2.moment_of(upper) + self.i[1] * rates.theta[1] + p.r_c.moment_of(top);
+        let about_q = p.r_2.moment_of(upper) + self.i[1] * jump.theta[1] + p.r_c.moment_of(top);
         let about_middle = about_q + p.q_from_middle.moment_of(through_crack);
         let through_ground = lower + through_crack;
         let about_o =
-            p.r_1.moment_of(lower) + self.i[0] * rates.theta[0] + about_q + p.r_q.moment_of(through_crack);
+            p.r_1.moment_of(lower) + self.i[0] * jump.theta[0] + about_q + p.r_q.moment_of(through_crack);
         let about_origin = about_o + Vector::new(p.o_x, 0.0).moment_of(through_ground);
         let in_crack = through_crack.rotated_back(p.turn_1);
         JointForces {

@@ -10,10 +10,13 @@
 //! with κ = Y_Q U_x - X_Q U_y and a_dp = a_x - X_Q ω_1² - X_C ω_2² the part of the carriage's acceleration
 //! that is known before θ''.
 
+use wide::f64x2;
+
 use super::contact::Contact;
 use super::effect::Laws;
-use super::posture::{Arms, Pair};
-use super::vector::{Vector, sin_cos};
+use super::joint::{JointForce, JointForces};
+use super::posture::{Arms, Pair, Turns};
+use super::vector::{Vector, sin_cos, sin_cos_pair};
 use super::wall::{G_M_S2, Wall};
 
 /// Which rotations a contact state leaves free.
@@ -98,10 +101,32 @@ pub(crate) struct Motion {
     inertia_1: f64,
     inertia_2: f64,
     laws: Laws,
+    /// x and y of (q, c) and of (V, U), and the moments of inertia: the same numbers side by side.
+    lanes: [f64x2; 4],
+    inertias: f64x2,
+    /// C - O and V + U at zero rotation, and the moment of inertia about O of a wall that turns as one.
+    whole_arm: Vector,
+    whole_moment: Vector,
+    whole_inertia: f64,
+    /// m_1, m_2 + m_d, and the moment of inertia of the lower body about O.
+    lower_mass: f64,
+    upper_mass: f64,
+    lower_inertia: f64,
+    /// s_2 b_2/2.
+    q_x: f64,
+}
+
+/// Joint forces and motion of the top at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Aftermath {
+    pub forces: JointForces,
+    pub top_displacement_m: f64,
+    pub top_velocity_m_s: f64,
 }
 
 /// The turned vectors that every term of the equations is made of.
 struct Turned {
+    turn_1: (f64, f64),
     r_q: Vector,
     r_c: Vector,
     v: Vector,
@@ -113,26 +138,44 @@ impl Motion {
         let arms = Arms::new(wall, contact);
         let [m1, m2] = wall.mass_kg;
         let m_d = wall.parameters().diaphragm_mass_kg;
+        let upper_mass = m2 + m_d;
+        let lower_inertia = wall.inertia_kg_m2[0] + m1 * arms.g1.dot(arms.g1);
+        let inertia_1 = lower_inertia + upper_mass * arms.q.dot(arms.q);
+        let inertia_2 = wall.inertia_kg_m2[1] + m2 * arms.g2.dot(arms.g2) + m_d * arms.c.dot(arms.c);
+        let v = arms.g1 * m1 + arms.q * upper_mass;
+        let u = arms.g2 * m2 + arms.c * m_d;
         Self {
             freedom: Freedom::of(contact),
             o_x: arms.o_x,
             e_c: wall.parameters().eccentricity_m,
             q: arms.q,
             c: arms.c,
-            v: arms.g1 * m1 + arms.q * (m2 + m_d),
-            u: arms.g2 * m2 + arms.c * m_d,
-            inertia_1: wall.inertia_kg_m2[0] + m1 * arms.g1.dot(arms.g1) + (m2 + m_d) * arms.q.dot(arms.q),
-            inertia_2: wall.inertia_kg_m2[1] + m2 * arms.g2.dot(arms.g2) + m_d * arms.c.dot(arms.c),
+            v,
+            u,
+            inertia_1,
+            inertia_2,
             laws,
+            lanes: [[arms.q.x, arms.c.x], [arms.q.y, arms.c.y], [v.x, u.x], [v.y, u.y]].map(f64x2::new),
+            inertias: f64x2::new([inertia_1, inertia_2]),
+            whole_arm: arms.q + arms.c,
+            whole_moment: v + u,
+            whole_inertia: inertia_1 + 2.0 * arms.q.dot(u) + inertia_2,
+            lower_mass: m1,
+            upper_mass,
+            lower_inertia,
+            q_x: arms.q_x,
         }
     }
 
     #[inline]
     fn turned(&self, theta: Pair) -> Turned {
-        let turn_1 = sin_cos(theta[0]);
-        // Bodies that turn together share the sine; so do their mirror images, to the bit.
-        let turn_2 = if self.freedom == Freedom::Monolithic { turn_1 } else { sin_cos(theta[1]) };
+        self.turned_by(Turns::new(theta))
+    }
+
+    #[inline]
+    fn turned_by(&self, Turns([turn_1, turn_2]): Turns) -> Turned {
         Turned {
+            turn_1,
             r_q: self.q.rotated(turn_1),
             v: self.v.rotated(turn_1),
             r_c: self.c.rotated(turn_2),
@@ -151,35 +194,107 @@ impl Motion {
     }
 
     /// Mass matrix Jᵀ M J of the two rotations at a posture, whether free or not.
-    pub fn mass_matrix(&self, theta: Pair) -> MassMatrix {
-        self.mass_matrix_of(&self.turned(theta))
+    pub fn mass_matrix(&self, turns: Turns) -> MassMatrix {
+        self.mass_matrix_of(&self.turned_by(turns))
     }
 
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     #[inline]
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
-        let t = self.turned(theta);
+        match self.freedom {
+            Freedom::None => MotionRate { theta_dd: [0.0; 2], ground_power_w: 0.0, loss_power_w: 0.0 },
+            Freedom::Monolithic => self.monolithic_rate(theta[0], omega[0], ground),
+            Freedom::Upper | Freedom::Both => self.two_body_rate(theta, omega, ground),
+        }
+    }
+
+    /// Both bodies side by side: the first lane is the lower body (r_Q, V), the second the upper (r_C, U).
+    #[inline]
+    fn two_body_rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
+        let (sin, cos) = sin_cos_pair(theta);
+        let [arm_x, arm_y, moment_x, moment_y] = self.lanes;
+        let (x, y) = (arm_x * cos + arm_y * sin, arm_y * cos - arm_x * sin);
+        let (s_x, s_y) = (moment_x * cos + moment_y * sin, moment_y * cos - moment_x * sin);
+        let ([x_q, x_c], [y_q, y_c], [u_x, u_y]) =
+            (x.to_array(), y.to_array(), [s_x.to_array()[1], s_y.to_array()[1]]);
         let m_dp = self.laws.carriage_mass_kg;
         let (a_x, a_y) = (ground.x, ground.y + G_M_S2);
-        let [w1, w2] = omega.map(|w| w * w);
-        let kappa = t.r_q.y * t.u.x - t.r_q.x * t.u.y;
-        let x_c = self.o_x + t.r_q.x + t.r_c.x - self.e_c;
-        let v_c = t.r_q.y * omega[0] + t.r_c.y * omega[1];
+        let rate = f64x2::new(omega);
+        let [w1, w2] = (rate * rate).to_array();
+        let v_c = y_q * omega[0] + y_c * omega[1];
         let damping = self.laws.damping_force_n(v_c);
-        let carriage = m_dp * (a_x - t.r_q.x * w1 - t.r_c.x * w2);
-        let top = self.laws.spring_force_n(x_c) + damping - carriage;
+        let carriage = m_dp * (a_x - x_q * w1 - x_c * w2);
+        let top = self.laws.spring_force_n(self.o_x + x_q + x_c - self.e_c) + damping - carriage;
+        let kappa = y_q * u_x - x_q * u_y;
         let joints = self.laws.joint_moments_n_m(omega);
-        let f = [
-            joints[0] + t.r_q.y * top + kappa * w2 - (t.v.y * a_x - t.v.x * a_y),
-            joints[1] + t.r_c.y * top - kappa * w1 - (t.u.y * a_x - t.u.x * a_y),
-        ];
-        let momentum_x = t.v.y * omega[0] + t.u.y * omega[1] + m_dp * v_c;
-        let momentum_y = -(t.v.x * omega[0] + t.u.x * omega[1]);
+        let f =
+            f64x2::new(joints) + y * top + f64x2::new([kappa * w2, -(kappa * w1)]) - (s_y * a_x - s_x * a_y);
+        let [m11, m22] = (self.inertias + y * y * m_dp).to_array();
+        let mass = MassMatrix { m11, m12: x_q * u_x + y_q * u_y + m_dp * y_q * y_c, m22 };
+        let momentum_x = (s_y * rate).to_array().iter().sum::<f64>() + m_dp * v_c;
+        let momentum_y = -(s_x * rate).to_array().iter().sum::<f64>();
         MotionRate {
-            theta_dd: self.mass_matrix_of(&t).solve(self.freedom, f),
+            theta_dd: mass.solve(self.freedom, f.to_array()),
             ground_power_w: -(ground.x * momentum_x + ground.y * momentum_y),
             loss_power_w: -(damping * v_c + joints[0] * omega[0] + joints[1] * omega[1]),
         }
+    }
+
+    /// The same law with θ_1 = θ_2: one arm r = r_Q + r_C and one static moment W = V + U, for pattern 3 and the
+    /// uncracked wall, where most of the time is spent.
+    #[inline]
+    fn monolithic_rate(&self, theta: f64, omega: f64, ground: Vector) -> MotionRate {
+        let turn = sin_cos(theta);
+        let r = self.whole_arm.rotated(turn);
+        let w = self.whole_moment.rotated(turn);
+        let m_dp = self.laws.carriage_mass_kg;
+        let (a_x, a_y) = (ground.x, ground.y + G_M_S2);
+        let v_c = r.y * omega;
+        let damping = self.laws.damping_force_n(v_c);
+        let carriage = m_dp * (a_x - r.x * omega * omega);
+        let top = self.laws.spring_force_n(self.o_x + r.x - self.e_c) + damping - carriage;
+        let joint = self.laws.joint_moments_n_m([omega, omega])[0];
+        let f = joint + r.y * top - (w.y * a_x - w.x * a_y);
+        let theta_dd = f / (self.whole_inertia + m_dp * r.y * r.y);
+        MotionRate {
+            theta_dd: [theta_dd, theta_dd],
+            ground_power_w: ground.y * w.x * omega - ground.x * (w.y * omega + m_dp * v_c),
+            loss_power_w: -(damping * v_c + joint * omega),
+        }
+    }
+
+    /// Joint forces and motion of the top at a state whose angular accelerations are known.
+    ///
+    /// The balance of [`super::joint`], in the static moments of this file: what a run asks for after every step.
+    #[inline]
+    pub fn aftermath(&self, theta: Pair, omega: Pair, theta_dd: Pair, ground: Vector) -> Aftermath {
+        let t = self.turned(theta);
+        let m_dp = self.laws.carriage_mass_kg;
+        let [w1, w2] = omega.map(|w| w * w);
+        let x_c = self.o_x + t.r_q.x + t.r_c.x - self.e_c;
+        let v_c = t.r_q.y * omega[0] + t.r_c.y * omega[1];
+        let top_force = self.laws.spring_force_n(x_c) + self.laws.damping_force_n(v_c);
+        let with_gravity = Vector::new(ground.x, ground.y + G_M_S2);
+        let at_q = with_gravity + t.r_q.turned() * theta_dd[0] - t.r_q * w1;
+        let carriage = at_q.x + t.r_c.y * theta_dd[1] - t.r_c.x * w2;
+        let top = Vector::new(m_dp * carriage - top_force, 0.0);
+        let through_crack = at_q * self.upper_mass + t.u.turned() * theta_dd[1] - t.u * w2 + top;
+        let about_q = t.u.moment_of(at_q) + self.inertia_2 * theta_dd[1] + t.r_c.moment_of(top);
+        let about_middle = about_q + Vector::new(self.q_x, 0.0).rotated(t.turn_1).moment_of(through_crack);
+        let w = t.v - t.r_q * self.upper_mass;
+        let lower = with_gravity * self.lower_mass + w.turned() * theta_dd[0] - w * w1;
+        let through_ground = lower + through_crack;
+        let about_o = w.moment_of(with_gravity)
+            + self.lower_inertia * theta_dd[0]
+            + about_q
+            + t.r_q.moment_of(through_crack);
+        let about_origin = about_o - self.o_x * through_ground.y;
+        let in_crack = through_crack.rotated_back(t.turn_1);
+        let forces = JointForces {
+            ground: JointForce { shear: through_ground.x, normal: through_ground.y, moment: about_origin },
+            crack: JointForce { shear: in_crack.x, normal: in_crack.y, moment: about_middle },
+        };
+        Aftermath { forces, top_displacement_m: x_c, top_velocity_m_s: v_c }
     }
 
     /// Kinetic, gravity and spring energy at a state, J; gravity is zero at rest.
@@ -191,16 +306,8 @@ impl Motion {
     }
 
     /// Kinetic energy at a state, J.
-    pub fn kinetic_energy_j(&self, theta: Pair, omega: Pair) -> f64 {
-        0.5 * self.mass_matrix(theta).quadratic(omega)
-    }
-
-    /// Horizontal force of springs and dampers on the top, N.
-    pub fn top_force_n(&self, theta: Pair, omega: Pair) -> f64 {
-        let t = self.turned(theta);
-        let v_c = t.r_q.y * omega[0] + t.r_c.y * omega[1];
-        let x_c = self.o_x + t.r_q.x + t.r_c.x - self.e_c;
-        self.laws.spring_force_n(x_c) + self.laws.damping_force_n(v_c)
+    pub fn kinetic_energy_j(&self, turns: Turns, omega: Pair) -> f64 {
+        0.5 * self.mass_matrix(turns).quadratic(omega)
     }
 
     /// Horizontal displacement s_Cx of the top, m.

@@ -56,10 +56,18 @@ pub(crate) struct Posture {
     pub turn_1: (f64, f64),
 }
 
+/// Sines and cosines of both rotations.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Turns(pub [(f64, f64); 2]);
+
+impl Turns {
+    pub fn new(theta: Pair) -> Self {
+        Self(theta.map(sin_cos))
+    }
+}
+
 impl Posture {
-    pub fn new(arms: &Arms, theta: Pair) -> Self {
-        let turn_1 = sin_cos(theta[0]);
-        let turn_2 = sin_cos(theta[1]);
+    pub fn new(arms: &Arms, Turns([turn_1, turn_2]): Turns) -> Self {
         Self {
             o_x: arms.o_x,
             r_1: arms.g1.rotated(turn_1),
@@ -71,12 +79,7 @@ impl Posture {
         }
     }
 
-    /// Horizontal position of C, m.
-    pub fn c_x(&self) -> f64 {
-        self.o_x + self.r_q.x + self.r_c.x
-    }
-
-    /// Velocities (or other first-order rates) J θ' of the mass points.
+    /// Velocities J θ' of the mass points.
     pub fn rates(&self, omega: Pair) -> Rates {
         let q = self.r_q.turned() * omega[0];
         Rates {
@@ -86,22 +89,9 @@ impl Posture {
             theta: omega,
         }
     }
-
-    /// Accelerations J θ'' + centripetal + ground of the mass points.
-    pub fn accelerations(&self, omega: Pair, theta_dd: Pair, ground: Vector) -> Rates {
-        let [w1, w2] = omega.map(|w| w * w);
-        let tangential = self.rates(theta_dd);
-        let q = ground - self.r_q * w1;
-        Rates {
-            g1: tangential.g1 + ground - self.r_1 * w1,
-            g2: tangential.g2 + q - self.r_2 * w2,
-            c: tangential.c + q - self.r_c * w2,
-            theta: theta_dd,
-        }
-    }
 }
 
-/// Velocities, velocity jumps or accelerations of the mass points: (x1, y1, θ1, x2, y2, θ2, xC, yC) of model section 3.
+/// Velocities of the mass points, or their jumps: (x1, y1, θ1, x2, y2, θ2, xC, yC) of model section 3.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rates {
     pub g1: Vector,

@@ -5,7 +5,7 @@ use super::contact::{Contact, Joint, Pivot, Touching};
 use super::effect::Laws;
 use super::joint::{JointForces, Masses};
 use super::motion::{Motion, MotionRate};
-use super::posture::{Arms, Pair, Posture};
+use super::posture::{Arms, Pair, Posture, Turns};
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 
@@ -65,8 +65,8 @@ impl RockingWall {
         &self.motions[contact.index()]
     }
 
-    pub(super) fn posture(&self, contact: Contact, theta: Pair) -> Posture {
-        Posture::new(&self.arms[contact.index()], theta)
+    pub(super) fn posture(&self, contact: Contact, turns: Turns) -> Posture {
+        Posture::new(&self.arms[contact.index()], turns)
     }
 
     /// Angular accelerations and powers in a contact state under a ground acceleration in m/s².
@@ -98,7 +98,7 @@ impl RockingWall {
         // An eccentric top makes the two sides differ; the heavier one, so that a mirror changes nothing.
         let about = |ground: Pivot| {
             let motion = self.motion(Contact { ground, crack: Pivot::Closed });
-            motion.mass_matrix([0.0; 2]).quadratic([1.0, 1.0])
+            motion.mass_matrix(Turns::new([0.0; 2])).quadratic([1.0, 1.0])
         };
         let mass = about(Pivot::Right).max(about(Pivot::Left));
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
@@ -114,11 +114,7 @@ impl RockingWall {
         theta_dd: Pair,
         ground: Vector,
     ) -> JointForces {
-        let posture = self.posture(contact, state.theta);
-        let with_gravity = Vector::new(ground.x, ground.y + G_M_S2);
-        let accelerations = posture.accelerations(state.omega, theta_dd, with_gravity);
-        let top_force = self.motion(contact).top_force_n(state.theta, state.omega);
-        self.masses.joint_forces(&posture, &accelerations, top_force)
+        self.motion(contact).aftermath(state.theta, state.omega, theta_dd, ground).forces
     }
 
     /// Smallest corner force of the closed joints, over the weight of the wall; none where all joints are open.

@@ -1,6 +1,9 @@
 //! Plane vectors and the clockwise rotation of the model.
 
+use std::f64::consts::FRAC_PI_4;
 use std::ops::{Add, Mul, Sub};
+
+use wide::f64x2;
 
 /// A vector in the plane: x out of the wall, y up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -71,26 +74,50 @@ impl Mul<f64> for Vector {
     }
 }
 
-/// Sine and cosine; within ±π/4, where walls live, by the polynomials of fdlibm's `__kernel_sin` and `__kernel_cos`
-/// (error below one unit in the last place), because the library's argument reduction costs more than the motion.
+/// Coefficients of fdlibm's `__kernel_sin` and `__kernel_cos`, for powers of θ² from the third and fourth power of θ on.
+const SIN: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+const COS: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
+/// Sine and cosine; within ±π/4, where walls live, by the polynomials of fdlibm (error below one unit in the last
+/// place), because the library's argument reduction costs more than the motion.
 #[inline]
 pub(crate) fn sin_cos(theta: f64) -> (f64, f64) {
-    if theta.abs() > std::f64::consts::FRAC_PI_4 {
+    if theta.abs() > FRAC_PI_4 {
         return theta.sin_cos();
     }
     let z = theta * theta;
-    let s = 8.333_333_333_322_49e-3
-        + z * (-1.984_126_982_985_795e-4
-            + z * (2.755_731_370_707_006_8e-6
-                + z * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10)));
-    let sin = theta + theta * z * (-1.666_666_666_666_663_2e-1 + z * s);
-    let c = 4.166_666_666_666_66e-2
-        + z * (-1.388_888_888_887_411e-3
-            + z * (2.480_158_728_947_673e-5
-                + z * (-2.755_731_435_139_066_3e-7
-                    + z * (2.087_572_321_298_175e-9 + z * -1.135_964_755_778_819_5e-11))));
-    let cos = 1.0 - (0.5 * z - z * z * c);
-    (sin, cos)
+    let zz = z * z;
+    // Estrin's order: pairs side by side, because each sum would otherwise wait for the one before.
+    let sum = |c: &[f64; 6]| (c[0] + z * c[1]) + zz * ((c[2] + z * c[3]) + zz * (c[4] + z * c[5]));
+    (theta + theta * z * sum(&SIN), 1.0 - (0.5 * z - zz * sum(&COS)))
+}
+
+/// [`sin_cos`] of two angles side by side, to the same bits.
+#[inline]
+pub(crate) fn sin_cos_pair(theta: [f64; 2]) -> (f64x2, f64x2) {
+    if theta[0].abs() > FRAC_PI_4 || theta[1].abs() > FRAC_PI_4 {
+        let [(s0, c0), (s1, c1)] = theta.map(sin_cos);
+        return (f64x2::new([s0, s1]), f64x2::new([c0, c1]));
+    }
+    let theta = f64x2::new(theta);
+    let z = theta * theta;
+    let zz = z * z;
+    let sum = |c: &[f64; 6]| (z * c[1] + c[0]) + zz * ((z * c[3] + c[2]) + zz * (z * c[5] + c[4]));
+    (theta + theta * z * sum(&SIN), f64x2::ONE - (z * 0.5 - zz * sum(&COS)))
 }
 
 #[cfg(test)]
@@ -105,6 +132,8 @@ mod tests {
             // One unit in the last place of a number near one.
             assert!((sin - theta.sin()).abs() <= f64::EPSILON, "sin {theta}");
             assert!((cos - theta.cos()).abs() <= f64::EPSILON, "cos {theta}");
+            let (sines, cosines) = sin_cos_pair([theta, -theta]);
+            assert_eq!((sines.to_array(), cosines.to_array()), ([sin, -sin], [cos, cos]), "pair at {theta}");
         }
     }
 }

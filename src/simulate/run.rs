@@ -8,7 +8,7 @@ use super::rest::RestLimits;
 use super::tally::Tally;
 use super::{Accuracy, Shaking};
 use crate::model::{
-    Contact, Joint, MechanicsError, Pair, RockingWall, State, Touching, Vector, Wall, opening,
+    Aftermath, Contact, Joint, MechanicsError, Pair, RockingWall, State, Touching, Vector, Wall, opening,
 };
 use crate::solver::{Controller, DormandPrince, ErrorScale, Point, Quintic, Rate, STAGES, Step};
 
@@ -20,6 +20,12 @@ const STEP_SHARE: f64 = 1e-3;
 /// An opening is placed this share of a sample step after the instant its corner force vanishes, so that the joint
 /// does accelerate apart; it moves nothing by more than roundings.
 const AFTER_OPENING: f64 = 1e-9;
+
+/// A share of a sample step so short that a parabola is exact over it: its cube times any jerk of a wall is below
+/// roundings. A share and no time, so that a wall four times as large moves the same to the bit.
+const SHORT: f64 = 2e-7;
+/// Newton corrections of an event's time; one suffices but for grazing impacts.
+const MOST_CORRECTIONS: u32 = 4;
 
 /// Events without progress, one after another, that count as a defect: the longest burst of impacts, that of a wall sixty
 /// times as high as thick with a capture velocity of zero, takes some ten thousand to come to rest.
@@ -41,6 +47,8 @@ pub(super) struct Run<'a, O> {
     quadrature_rate: Pair,
     /// Smallest corner force of the closed joints now.
     corner_force: Option<f64>,
+    /// Velocity of the top now, m/s.
+    top_velocity_m_s: f64,
     stalled: u32,
 }
 
@@ -60,12 +68,13 @@ impl<'a, O: Observer> Run<'a, O> {
             rest: RestLimits::new(&rocking),
             collapse_rad: wall.collapse_rotation_rad(),
             controller,
-            tally: Tally::default(),
+            tally: Tally::new(rocking.joints().count()),
             observer,
             contact: Contact::REST,
             now: Point { position: wall.parameters().initial_rotation_rad, ..Point::default() },
             quadrature_rate: [0.0; 2],
             corner_force: None,
+            top_velocity_m_s: 0.0,
             stalled: 0,
             wall: rocking,
             ground,
@@ -110,13 +119,10 @@ impl<'a, O: Observer> Run<'a, O> {
         self.tally.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
-        self.corner_force = self.corner_force_now(ground);
+        let after = self.aftermath(&self.now, ground);
+        self.corner_force = self.wall.smallest_corner_force(settled, &after.forces);
+        self.top_velocity_m_s = after.top_velocity_m_s;
         Ok(())
-    }
-
-    fn corner_force_now(&self, ground: Vector) -> Option<f64> {
-        let forces = self.wall.joint_forces(self.contact, &self.state(), self.now.acceleration, ground);
-        self.wall.smallest_corner_force(self.contact, &forces)
     }
 
     fn all_pieces(&mut self) -> Result<(), Stop> {
@@ -130,24 +136,50 @@ impl<'a, O: Observer> Run<'a, O> {
                 };
             }
             k += 1;
+            if self.contact == Contact::REST {
+                k = self.stand_through(k);
+            }
         }
         Ok(())
+    }
+
+    /// Stands through all pieces from the `k`-th on at whose ends no corner has lifted; gives the first that is left.
+    fn stand_through(&mut self, k: usize) -> usize {
+        let mut friction = 0.0_f64;
+        let next = self.ground.first_end_against(k, |ground| {
+            let holds = self.rest.holds(ground);
+            if holds {
+                friction = friction.max(self.rest.friction(ground));
+            }
+            holds
+        });
+        // The piece that ends the run may be cut short: it is left to be stood piece by piece.
+        let next = next.min(self.ground.whole_pieces());
+        if next <= k {
+            return k;
+        }
+        self.stood(self.ground.start_s(k), self.ground.start_s(next), friction);
+        next
     }
 
     /// Stands until a corner lifts or the piece ends; gives the offset reached.
     fn stand(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
         let lift_off = self.rest.lift_off_s(piece, from_s);
         let to_s = lift_off.map_or(piece.length_s, |s| self.after_opening(s, piece));
-        self.tally.pattern_time_s[Contact::REST.index()] += to_s - from_s;
         let friction = self.rest.friction(piece.at(from_s)).max(self.rest.friction(piece.at(to_s)));
-        for (demand, factor) in self.tally.demand.iter_mut().zip(self.rest.friction_factors()) {
-            demand.friction = demand.friction.max(friction * factor);
-        }
-        self.observer.stood(piece.start_s + from_s, piece.start_s + to_s);
+        self.stood(piece.start_s + from_s, piece.start_s + to_s, friction);
         if lift_off.is_some() {
             self.enter(Contact::REST, piece.at(to_s), piece.start_s + to_s)?;
         }
         Ok(to_s)
+    }
+
+    fn stood(&mut self, from_s: f64, to_s: f64, friction: f64) {
+        self.tally.pattern_time_s[Contact::REST.index()] += to_s - from_s;
+        for (demand, factor) in self.tally.demand.iter_mut().zip(self.rest.friction_factors()) {
+            demand.friction = demand.friction.max(friction * factor);
+        }
+        self.observer.stood(from_s, to_s);
     }
 
     fn after_opening(&self, offset_s: f64, piece: &Piece) -> f64 {
@@ -159,17 +191,15 @@ impl<'a, O: Observer> Run<'a, O> {
         let remaining_s = piece.length_s - from_s;
         let step = self.accepted_step(piece, from_s, remaining_s);
         let motion = Quintic::new(&step.start, &step.end, step.h);
-        let ground_end = piece.at(from_s + step.h);
-        let end_force = self.forces_at_end(&step, ground_end);
+        let after = self.aftermath(&step.end, piece.at(from_s + step.h));
+        let end_force = self.wall.smallest_corner_force(self.contact, &after.forces);
         let force_at =
             |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
-        let forces = (self.corner_force, end_force.1);
-        let event = first_event(self.contact, &motion, self.collapse_rad, forces, force_at);
-        match event {
+        let corner_force = (self.corner_force, end_force);
+        match first_event(self.contact, &motion, self.collapse_rad, corner_force, force_at) {
             None => {
-                self.tally.forces(&end_force.0, self.wall.wall().is_cracked());
-                self.corner_force = end_force.1;
-                self.keep(piece.start_s + from_s, &step, &motion);
+                self.corner_force = end_force;
+                self.keep(piece.start_s + from_s, &step, &motion, &after);
                 self.stalled = 0;
                 // The end of a piece is reached exactly, not up to a rounding.
                 Ok(if step.h == remaining_s { piece.length_s } else { from_s + step.h })
@@ -178,10 +208,8 @@ impl<'a, O: Observer> Run<'a, O> {
         }
     }
 
-    fn forces_at_end(&self, step: &Step, ground: Vector) -> (crate::model::JointForces, Option<f64>) {
-        let state = State { theta: step.end.position, omega: step.end.velocity };
-        let forces = self.wall.joint_forces(self.contact, &state, step.end.acceleration, ground);
-        (forces, self.wall.smallest_corner_force(self.contact, &forces))
+    fn aftermath(&self, point: &Point, ground: Vector) -> Aftermath {
+        self.wall.motion(self.contact).aftermath(point.position, point.velocity, point.acceleration, ground)
     }
 
     fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
@@ -211,25 +239,28 @@ impl<'a, O: Observer> Run<'a, O> {
     }
 
     /// Makes the end of a step the present.
-    fn keep(&mut self, start_s: f64, step: &Step, motion: &Quintic) {
+    fn keep(&mut self, start_s: f64, step: &Step, motion: &Quintic, after: &Aftermath) {
         self.tally.work.steps += 1;
         self.tally.pattern_time_s[self.contact.index()] += step.h;
         self.tally.rotations(start_s, motion);
-        self.top_displacement(start_s, motion);
+        self.top_displacement(start_s, motion, after);
+        self.tally.forces(&after.forces);
         self.tally.energy(step.quadrature);
         self.observer.moved(start_s, self.contact, motion);
         self.now = step.end;
         self.quadrature_rate = step.end_quadrature_rate;
     }
 
-    /// Raises the largest top displacement, between the ends of the step too where it turns inside.
-    fn top_displacement(&mut self, start_s: f64, motion: &Quintic) {
-        let at = |share: f64| self.wall.top_displacement_m(self.contact, motion.position(share));
-        let (middle, end) = (at(0.5), at(1.0));
-        self.tally.top(end, start_s + motion.h());
-        if middle.abs() > self.tally.top_max.value.abs() {
-            let share = turning_share(at(0.0), middle, end);
-            self.tally.top(at(share), start_s + share * motion.h());
+    /// Raises the largest top displacement, between the ends of the step too where the top turns back inside.
+    fn top_displacement(&mut self, start_s: f64, motion: &Quintic, after: &Aftermath) {
+        self.tally.top(after.top_displacement_m, start_s + motion.h());
+        let (before, now) = (self.top_velocity_m_s, after.top_velocity_m_s);
+        self.top_velocity_m_s = now;
+        if before * now < 0.0 {
+            // The velocity is all but linear over the little that is left of a swing.
+            let share = before / (before - now);
+            let x_c = self.wall.top_displacement_m(self.contact, motion.position(share));
+            self.tally.top(x_c, start_s + share * motion.h());
         }
     }
 
@@ -253,9 +284,8 @@ impl<'a, O: Observer> Run<'a, O> {
         let to_s = from_s + step.h;
         let (start_s, time_s) = (piece.start_s + from_s, piece.start_s + to_s);
         self.progress(step.h, time_s)?;
-        let forces = self.forces_at_end(&step, piece.at(to_s));
-        self.tally.forces(&forces.0, self.wall.wall().is_cracked());
-        self.keep(start_s, &step, &Quintic::new(&step.start, &step.end, step.h));
+        let after = self.aftermath(&step.end, piece.at(to_s));
+        self.keep(start_s, &step, &Quintic::new(&step.start, &step.end, step.h), &after);
         match event {
             Event::Collapses => return Err(Stop::Collapsed { time_s }),
             Event::Opens => self.enter(self.contact, piece.at(to_s), time_s)?,
@@ -265,7 +295,10 @@ impl<'a, O: Observer> Run<'a, O> {
     }
 
     /// Moves the end of a step onto the zero of a gap: the quintic that found it is only as accurate as the step.
-    /// Not beyond the step that was searched: behind it may lie the end of the piece.
+    ///
+    /// To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow, and what is
+    /// small beside the wall's rotation is not small beside it. Not beyond the step that was searched: behind it may lie
+    /// the end of the piece.
     fn onto_contact(
         &mut self,
         piece: &Piece,
@@ -274,17 +307,20 @@ impl<'a, O: Observer> Run<'a, O> {
         most_s: f64,
         gap: fn(Pair) -> f64,
     ) -> Step {
-        // To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow,
-        // and what is small beside the wall's rotation is not small beside it.
-        let close_enough = f64::EPSILON * self.wall.wall().alpha_rad();
-        for _ in 0..4 {
-            let (distance, speed) = (gap(step.end.position), gap(step.end.velocity));
-            let h = (step.h - distance / speed).min(most_s);
-            if distance.abs() <= close_enough || !(h > 0.0 && h < 2.0 * step.h) {
+        let short_s = SHORT * self.ground.step_s();
+        for _ in 0..MOST_CORRECTIONS {
+            let late_s = gap(step.end.position) / gap(step.end.velocity);
+            if late_s.abs() <= short_s {
+                step.end = step.end.after(-late_s);
+                step.h -= late_s;
+                break;
+            }
+            let h = (step.h - late_s).min(most_s);
+            if !(h > 0.0 && h < 2.0 * step.h) {
                 break;
             }
             let nearer = self.step(piece, from_s, h);
-            if gap(nearer.end.position).abs() >= distance.abs() {
+            if gap(nearer.end.position).abs() >= gap(step.end.position).abs() {
                 break;
             }
             step = nearer;
@@ -344,7 +380,8 @@ impl<'a, O: Observer> Run<'a, O> {
         };
         self.tally.energy.final_j = self.wall.energy_j(self.contact, &self.state());
         // A wall that falls from rest by its own weight turns one energy into another, with no work from outside.
-        let kinetic_j = self.wall.motion(self.contact).kinetic_energy_j(self.now.position, self.now.velocity);
+        let halted = State { omega: [0.0; 2], ..self.state() };
+        let kinetic_j = self.tally.energy.final_j - self.wall.energy_j(self.contact, &halted);
         let passed_j = &mut self.tally.energy.passed_through_j;
         *passed_j = passed_j.max(kinetic_j);
         self.observer.ended(end_time_s, self.contact, self.now.position);
@@ -371,11 +408,4 @@ impl<'a, O: Observer> Run<'a, O> {
 
 fn failed(time_s: f64, error: &MechanicsError) -> Stop {
     Stop::Failed { time_s, reason: error.to_string() }
-}
-
-/// Share at which the parabola through three values at 0, ½ and 1 turns.
-fn turning_share(start: f64, middle: f64, end: f64) -> f64 {
-    let curvature = start - 2.0 * middle + end;
-    let share = 0.5 - 0.25 * (end - start) / curvature;
-    if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.5 }
 }

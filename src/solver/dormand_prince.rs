@@ -63,41 +63,46 @@ impl DormandPrince {
         h: f64,
         mut rate: impl FnMut(f64, [f64; 2], [f64; 2]) -> Rate,
     ) -> Step {
-        let mut velocities = [[0.0; 2]; 7];
+        let mut v = [start.velocity; 7];
         let mut rates = [Rate::default(); 7];
-        velocities[0] = start.velocity;
         rates[0] = Rate { acceleration: start.acceleration, quadrature: start_quadrature_rate };
-        let mut position = start.position;
-        let mut quadrature = [0.0; 2];
-        for stage in 1..7 {
-            let row = &A[stage];
-            let mut velocity = [0.0; 2];
-            for i in 0..2 {
-                let (mut dx, mut dv) = (0.0, 0.0);
-                for j in 0..stage {
-                    dx += row[j] * velocities[j][i];
-                    dv += row[j] * rates[j].acceleration[i];
-                }
-                position[i] = start.position[i] + h * dx;
-                velocity[i] = start.velocity[i] + h * dv;
-            }
-            velocities[stage] = velocity;
-            rates[stage] = rate(C[stage] * h, position, velocity);
+        let mut position;
+        // Each stage has its own number of terms; written out so that the sums unroll.
+        macro_rules! stage {
+            ($n:literal) => {
+                position = moved::<$n>(start.position, h, &A[$n], |j| v[j]);
+                v[$n] = moved::<$n>(start.velocity, h, &A[$n], |j| rates[j].acceleration);
+                rates[$n] = rate(C[$n] * h, position, v[$n]);
+            };
         }
-        for i in 0..2 {
-            quadrature[i] = h * (0..6).map(|j| A[6][j] * rates[j].quadrature[i]).sum::<f64>();
-        }
-        let error = |of: &dyn Fn(usize) -> f64| h * (0..7).map(|j| E[j] * of(j)).sum::<f64>();
+        stage!(1);
+        stage!(2);
+        stage!(3);
+        stage!(4);
+        stage!(5);
+        stage!(6);
+        let quadrature = moved::<6>([0.0; 2], h, &A[6], |j| rates[j].quadrature);
         Step {
             h,
             start,
-            end: Point { position, velocity: velocities[6], acceleration: rates[6].acceleration },
+            end: Point { position, velocity: v[6], acceleration: rates[6].acceleration },
             quadrature,
             end_quadrature_rate: rates[6].quadrature,
-            position_error: [0, 1].map(|i| error(&|j| velocities[j][i])),
-            velocity_error: [0, 1].map(|i| error(&|j| rates[j].acceleration[i])),
+            position_error: moved::<7>([0.0; 2], h, &E, |j| v[j]),
+            velocity_error: moved::<7>([0.0; 2], h, &E, |j| rates[j].acceleration),
         }
     }
+}
+
+/// x + h Σ w_j r_j over the first `N` rates.
+#[inline(always)]
+fn moved<const N: usize>(x: [f64; 2], h: f64, weights: &[f64], rate: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for (j, weight) in weights.iter().enumerate().take(N) {
+        let r = rate(j);
+        sum = [sum[0] + weight * r[0], sum[1] + weight * r[1]];
+    }
+    [x[0] + h * sum[0], x[1] + h * sum[1]]
 }
 
 #[cfg(test)]

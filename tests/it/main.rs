@@ -3,12 +3,24 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod cli_simulate;
 mod convergence;
 mod energy;
+mod ground_formats;
+mod ground_generated;
+mod ground_intensity;
+mod ground_mutations;
+mod ground_samples;
+mod ground_suite;
 mod impacts;
 mod limits;
 mod matrix_form;
 mod matrix_model;
+mod pipeline_batch;
+mod pipeline_cli;
+mod pipeline_findings;
+mod pipeline_plan;
+mod pipeline_support;
 mod published;
 mod shared;
 mod symmetry;

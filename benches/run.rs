@@ -1,0 +1,96 @@
+//! Time of one run, beside the work it did: `make bench`.
+//!
+//! The baseline in the same run is the arithmetic itself: as many evaluations of the equations of motion as the run
+//! makes, without events, error control or accounts.
+
+use std::hint::black_box;
+
+use divan::{Bencher, counter::ItemsCount};
+use mrbd::ground::Accelerogram;
+use mrbd::model::{Contact, ImpactLaw, Pivot, Restitution, RockingWall, State, Vector, Wall, WallParameters};
+use mrbd::simulate::{Accuracy, Shaking, simulate};
+
+fn main() {
+    for (name, wall) in walls() {
+        let response = simulate(&wall, &shaking(), Accuracy::default());
+        let [lower, upper] = response.theta_max_over_alpha_i();
+        eprintln!(
+            "{name}: {:?}, θ/α {lower:.4} {upper:.4}, {} impacts, {} openings, {} steps, {} tried again, {} evaluations",
+            response.outcome,
+            response.impacts.total(),
+            response.openings.total(),
+            response.work.steps,
+            response.work.rejected_steps,
+            response.work.evaluations
+        );
+    }
+    divan::main();
+}
+
+/// The calibrated wall of the shaking-table tests (Tables 1 and 2 of the paper).
+fn table_wall(law: ImpactLaw, capture_velocity_rad_s: f64) -> Wall {
+    let coefficients = [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94];
+    let parameters = WallParameters {
+        thickness_m: 0.291,
+        height_m: 3.984,
+        crack_height_m: Some(2.191),
+        length_m: 1.5,
+        mass_kg: 3614.0,
+        lower_width_m: 0.271,
+        upper_width_m: 0.281,
+        diaphragm_mass_kg: 179.0,
+        carriage_mass_kg: 663.0,
+        stiffness_n_per_m: 37_000.0,
+        eccentricity_m: 0.0,
+        restitution: Restitution { coefficients, law, capture_velocity_rad_s },
+        collapse_rotation_ratio: 2.0,
+        initial_rotation_rad: [0.0, 0.0],
+        effects: Vec::new(),
+    };
+    Wall::new(parameters).expect("the table wall")
+}
+
+fn walls() -> Vec<(&'static str, Wall)> {
+    vec![
+        ("table wall, whole, capture 1e-3", table_wall(ImpactLaw::Whole, 1e-3)),
+        ("table wall, whole, capture 1e-6", table_wall(ImpactLaw::Whole, 1e-6)),
+        ("table wall, contact, capture 1e-3", table_wall(ImpactLaw::Contact, 1e-3)),
+    ]
+}
+
+/// Thirty seconds at 0.005 s: ten sines under an envelope that keeps the wall rocking from the first second to the last.
+fn shaking() -> Shaking {
+    let step_s = 0.005;
+    let samples = (0..6000).map(|k| {
+        let t = f64::from(k) * step_s;
+        let envelope = (t / 2.0).min(1.0) * ((30.0 - t) / 5.0).min(1.0);
+        let waves: f64 =
+            (1..=10).map(|n| (6.1 * f64::from(n * n).sqrt() * t / 1.7 + f64::from(n * n)).sin()).sum();
+        0.42 * envelope * waves
+    });
+    let horizontal = Accelerogram::new(step_s, samples.collect()).expect("a valid record");
+    Shaking { horizontal: Some(horizontal), vertical: None, tail_s: 0.0 }
+}
+
+#[divan::bench(args = [0, 1, 2])]
+fn table_wall_thirty_seconds(bencher: Bencher, which: usize) {
+    let (_, wall) = walls().swap_remove(which);
+    let shaking = shaking();
+    bencher.bench_local(|| simulate(black_box(&wall), black_box(&shaking), Accuracy::default()));
+}
+
+/// Thirty-six thousand evaluations of the two-body motion: six a sample over thirty seconds.
+#[divan::bench]
+fn baseline_arithmetic(bencher: Bencher) {
+    let wall = RockingWall::new(&table_wall(ImpactLaw::Whole, 1e-3));
+    let contact = Contact { ground: Pivot::Right, crack: Pivot::Left };
+    let evaluations = 36_000_u32;
+    bencher.counter(ItemsCount::new(evaluations)).bench_local(|| {
+        let mut state = State { theta: [0.01, -0.01], omega: [0.1, 0.1] };
+        for _ in 0..evaluations {
+            let rate = wall.rate(contact, black_box(&state), Vector { x: 1.0, y: 0.0 });
+            state.theta[0] = 0.01 + 1e-12 * rate.theta_dd[0];
+        }
+        state
+    });
+}

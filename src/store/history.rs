@@ -1,0 +1,97 @@
+//! Histories of single runs, as CSV or Parquet by the file's extension.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use arrow::array::{ArrayRef, Float64Array, RecordBatch, StringArray};
+use parquet::arrow::ArrowWriter;
+use tempfile::NamedTempFile;
+
+use crate::error::{Error, InputError, Result};
+use crate::simulate::History;
+
+/// A place for a history, opened before the run so that a path that cannot be written is found first.
+#[derive(Debug)]
+pub struct HistoryWriter {
+    path: PathBuf,
+    file: NamedTempFile,
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Format {
+    Csv,
+    Parquet,
+}
+
+/// Opens a history file to be.
+///
+/// # Errors
+/// An extension other than .csv and .parquet; a folder that cannot be written.
+pub fn write_history(path: &Path) -> Result<HistoryWriter> {
+    let format = match path.extension().and_then(|e| e.to_str()) {
+        Some("csv") => Format::Csv,
+        Some("parquet") => Format::Parquet,
+        other => {
+            let found = format!("extension {:?}", other.unwrap_or(""));
+            return Err(InputError::key(path, "--history", found, ".csv or .parquet").into());
+        }
+    };
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let file = NamedTempFile::new_in(folder).map_err(|e| {
+        InputError::key(path, "--history", e.to_string(), "a file in a folder that can be written")
+    })?;
+    Ok(HistoryWriter { path: path.to_path_buf(), file, format })
+}
+
+impl HistoryWriter {
+    /// Writes the rows; the file appears whole.
+    ///
+    /// # Errors
+    /// What the file system says.
+    pub fn finish(self, history: &History) -> Result<()> {
+        let Self { path, file, format } = self;
+        match format {
+            Format::Csv => write_csv(file.as_file(), history).map_err(|e| Error::table(&path, e))?,
+            Format::Parquet => write_parquet(file.as_file(), history).map_err(|e| Error::table(&path, e))?,
+        }
+        file.as_file().sync_all().map_err(|e| Error::io("write the history", &path, e))?;
+        file.persist(&path).map_err(|e| Error::io("write the history", &path, e.error))?;
+        Ok(())
+    }
+}
+
+/// Times without the roundings of a product: to the nanosecond.
+fn tidy_s(time_s: f64) -> f64 {
+    (time_s * 1e9).round() / 1e9
+}
+
+fn write_csv(file: &File, history: &History) -> Result<(), csv::Error> {
+    let mut writer = csv::Writer::from_writer(file);
+    writer.write_record(["time_s", "theta1_rad", "theta2_rad", "pattern"])?;
+    for row in &history.rows {
+        let [theta1, theta2] = row.theta_rad;
+        writer.serialize((tidy_s(row.time_s), theta1, theta2, row.contact.name()))?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+fn write_parquet(file: &File, history: &History) -> Result<(), parquet::errors::ParquetError> {
+    let rows = &history.rows;
+    let column = |of: &dyn Fn(usize) -> f64| -> ArrayRef {
+        Arc::new(Float64Array::from_iter_values((0..rows.len()).map(of)))
+    };
+    let pattern = StringArray::from_iter_values(rows.iter().map(|row| row.contact.name()));
+    let batch = RecordBatch::try_from_iter([
+        ("time_s", column(&|i| tidy_s(rows[i].time_s))),
+        ("theta1_rad", column(&|i| rows[i].theta_rad[0])),
+        ("theta2_rad", column(&|i| rows[i].theta_rad[1])),
+        ("pattern", Arc::new(pattern) as ArrayRef),
+    ])?;
+    let mut writer = ArrowWriter::try_new(file, batch.schema(), None)?;
+    writer.write(&batch)?;
+    writer.close()?;
+    Ok(())
+}
