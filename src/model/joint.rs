@@ -83,11 +83,10 @@ impl Masses {
         }
     }
 
-    /// Mass of everything times the largest velocity of a mass point: what momenta cannot exceed.
-    pub fn largest_momentum(&self, v: &Rates) -> f64 {
-        let points = [v.g1, v.g2, v.c].map(|point| point.x.abs() + point.y.abs());
-        let fastest = points.into_iter().fold(0.0, f64::max);
-        (self.m[0] + self.m[1] + self.m_d + self.m_dp) * fastest
+    /// Sum of the masses times the magnitudes of their velocities, N s.
+    pub fn momentum_size(&self, v: &Rates) -> f64 {
+        let speed = |v: Vector| v.x.abs() + v.y.abs();
+        self.m[0] * speed(v.g1) + self.m[1] * speed(v.g2) + (self.m_d + self.m_dp) * speed(v.c)
     }
 
     /// Generalised momenta Jᵀ M v of a state with this posture for velocities of the mass points that came from another.

@@ -6,6 +6,7 @@
 mod cli_simulate;
 mod convergence;
 mod energy;
+mod grazing_contact;
 mod ground_formats;
 mod ground_generated;
 mod ground_intensity;
