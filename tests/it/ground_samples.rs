@@ -17,6 +17,7 @@ pub fn small_files() -> Vec<(Format, String)> {
         (Format::Peer, peer("   7    0.0050    NPTS, DT")),
         (Format::Dyna, dyna()),
         (Format::GeoNet, geonet()),
+        (Format::GeoNet, geonet_raw()),
         (Format::Cosmos, cosmos()),
         (Format::Csmip, csmip()),
         (Format::Knet, knet()),
@@ -66,6 +67,18 @@ fn geonet() -> String {
         text += &(row.concat() + "\n");
     }
     text + &rows(10, |a| format!("{a:8.2}")).repeat(3)
+}
+
+/// Volume 1: acceleration alone, and another wording.
+fn geonet_raw() -> String {
+    let text = geonet().replace("Corrected accel", "Uncorrected accel");
+    let text = text
+        .replace("Instrument corrected data at 0.005 sec intervals", "Raw readings at intervals of 0.005 s");
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    lines.truncate(27);
+    lines[19] = format!("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 7, 0, 0, 7, 0, 0, 0, 0, 0, 0);
+    lines[20].replace_range(7 * 8..8 * 8, "   1.000");
+    lines.join("\n")
 }
 
 fn cosmos() -> String {
