@@ -13,7 +13,7 @@ ifeq ($(CHOSEN_SUITE),)
 	@echo "(a suite lists records with file, step, unit and scale; see inputs/records/README.md)" >&2
 	@exit 2
 else
-	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep
+	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep --force
 endif
 
 test: ## all tests

@@ -30,6 +30,14 @@ pub enum Error {
         /// What the library said.
         message: String,
     },
+    /// A run of a checked plan turned out impossible; this is a defect of the program to report.
+    #[error("run {position} of the plan: {message}")]
+    Plan {
+        /// Position in the plan, from 0.
+        position: u64,
+        /// Why it cannot be run.
+        message: String,
+    },
     /// A run could not be finished; this is a defect of the program to report.
     #[error("the run failed at {time_s} s: {reason}")]
     Run {

@@ -2,10 +2,11 @@
 //!
 //! stdout is for data, stderr for people.
 
+mod aggregate;
+mod output;
 mod records;
+mod run;
 mod simulate;
-
-use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
@@ -21,6 +22,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Run(run::RunCommand),
+    Aggregate(aggregate::AggregateCommand),
     Records(records::RecordsArgs),
     Simulate(simulate::SimulateArgs),
 }
@@ -32,22 +35,10 @@ impl Cli {
     /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
     pub fn execute(self) -> Result<()> {
         match self.command {
+            Command::Run(command) => command.execute(),
+            Command::Aggregate(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }
-    }
-}
-
-/// Prints data to stdout; a reader that closes the pipe early has seen enough.
-///
-/// # Errors
-/// What the system says, other than that the pipe is closed.
-fn print(text: &str) -> Result<()> {
-    let mut stdout = std::io::stdout().lock();
-    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(crate::Error::io("print", std::path::Path::new("stdout"), e))
-        }
-        _ => Ok(()),
     }
 }

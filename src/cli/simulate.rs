@@ -72,9 +72,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     let shaking = shaking(args)?;
     let accuracy = accuracy(args.tolerance)?;
     check_moves(&wall, args)?;
-    let step_s =
-        shaking.horizontal.as_ref().map_or(crate::simulate::FREE_RELEASE_STEP_S, Accelerogram::step_s);
-    let mut history = History::new(step_s);
+    let mut history = History::new(history_step_s(args, &shaking)?);
     let response = match &args.history {
         Some(path) => {
             let writer = write_history(path)?;
@@ -84,7 +82,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
         }
         None => crate::simulate::simulate(&wall, &shaking, accuracy),
     };
-    super::print(&if args.json {
+    super::output::print(&if args.json {
         format!("{:#}", as_json(&wall, &response))
     } else {
         summary(&wall, &response)

@@ -1,5 +1,9 @@
 //! Files the user writes: read, checked at the door, turned into values that are valid.
 
+pub mod assumptions;
+pub mod coefficients;
+pub mod pipeline;
+pub mod survey;
 pub(crate) mod toml_file;
 mod wall_file;
 

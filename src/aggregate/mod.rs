@@ -1,0 +1,11 @@
+//! From runs to medians: reads only the Parquet files of a study.
+
+mod medians;
+mod quantile;
+mod scan;
+mod table;
+
+pub use medians::{Case, Measure, Median, Medians, Middle, VariantNote};
+pub use quantile::{LEVELS, quantiles};
+pub use scan::aggregate;
+pub use table::{print_medians, write_medians};

@@ -1,0 +1,56 @@
+//! The medians as a Parquet file and as CSV: one row a case and measure.
+
+use std::borrow::Cow;
+use std::io::Write;
+use std::path::Path;
+
+use super::medians::{Median, Medians};
+use crate::error::Result;
+use crate::store::{Column, ParquetFile, Read};
+
+macro_rules! text {
+    (|$m:ident| $value:expr) => {
+        Read::Text(|$m| Some(Cow::Borrowed($value)))
+    };
+}
+
+/// Every column of the table of medians, in order.
+#[rustfmt::skip] // One column a line, so that the table reads as a table.
+const COLUMNS: &[Column<Median>] = &[
+    Column::input("variant", "", "set of assumptions", text!(|m| &m.case.variant)),
+    Column::input("configuration", "", "how the floor runs", text!(|m| m.case.configuration.name())),
+    Column::input("parameter", "", "parameter taken through its levels", text!(|m| m.case.parameter.name())),
+    Column::input("level", "", "level of that parameter", text!(|m| m.case.level.name(m.case.parameter))),
+    Column::input("parameter_value", "SI unit of the parameter", "value of that parameter; null for the eight coefficients", Read::Number(|m| m.parameter_value)),
+    Column::input("slenderness", "", "h_tot / b", Read::Number(|m| Some(m.case.slenderness))),
+    Column::input("measure", "", "normalised largest rotation, a column of the run files", text!(|m| m.measure.column())),
+    Column::result("runs", "", "runs, one a record, failed ones too", Read::Count(|m| Some(m.runs))),
+    Column::result("collapsed", "", "runs that collapsed", Read::Count(|m| Some(m.collapsed))),
+    Column::result("failed", "", "runs that failed; they take no part in the quantiles", Read::Count(|m| Some(m.failed))),
+    Column::result("share_collapsed", "", "collapsed over finished runs", Read::Number(|m| m.share_collapsed())),
+    Column::result("q05", "", "5 % quantile over the records; null where it lands among collapsed runs", Read::Number(|m| m.quantiles[0])),
+    Column::result("q16", "", "16 % quantile", Read::Number(|m| m.quantiles[1])),
+    Column::result("q25", "", "25 % quantile", Read::Number(|m| m.quantiles[2])),
+    Column::result("median", "", "50 % quantile", Read::Number(|m| m.quantiles[3])),
+    Column::result("q75", "", "75 % quantile", Read::Number(|m| m.quantiles[4])),
+    Column::result("q84", "", "84 % quantile", Read::Number(|m| m.quantiles[5])),
+    Column::result("q95", "", "95 % quantile", Read::Number(|m| m.quantiles[6])),
+];
+
+/// Writes the medians to a Parquet file.
+///
+/// # Errors
+/// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
+pub fn write_medians(path: &Path, medians: &Medians) -> Result<()> {
+    let mut file = ParquetFile::create(path, COLUMNS, &[])?;
+    file.write(medians.rows())?;
+    file.finish()
+}
+
+/// Writes the medians as CSV.
+///
+/// # Errors
+/// What the stream says.
+pub fn print_medians(mut out: impl Write, medians: &Medians) -> std::io::Result<()> {
+    crate::store::print_csv(&mut out, COLUMNS.iter(), medians.rows())
+}

@@ -1,0 +1,45 @@
+//! `mrbd aggregate`: medians, tables and findings of a study that was run.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::output;
+use crate::aggregate::{aggregate, print_medians, write_medians};
+use crate::error::Result;
+use crate::findings::report;
+
+/// Reads the runs of a study, writes medians.parquet beside them, prints tables and findings.
+#[derive(Debug, Args)]
+pub struct AggregateCommand {
+    /// Output folder of `mrbd run`.
+    folder: PathBuf,
+    /// Print the medians and quantiles as CSV instead of tables.
+    #[arg(long)]
+    csv: bool,
+}
+
+impl AggregateCommand {
+    /// Runs the command.
+    ///
+    /// # Errors
+    /// An input error for a folder without results; [`crate::Error::Io`] if the disk refuses.
+    pub fn execute(self) -> Result<()> {
+        if !self.csv {
+            return aggregate_and_print(&self.folder);
+        }
+        let medians = aggregate(&self.folder)?;
+        write_medians(&self.folder.join("medians.parquet"), &medians)?;
+        output::to_stdout(|out| print_medians(out, &medians).map_err(output::failed))
+    }
+}
+
+/// Aggregates the study in a folder, writes its medians there and prints them with what they decide.
+///
+/// # Errors
+/// As [`AggregateCommand::execute`].
+pub(super) fn aggregate_and_print(folder: &Path) -> Result<()> {
+    let medians = aggregate(folder)?;
+    write_medians(&folder.join("medians.parquet"), &medians)?;
+    output::to_stdout(|out| report(out, &medians).map_err(output::failed))
+}

@@ -1,0 +1,30 @@
+//! Printing results on stdout.
+
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+
+use crate::error::{Error, Result};
+
+/// Prints on stdout; a reader that has seen enough (`| head`) is no error.
+///
+/// # Errors
+/// What `print` meets, unless the reader has gone.
+pub fn to_stdout(print: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+    match print(&mut io::stdout().lock()) {
+        Err(Error::Io { source, .. }) if source.kind() == ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}
+
+/// Prints a text and a line end on stdout.
+///
+/// # Errors
+/// What the system says, unless the reader has gone.
+pub fn print(text: &str) -> Result<()> {
+    to_stdout(|stdout| writeln!(stdout, "{text}").and_then(|()| stdout.flush()).map_err(failed))
+}
+
+/// An error of a stream as an error of stdout.
+pub fn failed(error: io::Error) -> Error {
+    Error::io("print the results", Path::new("stdout"), error)
+}

@@ -1,0 +1,89 @@
+//! Differences between medians, some of which may be collapses.
+
+use crate::aggregate::Middle;
+
+use super::verdict::compare;
+
+/// A change of rotation over α below this matters little: a tenth of the 0.05 the source calls significant.
+pub const LITTLE: f64 = 0.005;
+
+/// A change below this share of the rotation matters little: the share below which engineers call a parameter weak.
+pub const LITTLE_SHARE: f64 = 0.10;
+
+/// From one median to another: a rotation, or endless where only the second collapsed; none where the first did.
+pub fn increase(from: Option<Middle>, to: Option<Middle>) -> Option<Middle> {
+    match (from?, to?) {
+        (Middle::Rotation(from), Middle::Rotation(to)) => Some(Middle::Rotation(to - from)),
+        (Middle::Rotation(_), Middle::Collapsed) => Some(Middle::Collapsed),
+        (Middle::Collapsed, _) => None,
+    }
+}
+
+/// Distance between two medians: endless where one of them collapsed, nothing where both did.
+pub fn distance(a: Option<Middle>, b: Option<Middle>) -> Option<Middle> {
+    match (a?, b?) {
+        (Middle::Rotation(a), Middle::Rotation(b)) => Some(Middle::Rotation((a - b).abs())),
+        (Middle::Collapsed, Middle::Collapsed) => Some(Middle::Rotation(0.0)),
+        _ => Some(Middle::Collapsed),
+    }
+}
+
+/// Whether a distance matters little beside a median.
+pub fn is_little(distance: Middle, beside: Middle) -> bool {
+    match (distance, beside) {
+        (Middle::Collapsed, _) => false,
+        (Middle::Rotation(distance), Middle::Rotation(beside)) => {
+            distance <= LITTLE.max(LITTLE_SHARE * beside)
+        }
+        (Middle::Rotation(distance), Middle::Collapsed) => distance <= LITTLE,
+    }
+}
+
+/// The middle of several: the upper of the two central ones for an even count, collapses last; none of nothing.
+pub fn middle_of(values: impl IntoIterator<Item = Middle>) -> Option<Middle> {
+    let mut values: Vec<Middle> = values.into_iter().collect();
+    values.sort_by(|a, b| a.partial_cmp(b).unwrap_or_else(|| compare(*a, *b)));
+    values.get(values.len() / 2).copied()
+}
+
+/// A median as it is printed.
+pub fn tell(middle: Option<Middle>) -> String {
+    match middle {
+        Some(Middle::Rotation(rotation)) => format!("{rotation:.3}"),
+        Some(Middle::Collapsed) => "collapse".to_owned(),
+        None => "none".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ROTATION: fn(f64) -> Middle = Middle::Rotation;
+
+    #[test]
+    fn analytic_differences_with_collapses_are_never_numbers() {
+        let collapsed = Some(Middle::Collapsed);
+        assert_eq!(increase(Some(ROTATION(0.25)), Some(ROTATION(0.5))), Some(ROTATION(0.25)));
+        assert_eq!(increase(Some(ROTATION(0.25)), collapsed), collapsed);
+        assert_eq!(increase(collapsed, collapsed), None);
+        assert_eq!(distance(collapsed, Some(ROTATION(0.25))), collapsed);
+        assert_eq!(distance(collapsed, collapsed), Some(ROTATION(0.0)));
+    }
+
+    #[test]
+    fn regress_little_is_small_or_a_small_share() {
+        assert!(is_little(ROTATION(0.004), ROTATION(0.001)));
+        assert!(is_little(ROTATION(0.04), ROTATION(0.5)));
+        assert!(!is_little(ROTATION(0.04), ROTATION(0.2)));
+        assert!(!is_little(Middle::Collapsed, ROTATION(0.2)));
+    }
+
+    #[test]
+    fn analytic_middle_ranks_collapses_last() {
+        let values = [Middle::Collapsed, ROTATION(2.0), ROTATION(1.0)];
+        assert_eq!(middle_of(values), Some(ROTATION(2.0)));
+        assert_eq!(middle_of([Middle::Collapsed, Middle::Collapsed, ROTATION(1.0)]), Some(Middle::Collapsed));
+        assert_eq!(middle_of([]), None);
+    }
+}

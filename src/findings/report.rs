@@ -1,0 +1,144 @@
+//! What a study says, for people: assumptions, medians, findings, and how they depend on the assumptions.
+
+use std::io::{self, Write};
+
+use super::tables::print_tables;
+use super::text::{aligned, wrapped};
+use super::variants::shift;
+use super::{FINDINGS, View};
+use crate::aggregate::{Medians, VariantNote};
+use crate::input::survey::Configuration;
+
+/// Prints everything; the first variant is the one whose medians are shown whole.
+///
+/// # Errors
+/// What the stream says.
+pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
+    let Some(base) = medians.variants.first() else { return Ok(()) };
+    let view = View::new(medians, &base.name);
+    assumptions(out, medians)?;
+    heading(
+        out,
+        &format!(
+            "Medians over the records, largest rotations over slenderness angles, variant {:?}",
+            base.name
+        ),
+    )?;
+    writeln!(out, "*: some records collapsed; fell: the median record collapsed; -: no such run")?;
+    print_tables(out, &view)?;
+    heading(out, &format!("Conclusions of the source against these medians, variant {:?}", base.name))?;
+    findings(out, &view)?;
+    if medians.variants.len() > 1 {
+        heading(out, "The same conclusions under every variant")?;
+        matrix(out, medians)?;
+        heading(out, &format!("How far the medians of θi/αi move from variant {:?}", base.name))?;
+        shifts(out, medians, base)?;
+    }
+    Ok(())
+}
+
+fn heading(out: &mut dyn Write, text: &str) -> io::Result<()> {
+    writeln!(out, "\n{text}\n{}", "-".repeat(text.chars().count()))
+}
+
+fn assumptions(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
+    heading(out, "What the source leaves open, and what was assumed")?;
+    let head = [
+        "variant",
+        "L, m",
+        "ρ, kg/m³",
+        "law",
+        "capture, rad/s",
+        "tolerance",
+        "runs",
+        "collapsed",
+        "failed",
+        "residual",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    rows.extend(medians.variants.iter().map(|v| {
+        vec![
+            v.name.clone(),
+            v.length_m.to_string(),
+            v.density_kg_m3.to_string(),
+            v.law.clone(),
+            format!("{:e}", v.capture_velocity_rad_s),
+            format!("{:e}", v.tolerance),
+            v.runs.to_string(),
+            v.collapsed.to_string(),
+            v.failed.to_string(),
+            v.energy_residual.map_or("-".to_owned(), |residual| format!("{residual:.0e}")),
+        ]
+    }));
+    writeln!(out, "{}", aligned(&rows))?;
+    writeln!(
+        out,
+        "residual: the largest energy not accounted for, over the energy that passed through a run."
+    )?;
+    let mut suites: Vec<String> = medians.variants.iter().map(suite).collect();
+    suites.dedup();
+    suites.iter().try_for_each(|suite| writeln!(out, "{}", wrapped(suite, 0)))
+}
+
+fn suite(variant: &VariantNote) -> String {
+    match variant.suite_generated {
+        true => format!(
+            "Records: suite {:?}, generated, not measured: what follows says what the model does under such motions, not what the source's records did.",
+            variant.suite
+        ),
+        false => format!(
+            "Records: suite {:?}, measured; the source's own records are another selection for the same spectrum.",
+            variant.suite
+        ),
+    }
+}
+
+fn findings(out: &mut dyn Write, view: &View) -> io::Result<()> {
+    for (index, finding) in FINDINGS.iter().enumerate() {
+        let answer = (finding.check)(view);
+        writeln!(out, "{:>2}. {}: {}", index + 1, finding.name, answer.verdict.name().to_uppercase())?;
+        writeln!(out, "{}", wrapped(&format!("Claim: {} ({}).", finding.claim, finding.source), 4))?;
+        writeln!(out, "{}", wrapped(&format!("Holds if {}.", finding.criterion), 4))?;
+        writeln!(out, "{}", wrapped(&format!("Found: {}.", answer.numbers), 4))?;
+    }
+    Ok(())
+}
+
+fn matrix(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
+    let mut head = vec!["conclusion".to_owned()];
+    head.extend(medians.variants.iter().map(|variant| variant.name.clone()));
+    let mut rows = vec![head];
+    for (index, finding) in FINDINGS.iter().enumerate() {
+        let mut row = vec![format!("{:>2}. {}", index + 1, finding.name)];
+        let of = |variant: &VariantNote| (finding.check)(&View::new(medians, &variant.name));
+        row.extend(medians.variants.iter().map(|variant| of(variant).verdict.name().to_owned()));
+        rows.push(row);
+    }
+    writeln!(out, "{}", aligned(&rows))
+}
+
+fn shifts(out: &mut dyn Write, medians: &Medians, base: &VariantNote) -> io::Result<()> {
+    let head = ["variant", "floor", "median |Δ|", "largest |Δ|", "at", "stood / fell"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    for variant in &medians.variants[1..] {
+        for configuration in Configuration::ALL {
+            let shift = shift(medians, &base.name, &variant.name, configuration);
+            let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
+            let place = shift.largest.as_ref().map_or("-".to_owned(), |(case, measure)| {
+                let body = if *measure == crate::aggregate::Measure::LowerOwn { "θ1" } else { "θ2" };
+                let level = case.level.name(case.parameter);
+                format!("{body}, {} {level}, h/b {}", case.parameter.name(), case.slenderness)
+            });
+            rows.push(vec![
+                variant.name.clone(),
+                configuration.name().to_owned(),
+                number(shift.median()),
+                number(shift.max()),
+                place,
+                shift.changed_sides.to_string(),
+            ]);
+        }
+    }
+    writeln!(out, "{}", aligned(&rows))?;
+    writeln!(out, "stood / fell: medians that stood under one of the two and collapsed under the other.")
+}

@@ -1,0 +1,136 @@
+//! How much records and coefficients of restitution matter.
+
+use super::Finding;
+use super::change::{distance, is_little, middle_of, tell};
+use super::verdict::{Answer, Verdict, Vote};
+use super::view::{Point, Slender, View};
+use crate::aggregate::{Median, Middle};
+use crate::input::pipeline::Parameter;
+use crate::input::survey::Configuration;
+use crate::plan::Level;
+
+/// Sections 4.5 and 5 (6), Figs. 18 and 19: spread as the figures show it, in θ/α between records of the reference façade.
+pub(super) const RECORD_SPREAD: Finding = Finding {
+    name: "record-to-record spread",
+    claim: "the spread between records is small for perpendicular floors and larger for parallel ones and for slender walls",
+    source: "sections 4.5 and 5 (6), Figs. 18 and 19",
+    criterion: "of the reference façades the distance between the 16 and 84 % quantiles is larger for the parallel floor in 4 of 5 noticeable comparisons, and its median is larger for h/b > 14 than for h/b ≤ 14 in at least 3 of 4 (floor, body)",
+    check: record_spread,
+};
+
+fn record_spread(view: &View) -> Answer {
+    let of =
+        |configuration: Configuration, point: Point| view.reference(configuration, point).and_then(spread);
+    let points = view.points(Slender::Any).into_iter();
+    let by_floor =
+        Vote::greater(points.map(|p| (of(Configuration::Parallel, p), of(Configuration::Perpendicular, p))));
+    let typical = |configuration, which, body| {
+        let points = view.points(which).into_iter().filter(|(_, measure)| *measure == body);
+        middle_of(points.filter_map(|point| of(configuration, point)))
+    };
+    let mut pairs = Vec::new();
+    let mut told = Vec::new();
+    for configuration in Configuration::ALL {
+        for body in crate::aggregate::Measure::BODIES {
+            let (large, moderate) = (
+                typical(configuration, Slender::Large, body),
+                typical(configuration, Slender::Moderate, body),
+            );
+            told.push(format!("{} against {}", tell(large), tell(moderate)));
+            pairs.push((large, moderate));
+        }
+    }
+    let by_slenderness = Vote::greater(pairs);
+    let numbers = format!(
+        "parallel spreads more: {}; median spread for h/b > 14 against ≤ 14: perpendicular {} (lower), {} (upper); parallel {} (lower), {} (upper)",
+        by_floor.tell(),
+        told[0],
+        told[1],
+        told[2],
+        told[3]
+    );
+    Answer { verdict: Verdict::of_parts(&[by_floor.verdict(), by_slenderness.verdict()]), numbers }
+}
+
+/// Distance between the 16 and the 84 % quantiles: endless where the upper one lands among collapses.
+fn spread(row: &Median) -> Option<Middle> {
+    match row.spread() {
+        Some(spread) => Some(Middle::Rotation(spread)),
+        None if row.collapsed > 0 => Some(Middle::Collapsed),
+        None => None,
+    }
+}
+
+/// Section 4.5, Fig. 20: "small, and slightly more pronounced for slender walls" with the perpendicular floor, "similarly"
+/// with the parallel one except for slender walls.
+pub(super) const COEFFICIENTS_LITTLE: Finding = Finding {
+    name: "coefficients matter little",
+    claim: "the influence of the coefficients C_l on the maximum response is small",
+    source: "section 4.5, Fig. 20",
+    criterion: "from lower to upper bounds the median changes by at most 0.005 or 10 % of it in 4 of 5 comparisons: perpendicular floor, all slendernesses; parallel floor, h/b ≤ 14",
+    check: coefficients_little,
+};
+
+fn coefficients_little(view: &View) -> Answer {
+    let perpendicular = little(view, Configuration::Perpendicular, Slender::Any);
+    let parallel = little(view, Configuration::Parallel, Slender::Moderate);
+    let vote = Vote {
+        agree: perpendicular.agree + parallel.agree,
+        against: perpendicular.against + parallel.against,
+        close: 0,
+    };
+    let numbers = format!(
+        "little change: {} (perpendicular {}; parallel {})",
+        vote.tell(),
+        perpendicular.tell(),
+        parallel.tell()
+    );
+    Answer { verdict: vote.verdict(), numbers }
+}
+
+fn little(view: &View, configuration: Configuration, which: Slender) -> Vote {
+    let facts = view.points(which).into_iter().filter_map(|point| {
+        let mean = view.middle(configuration, Parameter::Restitution, Level::Mean, point)?;
+        Some(is_little(moved(view, configuration, point)?, mean))
+    });
+    Vote::of(facts)
+}
+
+/// Sections 4.5 and 5 (6), Fig. 20: "for slender walls … larger effect on the response".
+pub(super) const COEFFICIENTS_SLENDER_PARALLEL: Finding = Finding {
+    name: "coefficients, slender parallel",
+    claim: "the coefficients C_l matter more for slender walls with a parallel floor",
+    source: "sections 4.5 and 5 (6), Fig. 20",
+    criterion: "for h/b > 14 and the parallel floor the change from lower to upper bounds exceeds that at the same place with the perpendicular floor, and the median change for h/b ≤ 14, in 4 of 5 noticeable comparisons",
+    check: coefficients_slender_parallel,
+};
+
+fn coefficients_slender_parallel(view: &View) -> Answer {
+    let typical = |configuration, which| {
+        let points = view.points(which).into_iter();
+        middle_of(points.filter_map(|point| moved(view, configuration, point)))
+    };
+    let moderate = typical(Configuration::Parallel, Slender::Moderate);
+    let mut pairs = Vec::new();
+    for point in view.points(Slender::Large) {
+        let parallel = moved(view, Configuration::Parallel, point);
+        pairs.push((parallel, moved(view, Configuration::Perpendicular, point)));
+        pairs.push((parallel, moderate));
+    }
+    let vote = Vote::greater(pairs);
+    let numbers = format!(
+        "{}; median change: perpendicular {} for h/b ≤ 14, {} above; parallel {}, {}",
+        vote.tell(),
+        tell(typical(Configuration::Perpendicular, Slender::Moderate)),
+        tell(typical(Configuration::Perpendicular, Slender::Large)),
+        tell(moderate),
+        tell(typical(Configuration::Parallel, Slender::Large)),
+    );
+    Answer { verdict: vote.verdict(), numbers }
+}
+
+/// How far the median moves from the lower to the upper bounds of the coefficients.
+fn moved(view: &View, configuration: Configuration, point: Point) -> Option<Middle> {
+    let (lower, upper) = view.ends(configuration, Parameter::Restitution, point);
+    distance(lower, upper)
+}

@@ -1,0 +1,250 @@
+//! The pipeline file: which study to run, over which records, under which assumptions.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::assumptions::{Assumptions, Changes};
+use super::survey::Configuration;
+use super::toml_file;
+use crate::error::{InputError, Result};
+
+/// A parameter of the façade that a sweep takes through its three levels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Parameter {
+    /// Thickness b.
+    Thickness,
+    /// Height of the crack h_1 / h_tot.
+    CrackHeight,
+    /// Compressive strength f.
+    Strength,
+    /// Stiffness of the floor k_d.
+    Stiffness,
+    /// Floor mass m_d / m_tot that acts in both directions.
+    DiaphragmMass,
+    /// Floor mass m_dp / m_tot that acts horizontally only.
+    CarriageMass,
+    /// All C_l together.
+    Restitution,
+}
+
+/// A named set of assumptions under which the whole study is run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Variant {
+    /// Name in results and tables.
+    pub name: String,
+    /// What it assumes.
+    pub assumptions: Assumptions,
+}
+
+/// A one-at-a-time sweep: every parameter of a configuration at three levels, over slendernesses.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SweepTable {
+    /// Slendernesses h_tot / b.
+    pub slenderness: Vec<f64>,
+    /// Parameters by configuration.
+    pub parameters: ParameterLists,
+}
+
+/// Parameters by configuration; an empty or absent list leaves the configuration out.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ParameterLists {
+    /// Parameters of façades whose floor rests on them.
+    #[serde(default)]
+    pub perpendicular: Vec<Parameter>,
+    /// Parameters of façades along which the floor runs.
+    #[serde(default)]
+    pub parallel: Vec<Parameter>,
+}
+
+/// A pipeline file, checked; its paths are resolved against its folder.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pipeline {
+    /// The file.
+    pub path: PathBuf,
+    /// Its text, as read.
+    pub text: String,
+    /// Name of the study, and of its output folder.
+    pub name: String,
+    /// Survey of the façades.
+    pub survey: PathBuf,
+    /// Coefficients C_l.
+    pub coefficients: PathBuf,
+    /// Suite of records.
+    pub suite: PathBuf,
+    /// The sweep.
+    pub sweep: SweepTable,
+    /// Assumptions to run it under, the one to compare with first; never empty.
+    pub variants: Vec<Variant>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PipelineFile {
+    name: String,
+    survey: PathBuf,
+    coefficients: PathBuf,
+    suite: PathBuf,
+    sweep: SweepTable,
+    #[serde(default)]
+    assumptions: Changes,
+    variants: Vec<VariantTable>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VariantTable {
+    name: String,
+    #[serde(default)]
+    set: Changes,
+}
+
+impl Pipeline {
+    /// Reads and checks a pipeline file; the files it names are not opened.
+    ///
+    /// # Errors
+    /// Input errors that name the file, the key, what was found and what is allowed.
+    pub fn load(path: &Path) -> Result<Self> {
+        Self::parse(path, toml_file::read(path)?)
+    }
+
+    /// Checks the text of a pipeline file that came from `path`.
+    ///
+    /// # Errors
+    /// As [`Pipeline::load`].
+    pub fn parse(path: &Path, text: String) -> Result<Self> {
+        let file: PipelineFile = toml_file::parse(path, &text)?;
+        check_name(path, &file.name)?;
+        file.sweep.check(path)?;
+        let beside = |name: PathBuf| path.parent().unwrap_or(Path::new("")).join(name);
+        let variants = variants(path, file.assumptions, file.variants)?;
+        Ok(Self {
+            path: path.to_path_buf(),
+            text,
+            name: file.name,
+            survey: beside(file.survey),
+            coefficients: beside(file.coefficients),
+            suite: beside(file.suite),
+            sweep: file.sweep,
+            variants,
+        })
+    }
+}
+
+impl SweepTable {
+    /// The parameters of a configuration.
+    pub fn parameters(&self, configuration: Configuration) -> &[Parameter] {
+        match configuration {
+            Configuration::Perpendicular => &self.parameters.perpendicular,
+            Configuration::Parallel => &self.parameters.parallel,
+        }
+    }
+
+    fn check(&self, path: &Path) -> Result<()> {
+        let refuse =
+            |key: &str, found: String, allowed: &str| Err(InputError::key(path, key, found, allowed).into());
+        if self.slenderness.is_empty() {
+            return refuse("sweep.slenderness", "an empty list".into(), "at least one slenderness");
+        }
+        if let Some(wrong) = self.slenderness.iter().find(|x| !(x.is_finite() && **x > 0.0)) {
+            return refuse("sweep.slenderness", wrong.to_string(), "finite numbers above 0");
+        }
+        if !self.slenderness.is_sorted_by(|a, b| a < b) {
+            let found = format!("{:?}", self.slenderness);
+            return refuse("sweep.slenderness", found, "increasing numbers, each once");
+        }
+        if Configuration::ALL.iter().all(|&c| self.parameters(c).is_empty()) {
+            return refuse("sweep.parameters", "no parameters".into(), "at least one parameter");
+        }
+        for configuration in Configuration::ALL {
+            let list = self.parameters(configuration);
+            if list.iter().collect::<BTreeSet<_>>().len() < list.len() {
+                let key = format!("sweep.parameters.{}", configuration.name());
+                return refuse(&key, "a parameter twice".into(), "each parameter once");
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_name(path: &Path, name: &str) -> Result<()> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if name.is_empty() || !name.chars().all(plain) {
+        let allowed = "letters, digits, - and _: the output folder is named after it";
+        return Err(InputError::key(path, "name", format!("{name:?}"), allowed).into());
+    }
+    Ok(())
+}
+
+fn variants(path: &Path, common: Changes, tables: Vec<VariantTable>) -> Result<Vec<Variant>> {
+    let common = common.onto(&Assumptions::default());
+    common.check(path, "assumptions")?;
+    if tables.is_empty() {
+        return Err(InputError::key(path, "variants", "an empty list", "at least one variant").into());
+    }
+    let mut names = BTreeSet::new();
+    let mut variants = Vec::with_capacity(tables.len());
+    for (index, table) in tables.into_iter().enumerate() {
+        let key = format!("variants[{index}]");
+        if table.name.is_empty() || !names.insert(table.name.clone()) {
+            let found = format!("{:?}", table.name);
+            return Err(InputError::key(path, format!("{key}.name"), found, "a name, each once").into());
+        }
+        let assumptions = table.set.onto(&common);
+        assumptions.check(path, &format!("{key}.set"))?;
+        variants.push(Variant { name: table.name, assumptions });
+    }
+    Ok(variants)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::ImpactLaw;
+
+    const SWEEP: &str = include_str!("../../pipelines/sweep.toml");
+
+    fn parse(text: &str) -> Result<Pipeline> {
+        Pipeline::parse(Path::new("pipelines/sweep.toml"), text.to_owned())
+    }
+
+    #[test]
+    fn published_sweep_has_the_six_parameters_of_both_configurations() {
+        let pipeline = parse(SWEEP).expect("the repository's own pipeline");
+        assert_eq!(pipeline.sweep.slenderness, (4..=12).map(|i| f64::from(2 * i)).collect::<Vec<_>>());
+        assert_eq!(pipeline.sweep.parameters(Configuration::Perpendicular).len(), 6);
+        assert!(pipeline.sweep.parameters(Configuration::Parallel).contains(&Parameter::CarriageMass));
+        assert_eq!(pipeline.survey, Path::new("pipelines/../inputs/survey.toml"));
+    }
+
+    #[test]
+    fn regress_variants_change_only_the_keys_they_name() {
+        let pipeline = parse(SWEEP).expect("the repository's own pipeline");
+        let base = &pipeline.variants[0].assumptions;
+        assert_eq!(*base, Assumptions::default());
+        let contact = &pipeline.variants[1].assumptions;
+        assert_eq!(*contact, Assumptions { law: ImpactLaw::Contact, ..base.clone() });
+    }
+
+    #[test]
+    fn rejects_faults_with_their_key() {
+        let refused = |from: &str, to: &str| {
+            let text = SWEEP.replacen(from, to, 1);
+            assert_ne!(text, SWEEP, "the test must change the file");
+            parse(&text).expect_err("must be refused").to_string()
+        };
+        assert!(refused("name = \"sweep\"", "name = \"../x\"").contains(": name: found \"../x\""));
+        assert!(refused("8.0, 10.0", "10.0, 8.0").contains("sweep.slenderness"));
+        assert!(refused("\"thickness\", ", "\"thickness\", \"thickness\", ").contains("each parameter once"));
+        assert!(refused("\"strength\"", "\"strenght\"").contains("strenght"));
+        assert!(refused("length_m = 1.0", "length_m = -1.0").contains("assumptions.length_m: found -1"));
+        assert!(refused("length_m = 2.0", "length_m = inf").contains("variants[3].set.length_m: found inf"));
+        assert!(refused("name = \"contact\"", "name = \"base\"").contains("variants[1].name"));
+        assert!(refused("tail_s = 5.0", "tail = 5.0").contains("tail"));
+        assert!(refused("tolerance = 1e-6", "tolerance = 0.0").contains("assumptions.tolerance"));
+    }
+}

@@ -1,0 +1,85 @@
+//! Files that are whole or absent, whatever stops the program.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use tempfile::NamedTempFile;
+
+use crate::error::{Error, Result};
+
+/// A temporary file beside `path`, to be filled and then [`put_in_place`].
+///
+/// # Errors
+/// [`Error::Io`] if the folder cannot be written.
+pub(super) fn beside(path: &Path) -> Result<NamedTempFile> {
+    tempfile::Builder::new()
+        .prefix(".unfinished-")
+        .tempfile_in(folder_of(path))
+        .map_err(|e| Error::io("write", path, e))
+}
+
+/// Brings a filled temporary file to the disk and gives it its name.
+///
+/// # Errors
+/// [`Error::Io`] if the disk refuses.
+pub(super) fn put_in_place(mut file: NamedTempFile, path: &Path) -> Result<()> {
+    let failed = |e| Error::io("write", path, e);
+    file.flush().map_err(failed)?;
+    readable_by_all(file.as_file()).map_err(failed)?;
+    file.as_file().sync_all().map_err(failed)?;
+    file.persist(path).map_err(|e| failed(e.error))?;
+    // The name lives in the folder: without this the file can be on disk and its name not.
+    File::open(folder_of(path)).and_then(|folder| folder.sync_all()).map_err(failed)
+}
+
+/// Writes `contents` to `path`: the file is there whole, or as it was before.
+///
+/// # Errors
+/// [`Error::Io`] if the folder cannot be written.
+pub fn write_durably(path: &Path, contents: &[u8]) -> Result<()> {
+    let mut file = beside(path)?;
+    file.write_all(contents).map_err(|e| Error::io("write", path, e))?;
+    put_in_place(file, path)
+}
+
+/// Temporary files are private; results are not.
+#[cfg(unix)]
+fn readable_by_all(file: &File) -> std::io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(std::fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn readable_by_all(_file: &File) -> std::io::Result<()> {
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_a_file_is_replaced_whole_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a.txt");
+        write_durably(&path, b"first").expect("written");
+        write_durably(&path, b"second").expect("replaced");
+        assert_eq!(std::fs::read(&path).expect("readable"), b"second");
+        assert_eq!(std::fs::read_dir(folder.path()).expect("readable").count(), 1);
+    }
+
+    #[test]
+    fn rejects_a_folder_that_is_not_there() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let error = write_durably(&folder.path().join("none/a.txt"), b"x").expect_err("no folder");
+        assert!(error.to_string().contains("cannot write"), "{error}");
+    }
+}

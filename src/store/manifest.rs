@@ -1,0 +1,183 @@
+//! Where a study's results come from, written before the first result.
+
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use super::durable::write_durably;
+use super::schema::SCHEMA_VERSION;
+use crate::error::{Error, InputError, Result};
+use crate::ground::SuiteRecord;
+use crate::input::pipeline::{Pipeline, Variant};
+use crate::model::G_M_S2;
+use crate::plan::{Plan, RecordHash};
+
+/// Provenance of an output folder: tool, plan, inputs, assumptions.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Version of the program.
+    pub tool_version: String,
+    /// Version of the columns.
+    pub schema_version: u32,
+    /// Name of the study.
+    pub plan: String,
+    /// SHA-256 of the list of runs.
+    pub plan_sha256: String,
+    /// Number of runs.
+    pub runs: u64,
+    /// Seed of random draws; none where nothing is drawn.
+    pub seed: Option<u64>,
+    /// The records.
+    pub suite: SuiteNote,
+    /// Files that were read, with their hashes.
+    pub inputs: Vec<FileNote>,
+    /// Acceleration of gravity, m/s².
+    pub gravity_m_s2: f64,
+    /// Assumptions, by variant.
+    pub variants: serde_json::Value,
+    /// When the run began, seconds since 1970.
+    pub started_unix_s: u64,
+}
+
+/// A suite of records.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SuiteNote {
+    /// Its name.
+    pub name: String,
+    /// Whether its records are generated rather than recorded.
+    pub generated: bool,
+    /// Its records.
+    pub records: Vec<RecordNote>,
+}
+
+/// One record as it was run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordNote {
+    /// Its name.
+    pub name: String,
+    /// Its event.
+    pub event: String,
+    /// Factor it was scaled by.
+    pub scale: f64,
+    /// SHA-256 of its samples after scaling.
+    pub sha256: String,
+    /// The same of its vertical component, if it has one.
+    pub vertical_sha256: Option<String>,
+}
+
+/// A file that was read.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FileNote {
+    /// What it is.
+    pub role: String,
+    /// Where it was.
+    pub path: String,
+    /// SHA-256 of its contents.
+    pub sha256: String,
+}
+
+impl Manifest {
+    /// The manifest of a plan, begun now; `suite_path` is the suite file that was read.
+    ///
+    /// # Errors
+    /// Input errors if an input file is gone; [`Error::Plan`] if the plan is broken.
+    pub fn of(plan: &Plan, pipeline: &Pipeline, suite_path: &Path) -> Result<Self> {
+        let plan_sha256 = plan.sha256().map_err(|e| Error::Plan { position: 0, message: e.to_string() })?;
+        let files = [
+            ("pipeline", pipeline.path.as_path()),
+            ("survey", &pipeline.survey),
+            ("coefficients", &pipeline.coefficients),
+            ("suite", suite_path),
+        ];
+        let variants: Vec<&Variant> = plan.variants().collect();
+        Ok(Self {
+            tool_version: env!("CARGO_PKG_VERSION").to_owned(),
+            schema_version: SCHEMA_VERSION,
+            plan: plan.name().to_owned(),
+            plan_sha256,
+            runs: plan.len(),
+            seed: None,
+            suite: SuiteNote::of(plan),
+            inputs: files.into_iter().map(|(role, path)| FileNote::of(role, path)).collect::<Result<_>>()?,
+            gravity_m_s2: G_M_S2,
+            variants: serde_json::json!(variants),
+            started_unix_s: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+        })
+    }
+
+    /// Reads a manifest; none where there is none.
+    ///
+    /// # Errors
+    /// An input error for a file that is no manifest.
+    pub fn read(path: &Path) -> Result<Option<Self>> {
+        match std::fs::read(path) {
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(e) => Err(Error::io("read", path, e)),
+            Ok(bytes) => match serde_json::from_slice(&bytes) {
+                Ok(manifest) => Ok(Some(manifest)),
+                Err(e) => Err(InputError::file(path, e.to_string(), "the manifest of a study").into()),
+            },
+        }
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the disk refuses.
+    pub fn write(&self, path: &Path) -> Result<()> {
+        let mut text = format!("{:#}", serde_json::json!(self));
+        text.push('\n');
+        write_durably(path, text.as_bytes())
+    }
+
+    /// What every Parquet file of the study says about itself: no times, so that equal studies give equal bytes.
+    pub fn file_metadata(&self) -> Vec<(String, String)> {
+        let pair = |key: &str, value: String| (format!("mrbd.{key}"), value);
+        vec![
+            pair("tool_version", self.tool_version.clone()),
+            pair("schema_version", self.schema_version.to_string()),
+            pair("plan", self.plan.clone()),
+            pair("plan_sha256", self.plan_sha256.clone()),
+            pair("seed", self.seed.map_or("none".to_owned(), |seed| seed.to_string())),
+            pair("suite", self.suite.name.clone()),
+            pair("suite_generated", self.suite.generated.to_string()),
+            pair("gravity_m_s2", self.gravity_m_s2.to_string()),
+            pair("variants", self.variants.to_string()),
+        ]
+    }
+}
+
+impl SuiteNote {
+    fn of(plan: &Plan) -> Self {
+        let motions = plan.motions();
+        let record = |(record, hash): (&SuiteRecord, &RecordHash)| RecordNote {
+            name: record.name.clone(),
+            event: record.event.clone(),
+            scale: record.scale,
+            sha256: hash.horizontal.clone(),
+            vertical_sha256: hash.vertical.clone(),
+        };
+        Self {
+            name: motions.suite.name.clone(),
+            generated: motions.suite.generated,
+            records: motions.suite.records.iter().zip(&motions.hashes).map(record).collect(),
+        }
+    }
+}
+
+impl FileNote {
+    fn of(role: &str, path: &Path) -> Result<Self> {
+        Ok(Self { role: role.to_owned(), path: path.display().to_string(), sha256: file_sha256(path)? })
+    }
+}
+
+/// SHA-256 of a file's contents, 64 hexadecimal digits.
+///
+/// # Errors
+/// An input error if the file cannot be read.
+pub fn file_sha256(path: &Path) -> Result<String> {
+    let bytes = std::fs::read(path).map_err(|e| InputError::file(path, e.to_string(), "a readable file"))?;
+    Ok(Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect())
+}
