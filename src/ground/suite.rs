@@ -207,14 +207,13 @@ impl Entry<'_> {
     }
 
     fn check_peak(&self, key: &str, said: Option<f64>, found: f64, tolerance: f64) -> Result<(), InputError> {
-        match said {
-            Some(said) if !((found - said).abs() <= tolerance * said) => {
-                let allowed =
-                    format!("what the unscaled file has, {found:.4}, within {} %", tolerance * 100.0);
-                Err(self.fault(key, said.to_string(), allowed))
-            }
-            _ => Ok(()),
+        let Some(said) = said else { return Ok(()) };
+        let agrees = (found - said).abs() <= tolerance * said;
+        if agrees {
+            return Ok(());
         }
+        let allowed = format!("what the unscaled file has, {found:.4}, within {} %", tolerance * 100.0);
+        Err(self.fault(key, said.to_string(), allowed))
     }
 
     fn about(&self) -> About {
