@@ -20,6 +20,7 @@ pub fn small_files() -> Vec<(Format, String)> {
         (Format::GeoNet, geonet_raw()),
         (Format::Cosmos, cosmos()),
         (Format::Csmip, csmip()),
+        (Format::Csmip, csmip_lower_case()),
         (Format::Knet, knet()),
     ]
 }
@@ -108,6 +109,16 @@ fn csmip() -> String {
     format!("{head}{blocks}/&  ----------  END OF DATA FOR CHANNEL  1  ----------\n")
 }
 
+/// The wording of later years.
+fn csmip_lower_case() -> String {
+    let head = "Corrected accelerogram   X       Chan  1:  90 deg\ntext\n";
+    let mark = "    7 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)\n";
+    format!(
+        "{head}{mark}{}/&  ---------- End of data for channel  1 ----------\n",
+        rows(8, |a| format!("{a:10.6}"))
+    )
+}
+
 fn knet() -> String {
     let header = "Origin Time       2000/01/01 00:00:00\nStation Code      XYZ001\nSampling Freq(Hz) 200Hz\n\
         Duration Time(s)  0.035\nDir.              E-W\nScale Factor      10(gal)/1000\nMemo.\n";
@@ -144,6 +155,10 @@ fn analytic_line_ends_latin_letters_and_exponents_of_fortran_are_read() {
     bytes.splice(5..5, [0xe9]);
     let record = read_bytes(Path::new("a"), &bytes, &ReadOptions::default()).expect("readable");
     assert_eq!(record.unit, Unit::G);
+    let commented = format!("# a note\n\n{}", two_column());
+    let commented = read_text(&commented.replace("0.010,", "0.010,x"), &ReadOptions::default());
+    let message = commented.expect_err("must be refused").to_string();
+    assert!(message.contains("small.txt:6"), "lines are counted with comments and blanks: {message}");
     assert_eq!(record.accelerogram.acceleration_m_s2().len(), 7);
 }
 
