@@ -5,6 +5,7 @@
 
 mod cli_records;
 mod cli_simulate;
+mod grazing_contact;
 mod ground_formats;
 mod ground_generated;
 mod ground_intensity;
