@@ -5,7 +5,13 @@ SHARED_SUITE := ../shared/records/natural7/suite.toml
 # The suite the sweep runs on: SUITE=FILE, else the records beside the repository, where there are any.
 CHOSEN_SUITE := $(or $(SUITE),$(wildcard inputs/records/emilia7/suite.toml),$(wildcard $(SHARED_SUITE)))
 
-.PHONY: sweep test test-browser bench lint docs clean
+include make/records.mk
+
+.DEFAULT_GOAL := help
+.PHONY: help sweep test test-browser bench lint docs clean
+
+help: ## this list
+	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
 
 sweep: ## run the parametric sweep of the paper, aggregate it and print the medians and the checked conclusions
 ifeq ($(CHOSEN_SUITE),)

@@ -2,12 +2,14 @@
 
 mod by_record;
 mod medians;
+mod moved;
 mod quantile;
 mod scan;
 mod table;
 
 pub use by_record::{ReferenceRun, reference_runs};
-pub use medians::{Case, Measure, Median, Medians, Middle, VariantNote};
+pub use medians::{Case, Measure, Median, Medians, Middle, Moved, VariantNote};
+pub use moved::MOVED_SHARE;
 pub use quantile::{LEVELS, quantiles};
 pub use scan::aggregate;
 pub use table::{print_medians, write_medians};

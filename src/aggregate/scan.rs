@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::*;
 
 use super::medians::{Case, Measure, Median, Medians, VariantNote};
+use super::moved::moved;
 use super::quantile::quantiles;
 use crate::error::{Error, Result};
 use crate::input::pipeline::Parameter;
@@ -23,7 +24,11 @@ pub fn aggregate(folder: &Path) -> Result<Medians> {
     let files = run_files(folder)?;
     let read = || -> PolarsResult<Medians> {
         let variants = variant_notes(&by_variant(scan(&files)?)?)?;
-        Ok(Medians::new(variants, medians(&by_case(scan(&files)?)?)?))
+        let moved = match variants.first() {
+            Some(base) => moved(&files, &base.name)?,
+            None => Vec::new(),
+        };
+        Ok(Medians::new(variants, medians(&by_case(scan(&files)?)?)?).with_moved(moved))
     };
     read().map_err(|e| Error::table(folder, e))
 }

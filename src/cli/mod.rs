@@ -4,11 +4,10 @@
 
 mod aggregate;
 mod output;
+mod records;
 mod report;
 mod run;
 mod simulate;
-
-use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
@@ -26,6 +25,7 @@ pub struct Cli {
 enum Command {
     Run(run::RunCommand),
     Aggregate(aggregate::AggregateCommand),
+    Records(records::RecordsArgs),
     Report(report::ReportCommand),
     Simulate(simulate::SimulateArgs),
 }
@@ -39,22 +39,9 @@ impl Cli {
         match self.command {
             Command::Run(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
+            Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),
         }
-    }
-}
-
-/// Prints data to stdout; a reader that closes the pipe early has seen enough.
-///
-/// # Errors
-/// What the system says, other than that the pipe is closed.
-fn print(text: &str) -> Result<()> {
-    let mut stdout = std::io::stdout().lock();
-    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(crate::Error::io("print", std::path::Path::new("stdout"), e))
-        }
-        _ => Ok(()),
     }
 }

@@ -22,6 +22,6 @@ impl ReportCommand {
     /// An input error for a folder without results or with damaged ones; [`crate::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
         let page = crate::report::report(&self.folder)?;
-        super::print(&page.display().to_string())
+        super::output::print(&page.display().to_string())
     }
 }
