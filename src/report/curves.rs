@@ -212,3 +212,45 @@ fn draw_shape<DB: DrawingBackend>(
     };
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn panel() -> Panel {
+        let point = |x, y| CurvePoint { x, y, partly_collapsed: false, tip: format!("at {x}") };
+        let points = vec![
+            point(8.0, Middle::Rotation(0.02)),
+            point(10.0, Middle::Rotation(0.3)),
+            point(12.0, Middle::Collapsed),
+        ];
+        Panel {
+            title: "a < b".into(),
+            x_label: "x".into(),
+            y_label: "y".into(),
+            x: 7.0..13.0,
+            y_top: 0.4,
+            collapse_band: true,
+            threshold: Some((0.05, "line")),
+            curves: vec![Curve { colour: Colour(0, 0x72, 0xB2), mark: Mark::Circle, points }],
+        }
+    }
+
+    #[test]
+    fn regress_a_collapse_stands_above_every_number() {
+        let svg = panel().svg().expect("drawn");
+        let heights: Vec<i32> = svg
+            .split("<circle ")
+            .filter(|part| part.contains("data-colour"))
+            .filter_map(|part| part.split_once("cy=\"")?.1.split_once('"')?.0.parse().ok())
+            .collect();
+        // Downwards in SVG: the collapse first, then the large rotation, then the small one.
+        assert!(heights.len() == 3 && heights[2] < heights[1] && heights[1] < heights[0], "{heights:?}");
+        assert!(svg.contains("collapse") && svg.contains("a &lt; b") && !svg.contains("NaN"));
+    }
+
+    #[test]
+    fn regress_the_same_panel_gives_the_same_bytes() {
+        assert_eq!(panel().svg().expect("drawn"), panel().svg().expect("drawn"));
+    }
+}

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::page::Page;
 use super::sweep;
-use crate::error::{InputError, Result};
+use crate::error::{Error, InputError, Result};
 use crate::store::{Manifest, write_durably};
 
 /// Name of a page in the folder of its results.
@@ -27,10 +27,21 @@ fn page_of(folder: &Path) -> Result<Page> {
         return Err(InputError::file(folder, found, "a folder with results of mrbd").into());
     }
     match Manifest::read(&folder.join("manifest.json"))? {
-        Some(manifest) => sweep::page(folder, &manifest),
+        Some(manifest) => sweep::page(folder, &manifest).map_err(as_damage),
         None => {
             let allowed = "the output folder of `mrbd run`; for one run `mrbd simulate --plot FILE.html`";
             Err(InputError::file(folder, "no manifest.json", allowed).into())
         }
+    }
+}
+
+/// Results that cannot be read are bad input here: whatever wrote them, a page cannot be made from them.
+fn as_damage(error: Error) -> Error {
+    match error {
+        Error::Table { path, message } => {
+            let allowed = "results as `mrbd run` writes them; run the study again with --force";
+            InputError::file(&path, message, allowed).into()
+        }
+        other => other,
     }
 }

@@ -24,6 +24,8 @@ mod pipeline_findings;
 mod pipeline_plan;
 mod pipeline_support;
 mod published;
+mod report_browser;
+mod report_pages;
 mod shared;
 mod symmetry;
 mod traps;
