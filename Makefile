@@ -21,7 +21,7 @@ ifeq ($(CHOSEN_SUITE),)
 else
 	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep --force
 	@echo "The page of the results:"
-	@cargo run --release --locked --quiet --bin mrbd -- report outputs/sweep
+	@cargo run --release --locked --quiet --bin mrbd -- report outputs/sweep --site inputs/site_mirandola.toml
 endif
 
 test: ## all tests

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::error::Result;
+use crate::ground::Site;
 
 /// Makes one HTML page of a folder of results: figures, conclusions, assumptions, provenance.
 ///
@@ -13,6 +14,9 @@ use crate::error::Result;
 pub struct ReportCommand {
     /// Folder of results, for example the output folder of `mrbd run`.
     folder: PathBuf,
+    /// Site file: the records are held against its code spectrum.
+    #[arg(long, value_name = "FILE")]
+    site: Option<PathBuf>,
 }
 
 impl ReportCommand {
@@ -21,7 +25,8 @@ impl ReportCommand {
     /// # Errors
     /// An input error for a folder without results or with damaged ones; [`crate::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
-        let page = crate::report::report(&self.folder)?;
+        let site = self.site.as_deref().map(Site::load).transpose()?;
+        let page = crate::report::report(&self.folder, site.as_ref())?;
         super::output::print(&page.display().to_string())
     }
 }

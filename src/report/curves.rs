@@ -18,6 +18,9 @@ const SIZE: (u32, u32) = (720, 460);
 /// Height of text.
 const TEXT: i32 = 21;
 
+/// Top of the band for collapses, over the largest number shown.
+const BAND: f64 = 1.16;
+
 /// A point of a curve.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurvePoint {
@@ -76,7 +79,7 @@ impl Panel {
 
     /// Draws it.
     fn draw<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<Told, DB> {
-        let top = if self.collapse_band { self.y_top * 1.14 } else { self.y_top };
+        let top = if self.collapse_band { self.y_top * BAND } else { self.y_top };
         let mut chart = ChartBuilder::on(area)
             .margin_left(8)
             .margin_right(14)
@@ -89,8 +92,8 @@ impl Panel {
         self.mesh(&mut chart)?;
         self.bands(&mut chart)?;
         let mut told = Told::default();
-        for curve in &self.curves {
-            self.curve(&mut chart, curve, &mut told.hits)?;
+        for (index, curve) in self.curves.iter().enumerate() {
+            self.curve(&mut chart, (index, curve), &mut told.hits)?;
         }
         Ok(told)
     }
@@ -123,9 +126,9 @@ impl Panel {
             ("sans-serif", TEXT - 3).into_font().color(&colour.rgb()).pos(Pos::new(h_pos, v_pos))
         };
         if self.collapse_band {
-            let band = [(left, self.y_top), (right, self.y_top * 1.14)];
+            let band = [(left, self.y_top), (right, self.y_top * BAND)];
             chart.draw_series([Rectangle::new(band, COLLAPSE.rgb().mix(0.09).filled())])?;
-            let place = (left + 0.01 * (right - left), self.y_top * 1.07);
+            let place = (left + 0.01 * (right - left), self.y_top * (1.0 + BAND) / 2.0);
             chart.draw_series([Text::new("collapse", place, small(COLLAPSE, HPos::Left, VPos::Center))])?;
         }
         if let Some((y, meaning)) = self.threshold.filter(|(y, _)| *y < self.y_top) {
@@ -143,12 +146,12 @@ impl Panel {
     fn curve<DB: DrawingBackend>(
         &self,
         chart: &mut Chart<DB>,
-        curve: &Curve,
+        (index, curve): (usize, &Curve),
         hits: &mut Vec<Hit>,
     ) -> Drawn<(), DB> {
         let colour = curve.colour.rgb();
         for pair in curve.points.windows(2) {
-            let ends = [0, 1].map(|i| (pair[i].x, self.height(pair[i].y)));
+            let ends = [0, 1].map(|i| (pair[i].x, self.height(pair[i].y, index)));
             let collapses = pair.iter().any(|point| point.y == Middle::Collapsed);
             if collapses {
                 chart.draw_series(DashedLineSeries::new(ends, 6, 5, colour.mix(0.6).stroke_width(2)))?;
@@ -157,7 +160,7 @@ impl Panel {
             }
         }
         for point in &curve.points {
-            let at = (point.x, self.height(point.y));
+            let at = (point.x, self.height(point.y, index));
             draw_mark(chart, curve, point, at)?;
             hits.push(Hit {
                 at: chart.backend_coord(&at),
@@ -168,10 +171,14 @@ impl Panel {
         Ok(())
     }
 
-    fn height(&self, y: Middle) -> f64 {
+    /// Where a value stands; collapses have no value, so within their band every curve has a height of its own.
+    fn height(&self, y: Middle, index: usize) -> f64 {
         match y {
             Middle::Rotation(y) => y,
-            Middle::Collapsed => self.y_top * 1.07,
+            Middle::Collapsed => {
+                let share = (index as f64 + 0.5) / self.curves.len() as f64;
+                self.y_top * (1.0 + (BAND - 1.0) * (0.1 + 0.8 * share))
+            }
         }
     }
 }

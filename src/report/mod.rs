@@ -9,12 +9,13 @@
 //! | `folder` | which kind of results a folder holds, and its page |
 //! | `sweep` | the paper's figures 12 and 14 to 20 from the medians and runs of a sweep |
 //! | `run` | one run: histories, and the wall in motion |
-//! | `curves`, `svg`, `colours` | panels of curves, drawn by plotters |
+//! | `curves`, `lines`, `svg`, `colours` | panels of curves, drawn by plotters |
 //! | `page` | sections, figures and tables made into HTML |
 
 mod colours;
 mod curves;
 mod folder;
+mod lines;
 mod page;
 mod provenance;
 mod run;

@@ -2,6 +2,7 @@
 
 mod by_record;
 mod medians;
+mod spectra;
 mod tables;
 
 use std::path::Path;
@@ -11,13 +12,14 @@ use super::provenance;
 use crate::aggregate::{Medians, aggregate, write_medians};
 use crate::error::{InputError, Result};
 use crate::findings::{FINDINGS, Verdict, View};
+use crate::ground::Site;
 use crate::store::Manifest;
 
-/// The page of the sweep in a folder; its medians are written there first, for the page links to them.
+/// The page of the sweep in a folder, its records held against the code of a site where one is given; its medians are written there first, for the page links to them.
 ///
 /// # Errors
 /// An input error for a folder without results; whatever reading and drawing meet.
-pub fn page(folder: &Path, manifest: &Manifest) -> Result<Page> {
+pub fn page(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<Page> {
     let medians = aggregate(folder)?;
     let Some(base) = medians.variants.first() else {
         return Err(InputError::file(folder, "run files without a run", "the results of a sweep").into());
@@ -25,24 +27,32 @@ pub fn page(folder: &Path, manifest: &Manifest) -> Result<Page> {
     write_medians(&folder.join("medians.parquet"), &medians)?;
     let view = View::new(&medians, &base.name);
     let links = provenance::run_links(folder)?;
+    let mut sections = vec![medians::section(&view, manifest.suite.records.len())?];
+    if manifest.suite.records.len() > 1 {
+        sections.push(by_record::section(folder, &view, &links)?);
+    }
+    sections.push(spectra::section(spectra::suite_of(manifest).as_ref(), site)?);
+    sections.extend([findings(&medians, &view), assumptions(&medians)]);
     Ok(Page {
         title: format!("Sweep “{}”", manifest.plan),
-        lead: format!(
-            "Largest rotations of two-body façades under {} {} ground motions, one parameter at a time at its three levels.",
-            manifest.suite.records.len(),
-            if manifest.suite.generated { "generated" } else { "recorded" }
-        ),
+        lead: lead(manifest),
         numbers: numbers(&medians, &view),
         notes: provenance::notes(manifest, &medians),
-        sections: vec![
-            medians::section(&view)?,
-            by_record::section(folder, &view, &links)?,
-            findings(&medians, &view),
-            assumptions(&medians),
-        ],
+        sections,
         provenance: provenance::of(manifest),
         files: provenance::files(links),
     })
+}
+
+fn lead(manifest: &Manifest) -> String {
+    let kind = if manifest.suite.generated { "generated" } else { "recorded" };
+    let motions = match manifest.suite.records.len() {
+        1 => format!("one {kind} ground motion"),
+        many => format!("{many} {kind} ground motions"),
+    };
+    format!(
+        "Largest rotations of two-body façades under {motions}, one parameter at a time at its three levels."
+    )
 }
 
 fn numbers(medians: &Medians, view: &View) -> Vec<Number> {

@@ -98,7 +98,7 @@ fn regress_run_page_in_chromium() {
             &page,
             width,
             "const time = () => Number(document.querySelector('.scrub').value);
-             const ink = () => { const c = document.querySelector('.stage canvas'); const d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data; let sum = 0; for (let i = 3; i < d.length; i += 4) sum += d[i] > 0; return sum; };
+             const ink = () => { const from = document.querySelector('.stage canvas'); const c = document.createElement('canvas'); c.width = from.width; c.height = from.height; const g = c.getContext('2d', { willReadFrequently: true }); g.drawImage(from, 0, 0); const d = g.getImageData(0, 0, c.width, c.height).data; let sum = 0; for (let i = 3; i < d.length; i += 4) sum += d[i] > 0; return sum; };
              found.ink = ink();
              const scrub = document.querySelector('.scrub');
              scrub.value = 0.3; scrub.dispatchEvent(new Event('input'));
