@@ -56,6 +56,7 @@ pub mod findings;
 pub mod ground;
 pub mod input;
 pub mod model;
+pub mod overturning;
 pub mod plan;
 pub mod simulate;
 pub mod solver;
