@@ -57,6 +57,7 @@ pub mod findings;
 pub mod ground;
 pub mod input;
 pub mod model;
+pub mod overturning;
 pub mod plan;
 pub mod report;
 pub mod simulate;
