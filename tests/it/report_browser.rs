@@ -75,7 +75,7 @@ fn regress_sweep_page_in_chromium() {
              key.click();
              found.after = faded();",
         );
-        assert_eq!(found["panels"], 8);
+        assert_eq!(found["panels"], 9);
         let tip = found["tip"].as_str().expect("a text");
         assert!(tip.contains("pulse_1") && tip.contains("h/b 14"), "{tip}");
         assert_eq!(
@@ -137,7 +137,8 @@ fn regress_run_page_in_chromium() {
         let peak = data["peaks"][0].as_f64().expect("a time");
         assert!((found["peak"].as_f64().expect("a time") - peak).abs() <= 0.0026);
         assert_eq!(found["magnified"], "× 100");
-        assert!(found["played"].as_f64().expect("a time") > 0.1, "{found}");
+        // How many frames a headless browser draws in virtual time is its own affair; one moves time by 0.05 s at most.
+        assert!(found["played"].as_f64().expect("a time") > 0.02, "{found}");
         assert_eq!((&found["paused"], &found["cursor"]), (&true.into(), &1.into()));
     }
 }

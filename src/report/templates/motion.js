@@ -69,7 +69,7 @@
         if (flash.joints & 2) places.push(shape.crack);
         for (const place of places) burst(g, px(place), flash.strength, age);
       }
-      drawArrow(g, width, height, ground(state.time) / strongest);
+      if (data.ground.length > 0) drawArrow(g, width, height, ground(state.time) / strongest);
       if (data.collapse !== null && state.time >= end - data.step) {
         g.fillStyle = "#a50f15";
         g.font = `600 ${Math.round(width / 22)}px system-ui, sans-serif`;
@@ -119,7 +119,7 @@
         g.stroke();
       }
       curve(g, data.ground, 1 / data.perMS2 / strongest, "#555", [parts[3], parts[4]], first, Math.min(last, data.ground.length - 1), x);
-      labels(g, width, parts, `±${top.toPrecision(2)}`, strongest);
+      labels(g, width, parts, `±${top.toPrecision(2)}`, data.ground.length > 0 ? strongest : 0);
       g.strokeStyle = "#a50f15";
       g.lineWidth = width / 350;
       g.beginPath();
@@ -393,7 +393,7 @@
     g.fillStyle = "#666";
     const down = width / 40;
     g.fillText(`θ/α, ${rotations}`, 4, parts[0] + down);
-    g.fillText(`ground, ±${strongest.toPrecision(2)} m/s²`, 4, parts[3] + down);
+    g.fillText(strongest > 0 ? `ground, ±${strongest.toPrecision(2)} m/s²` : "ground at rest", 4, parts[3] + down);
   }
 
   // A line in each static history that follows the time; a press on the history sets it.
