@@ -49,6 +49,7 @@ pub mod batch;
 pub mod cli;
 pub mod error;
 pub mod findings;
+pub mod fragility;
 pub mod ground;
 pub mod input;
 pub mod model;
