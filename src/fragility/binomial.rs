@@ -134,11 +134,21 @@ impl<'a> Counts<'a> {
     /// # Errors
     /// [`Unknown`] where the maximum does not exist; intensities in it are exp x.
     pub fn fit(&self, link: Link) -> Result<Line, Unknown> {
+        self.fit_from(link, None)
+    }
+
+    /// The same from a line that is near, such as that of the data for a replicate; where it ends does not depend on it.
+    ///
+    /// # Errors
+    /// As [`Counts::fit`].
+    pub fn fit_from(&self, link: Link, near: Option<&Line>) -> Result<Line, Unknown> {
         self.check_overlap()?;
         let (k, n) = self.totals();
         let centre = self.rows().map(|(x, failed, stood)| x * (failed + stood)).sum::<f64>() / n;
         // The constant probability, as a normal quantile for either link: a start that is always on the right side.
-        let start = [normal::quantile(k / n), 0.0];
+        let start = near.map_or([normal::quantile(k / n), 0.0], |line| {
+            [line.intercept + line.slope * centre, line.slope]
+        });
         // A variable with mean 0 keeps the two coefficients nearly independent.
         let ([a, slope], log_likelihood) = newton(start, [true, true], |c| self.slopes(link, c, centre))?;
         Ok(Line { intercept: a - slope * centre, slope, log_likelihood })

@@ -30,9 +30,10 @@ impl Bootstrap {
     /// The fragility of every replicate, in order; none where a replicate tells none.
     pub fn run(&self, method: Method, sample: &Sample) -> Vec<Option<Fitted>> {
         let sample = &split_stripes(sample);
+        let near = method.fit(sample, &sample.unit_weights()).ok();
         (0..self.replicates)
             .into_par_iter()
-            .map(|replicate| method.fit(sample, &self.weights(sample, replicate)).ok())
+            .map(|replicate| method.fit_from(sample, &self.weights(sample, replicate), near.as_ref()).ok())
             .collect()
     }
 
@@ -108,12 +109,13 @@ fn leave_out(
     cluster: impl Fn(usize) -> usize + Sync,
 ) -> Vec<Option<Fitted>> {
     let groups = count.min(JACKKNIFE_GROUPS);
+    let near = method.fit(sample, &sample.unit_weights()).ok();
     (0..groups)
         .into_par_iter()
         .map(|group| {
             let kept = |row: usize| if cluster(row) % groups == group { 0.0 } else { 1.0 };
             let weights: Vec<f64> = (0..sample.len()).map(kept).collect();
-            method.fit(sample, &weights).ok()
+            method.fit_from(sample, &weights, near.as_ref()).ok()
         })
         .collect()
 }
@@ -175,7 +177,9 @@ mod tests {
         let [ln_median, _] = left_out(Method::Outcomes, &sample);
         let weights: Vec<f64> = (0..30).map(|row| if row / 5 == 2 { 0.0 } else { 1.0 }).collect();
         let fit = Method::Outcomes.fit(&sample, &weights).expect("fits");
-        assert_eq!(ln_median[0][2], Some(fit.curve.ln_median()));
+        // The two start from elsewhere and end at the same maximum, to the rounding of the last step.
+        let left_out = ln_median[0][2].expect("a fragility");
+        assert!((left_out - fit.curve.ln_median()).abs() < 1e-12, "{left_out} {fit:?}");
         assert_eq!((ln_median[0].len(), ln_median[1].len()), (6, 5));
     }
 }

@@ -1,5 +1,7 @@
 //! Confidence intervals from bootstrap replicates, some of which may tell no fragility.
 
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
 use super::normal;
 
 /// A confidence interval; a bound the data do not set is none.
@@ -87,6 +89,17 @@ impl Replicates {
     }
 }
 
+/// The level to take percentiles at so that intervals over `clusters` hold at `level`; none for fewer than two.
+///
+/// A bootstrap of few clusters scatters by √((n - 1)/n) too little and has normal tails where a t has wider ones:
+/// tails of Φ(-√(n/(n - 1)) t) make up for both (Hesterberg 2015, "What teachers should know about the bootstrap",
+/// The American Statistician 69(4), section 3.3).
+pub fn expanded_level(level: f64, clusters: usize) -> Option<f64> {
+    let degrees = clusters.checked_sub(1).filter(|&degrees| degrees > 0)? as f64;
+    let t = StudentsT::new(0.0, 1.0, degrees).ok()?.inverse_cdf(0.5 + 0.5 * level);
+    Some(1.0 - 2.0 * normal::cdf(-((degrees + 1.0) / degrees).sqrt() * t))
+}
+
 /// Acceleration Σd³ / (6 (Σd²)^1.5) with d the mean minus each value left out, over all kinds of clusters.
 fn acceleration(left_out: &[Vec<Option<f64>>]) -> Option<f64> {
     let (mut squares, mut cubes) = (0.0, 0.0);
@@ -143,6 +156,20 @@ mod tests {
         // Replicates mostly below the estimate move both bounds up.
         let moved = replicates.bias_corrected(600.0, &left_out, 0.95).expect("exists");
         assert!(moved.lower > corrected.lower && moved.upper > corrected.upper);
+    }
+
+    #[test]
+    fn published_expanded_levels_for_few_clusters() {
+        // t_{0.975} is 2.5706 with 5 degrees and 2.0930 with 19: 2 Φ(-2.8160) and 2 Φ(-2.1474).
+        for (clusters, tails) in [(6, 0.004_863), (20, 0.031_763)] {
+            let level = expanded_level(0.95, clusters).expect("enough clusters");
+            // The quantiles are tabulated with five digits.
+            assert!((1.0 - level - tails).abs() < 2e-5, "{level} for {clusters}");
+        }
+        assert_eq!(expanded_level(0.95, 1), None);
+        let many = expanded_level(0.95, 1_000_000).expect("enough clusters");
+        // The correction falls as 1/n.
+        assert!((many - 0.95).abs() < 1e-5);
     }
 
     #[test]

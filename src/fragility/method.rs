@@ -47,8 +47,23 @@ impl Method {
     /// # Errors
     /// [`Unknown`] where the sample does not tell one.
     pub fn fit(&self, sample: &Sample, weights: &[f64]) -> Result<Fitted, Unknown> {
+        self.fit_from(sample, weights, None)
+    }
+
+    /// The same; a fragility that is `near` saves steps.
+    ///
+    /// # Errors
+    /// As [`Method::fit`].
+    pub fn fit_from(
+        &self,
+        sample: &Sample,
+        weights: &[f64],
+        near: Option<&Fitted>,
+    ) -> Result<Fitted, Unknown> {
         match self {
-            Method::Outcomes => fit_curve(sample, weights).map(Fitted::lognormal),
+            Method::Outcomes => {
+                fit_curve(sample, weights, near.map(|near| &near.curve)).map(Fitted::lognormal)
+            }
             Method::Incremental => fit_incremental(sample, weights).map(Fitted::lognormal),
             Method::Cloud { limit } => {
                 let cloud = fit_cloud(sample, weights, limit.ln())?;

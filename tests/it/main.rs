@@ -4,6 +4,7 @@
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
 mod cli_simulate;
+mod fragility;
 mod ground_formats;
 mod ground_intensity;
 mod ground_mutations;
