@@ -54,6 +54,7 @@ pub mod ground;
 pub mod input;
 pub mod model;
 pub mod plan;
+pub mod sampling;
 pub mod simulate;
 pub mod solver;
 pub mod store;
