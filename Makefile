@@ -5,7 +5,13 @@ SHARED_SUITE := ../shared/records/natural7/suite.toml
 # The suite the sweep runs on: SUITE=FILE, else the records beside the repository, where there are any.
 CHOSEN_SUITE := $(or $(SUITE),$(wildcard inputs/records/emilia7/suite.toml),$(wildcard $(SHARED_SUITE)))
 
-.PHONY: sweep test bench lint docs clean
+include make/records.mk
+
+.DEFAULT_GOAL := help
+.PHONY: help sweep test bench lint docs clean
+
+help: ## this list
+	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
 
 sweep: ## run the parametric sweep of the paper, aggregate it and print the medians and the checked conclusions
 ifeq ($(CHOSEN_SUITE),)
@@ -13,7 +19,7 @@ ifeq ($(CHOSEN_SUITE),)
 	@echo "(a suite lists records with file, step, unit and scale; see inputs/records/README.md)" >&2
 	@exit 2
 else
-	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep
+	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep --force
 endif
 
 test: ## all tests

@@ -118,7 +118,7 @@ impl FragilityCommand {
         if let (Some(path), Some(measure)) = (&self.nrml, &measure) {
             write_durably(path, nrml_document(measure, &self.limit_state, &self.curves(&groups)).as_bytes())?;
         }
-        super::print(&if self.json {
+        super::output::print(&if self.json {
             format!("{:#}", report::as_json(&self.group, &groups, &settings))
         } else {
             report::table(&self.group, &groups, &settings)

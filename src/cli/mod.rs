@@ -5,10 +5,9 @@
 mod aggregate;
 mod fragility;
 mod output;
+mod records;
 mod run;
 mod simulate;
-
-use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
@@ -27,6 +26,7 @@ enum Command {
     Run(run::RunCommand),
     Aggregate(aggregate::AggregateCommand),
     Fragility(fragility::FragilityCommand),
+    Records(records::RecordsArgs),
     Simulate(simulate::SimulateArgs),
 }
 
@@ -40,21 +40,8 @@ impl Cli {
             Command::Run(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
             Command::Fragility(command) => command.execute(),
+            Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }
-    }
-}
-
-/// Prints data to stdout; a reader that closes the pipe early has seen enough.
-///
-/// # Errors
-/// What the system says, other than that the pipe is closed.
-fn print(text: &str) -> Result<()> {
-    let mut stdout = std::io::stdout().lock();
-    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(crate::Error::io("print", std::path::Path::new("stdout"), e))
-        }
-        _ => Ok(()),
     }
 }

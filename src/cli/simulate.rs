@@ -72,9 +72,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     let shaking = shaking(args)?;
     let accuracy = accuracy(args.tolerance)?;
     check_moves(&wall, args)?;
-    let step_s =
-        shaking.horizontal.as_ref().map_or(crate::simulate::FREE_RELEASE_STEP_S, Accelerogram::step_s);
-    let mut history = History::new(step_s);
+    let mut history = History::new(history_step_s(args, &shaking)?);
     let response = match &args.history {
         Some(path) => {
             let writer = write_history(path)?;
@@ -84,7 +82,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
         }
         None => crate::simulate::simulate(&wall, &shaking, accuracy),
     };
-    super::print(&if args.json {
+    super::output::print(&if args.json {
         format!("{:#}", as_json(&wall, &response))
     } else {
         summary(&wall, &response)
@@ -110,11 +108,11 @@ fn shaking(args: &SimulateArgs) -> Result<Shaking> {
     let vertical_scale = number("--vertical-scale", args.vertical_scale, true, any)?;
     let horizontal = load(args.record.as_deref(), args.dt, scale)?;
     let vertical = load(args.vertical.as_deref(), args.dt, vertical_scale)?;
-    if let (Some(h), Some(v), Some(path)) = (&horizontal, &vertical, &args.vertical) {
-        if h.step_s() != v.step_s() {
-            let allowed = format!("the step of the horizontal record, {} s", h.step_s());
-            return Err(InputError::file(path, format!("a step of {} s", v.step_s()), allowed).into());
-        }
+    if let (Some(h), Some(v), Some(path)) = (&horizontal, &vertical, &args.vertical)
+        && h.step_s() != v.step_s()
+    {
+        let allowed = format!("the step of the horizontal record, {} s", h.step_s());
+        return Err(InputError::file(path, format!("a step of {} s", v.step_s()), allowed).into());
     }
     Ok(Shaking { horizontal, vertical, tail_s })
 }

@@ -169,6 +169,9 @@ pub const COMPATIBLE_PERIODS_S: (f64, f64) = (0.15, 2.0);
 /// How far below and above the code a mean spectrum may lie, relative.
 pub const COMPATIBLE_DEVIATION: (f64, f64) = (-0.10, 0.30);
 
+/// Spacing of the periods at which spectra are compared, s: peaks of a mean spectrum are some hundredths wide.
+const PERIOD_STEP_S: f64 = 0.01;
+
 /// The mean spectrum of a suite against the code.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SuiteCheck {
@@ -213,16 +216,10 @@ pub(crate) fn deviation_range(values: &[f64], references: &[f64]) -> (f64, f64) 
     deviations.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)))
 }
 
-/// Periods from `low_s` to `high_s` at most 0.01 s apart, and at most 5 % apart where they are short, s.
+/// Periods from `low_s` to `high_s`, 0.01 s apart, s.
 pub(crate) fn periods_s(low_s: f64, high_s: f64) -> Vec<f64> {
-    let mut periods = Vec::new();
-    let mut period = low_s;
-    while period < high_s - 1e-9 {
-        periods.push(period);
-        period += (0.05 * period).min(0.01);
-    }
-    periods.push(high_s);
-    periods
+    let steps = ((high_s - low_s) / PERIOD_STEP_S).round().max(0.0) as usize;
+    (0..=steps).map(|i| low_s + i as f64 * PERIOD_STEP_S).collect()
 }
 
 #[cfg(test)]

@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::suite_file::{RecordEntry, SuiteFile};
-use super::{Accelerogram, IntensityMeasures, ReadOptions, Record, read};
+use super::{Accelerogram, ImpossiblePulse, IntensityMeasures, Motion, ReadOptions, Record, read};
 use crate::error::{InputError, Result};
 use crate::input::toml_file;
+use crate::model::G_M_S2;
 
 /// Relative difference allowed between a peak acceleration and what the suite says of it: published ones are rounded.
 const PGA_TOLERANCE: f64 = 0.02;
@@ -80,21 +81,26 @@ impl Suite {
     /// # Errors
     /// Input errors that name the suite and the key, or the record file and the line.
     pub fn load(path: &Path) -> Result<Self> {
-        let file: SuiteFile = toml_file::load(path)?;
+        Self::from_file(path, &toml_file::load(path)?)
+    }
+
+    /// Reads the records of a suite file that lies at `path`.
+    pub(super) fn from_file(path: &Path, file: &SuiteFile) -> Result<Self> {
         if file.records.is_empty() {
             return Err(InputError::key(path, "records", "no records", "at least one `[[records]]`").into());
         }
         let mut ids = BTreeSet::new();
         let mut records = Vec::with_capacity(file.records.len());
         for (index, entry) in file.records.iter().enumerate() {
-            let place = Entry { path, file: &file, entry, index };
+            let place = Entry { path, file, entry, index };
             if !ids.insert(entry.id) {
                 return Err(place.fault("id", format!("{} again", entry.id), "numbers that differ").into());
             }
             records.push(place.load()?);
         }
         let generated = file.generated || records.iter().all(|r| r.generated);
-        Ok(Self { name: file.name, generated, note: file.note, source: file.source, records })
+        let (name, note, source) = (file.name.clone(), file.note.clone(), file.source.clone());
+        Ok(Self { name, generated, note, source, records })
     }
 }
 
@@ -115,19 +121,19 @@ impl Entry<'_> {
         let entry = self.entry;
         let scale = self.scale("scale", entry.scale)?;
         let vertical_scale = self.scale("vertical_scale", entry.vertical_scale.unwrap_or(entry.scale))?;
-        let read = self.horizontal()?;
-        self.check_peaks(&read.accelerogram)?;
-        let horizontal = read.accelerogram.scaled(scale);
+        let (name, unscaled) = self.horizontal()?;
+        self.check_peaks(&unscaled)?;
+        let horizontal = unscaled.scaled(scale);
         Ok(SuiteRecord {
             id: entry.id,
-            name: entry.name.clone().unwrap_or(read.name),
+            name: entry.name.clone().unwrap_or(name),
             event: entry.event.clone(),
             scale,
             vertical: self.vertical(horizontal.step_s())?.map(|record| record.scaled(vertical_scale)),
             vertical_scale,
             intensity: IntensityMeasures::of(&horizontal),
             horizontal,
-            generated: self.file.generated || entry.generated,
+            generated: self.file.generated || entry.generated || entry.pulse.is_some(),
             about: self.about(),
         })
     }
@@ -140,11 +146,25 @@ impl Entry<'_> {
         Err(self.fault(key, value.to_string(), allowed))
     }
 
-    fn horizontal(&self) -> Result<Record> {
-        let Some(file) = &self.entry.file else {
-            return Err(self.fault("file", "no `file`", "the file of the record").into());
-        };
-        self.read("file", file, self.entry.channel.clone())
+    /// The record and its name.
+    fn horizontal(&self) -> Result<(String, Accelerogram)> {
+        match (&self.entry.file, &self.entry.pulse) {
+            (Some(file), None) => {
+                let record = self.read("file", file, self.entry.channel.clone())?;
+                Ok((record.name, record.accelerogram))
+            }
+            (None, Some(pulse)) => {
+                let step_s = self.entry.step_s.or(self.file.step_s);
+                let refuse = |e: ImpossiblePulse| {
+                    self.fault(&format!("pulse.{}", e.name), e.value.to_string(), e.allowed)
+                };
+                Ok((format!("pulse {}", self.entry.id), pulse.accelerogram(step_s).map_err(refuse)?))
+            }
+            (Some(_), Some(_)) => Err(self.fault("pulse", "`file` and `pulse`", "one of them").into()),
+            (None, None) => {
+                Err(self.fault("file", "no `file`", "the file of the record, or a `pulse`").into())
+            }
+        }
     }
 
     fn vertical(&self, step_s: f64) -> Result<Option<Accelerogram>> {
@@ -178,24 +198,19 @@ impl Entry<'_> {
     }
 
     fn check_peaks(&self, record: &Accelerogram) -> Result<(), InputError> {
-        let (pga_key, pgv_key) = (self.entry.pga_g, self.entry.pgv_m_s);
-        let measures = pga_key.or(pgv_key).map(|_| IntensityMeasures::of(record));
-        let Some(found) = measures else {
-            return Ok(());
-        };
-        self.check_peak("pga_g", pga_key, found.pga_g, PGA_TOLERANCE)?;
-        self.check_peak("pgv_m_s", pgv_key, found.pgv_m_s, PGV_TOLERANCE)
+        self.check_peak("pga_g", self.entry.pga_g, record.peak_m_s2() / G_M_S2, PGA_TOLERANCE)?;
+        let pgv_m_s = Motion::of(record).peak_velocity_m_s();
+        self.check_peak("pgv_m_s", self.entry.pgv_m_s, pgv_m_s, PGV_TOLERANCE)
     }
 
     fn check_peak(&self, key: &str, said: Option<f64>, found: f64, tolerance: f64) -> Result<(), InputError> {
-        match said {
-            Some(said) if !((found - said).abs() <= tolerance * said) => {
-                let allowed =
-                    format!("what the unscaled file has, {found:.4}, within {} %", tolerance * 100.0);
-                Err(self.fault(key, said.to_string(), allowed))
-            }
-            _ => Ok(()),
+        let Some(said) = said else { return Ok(()) };
+        let agrees = (found - said).abs() <= tolerance * said;
+        if agrees {
+            return Ok(());
         }
+        let allowed = format!("what the unscaled file has, {found:.4}, within {} %", tolerance * 100.0);
+        Err(self.fault(key, said.to_string(), allowed))
     }
 
     fn about(&self) -> About {

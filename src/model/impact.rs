@@ -5,13 +5,12 @@
 
 use super::MechanicsError;
 use super::Table2Change;
-use super::contact::{Contact, Joint, Pivot, Touching};
-use super::motion::Freedom;
-use super::posture::{Pair, Rates};
+use super::contact::{Contact, Pivot, Touching};
+use super::posture::{Pair, Posture, Rates, Turns};
 use super::rocking::{RockingWall, State, opening};
 use super::wall::ImpactLaw;
 
-/// Separations and impulses within this share of the motion's own size count as zero: some hundred roundings.
+/// Separations and impulses within this share of the motion before count as zero: some hundred roundings.
 const ROUNDING: f64 = 1e-13;
 
 /// What came of an impact.
@@ -48,82 +47,108 @@ impl Table2Change {
     }
 }
 
+/// An impact while it is worked out: the posture, and the velocities of the mass points before.
+struct Strike {
+    touching: Touching,
+    turns: Turns,
+    v_before: Rates,
+}
+
 impl RockingWall {
     /// The outcome of an impact at a state whose touching joints have zero opening.
     ///
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
-        let admissible = self.admissible_outcomes(from, touching, state);
-        let mut outcomes = admissible.iter().flatten();
-        let Some(&plastic) = outcomes.next() else {
-            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count: 0 });
+        let strike = self.strike(from, touching, state);
+        let mut outcomes = self.admissible(from, &strike).into_iter().flatten();
+        let (Some(plastic), None) = (outcomes.next(), outcomes.next()) else {
+            let count = self.admissible(from, &strike).iter().flatten().count();
+            return Err(MechanicsError::ImpactOutcomes { from: from.name(), touching, state: *state, count });
         };
-        let further = outcomes.count();
-        if further > 0 {
-            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count: 1 + further });
-        }
-        let v_before = self.posture(from, state.theta).rates(state.omega);
-        let (contact, projected) = self.captured(plastic, touching, state.theta, &v_before);
+        let (contact, projected) = self.captured(plastic, &strike);
         let change = Table2Change::of(from, contact);
-        let omega = self.scaled(change, contact, projected, touching, state.theta, &v_before);
-        let before_j = self.motion(from).kinetic_energy_j(state.theta, state.omega);
-        let after_j = self.motion(contact).kinetic_energy_j(state.theta, omega);
+        let omega = self.scaled(change, contact, projected, &strike);
+        let before_j = self.motion(from).kinetic_energy_j(strike.turns, state.omega);
+        let after_j = self.motion(contact).kinetic_energy_j(strike.turns, omega);
         Ok(Impact { contact, omega, change, captured: contact != plastic, loss_j: before_j - after_j })
     }
 
-    /// Every admissible contact state after an impact, closed states first; exactly one is expected.
+    /// Every admissible contact state after an impact; exactly one is expected.
     ///
     /// Admissible: every closed joint receives impulses that push at both corners, every opened joint separates.
-    /// Ties within rounding go to the closed state.
+    /// Where no state is so by more than rounding, the tie goes to the one with most joints closed.
     pub fn admissible_outcomes(
         &self,
         from: Contact,
         touching: Touching,
         state: &State,
     ) -> [Option<Contact>; 9] {
-        let v_before = self.posture(from, state.theta).rates(state.omega);
-        let mut found = [None; 9];
-        let candidates = self.states_touching(from, touching);
-        let admissible = candidates.filter(|c| self.is_admissible(*c, touching, state.theta, &v_before));
-        found.iter_mut().zip(admissible).for_each(|(slot, contact)| *slot = Some(contact));
-        found
+        self.admissible(from, &self.strike(from, touching, state))
+    }
+
+    fn strike(&self, from: Contact, touching: Touching, state: &State) -> Strike {
+        let turns = Turns::new(state.theta);
+        Strike { touching, turns, v_before: self.posture(from, turns).rates(state.omega) }
+    }
+
+    fn admissible(&self, from: Contact, strike: &Strike) -> [Option<Contact>; 9] {
+        let mut clear = [None; 9];
+        let mut tie: Option<Contact> = None;
+        for to in self.states_touching(from, strike.touching) {
+            let margin = self.margin(to, strike);
+            if margin > ROUNDING {
+                clear[to.index()] = Some(to);
+            } else if margin >= -ROUNDING && tie.is_none_or(|tied| to.open_joints() < tied.open_joints()) {
+                tie = Some(to);
+            }
+        }
+        if clear.iter().all(Option::is_none) {
+            clear[0] = tie;
+        }
+        clear
+    }
+
+    /// By how much a contact state is admissible: the smallest corner impulse of its closed joints or separation of its
+    /// opened ones, over the momentum or speed before.
+    fn margin(&self, to: Contact, strike: &Strike) -> f64 {
+        let posture = self.posture(to, strike.turns);
+        let omega = self.projected_onto(to, &posture, strike);
+        // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
+        let [w1, w2] = strike.v_before.theta.map(|w| w.abs().max(f64::MIN_POSITIVE));
+        let separation = self
+            .joints()
+            .filter(|joint| strike.touching.at(*joint) && to.at(*joint).is_open())
+            .map(|joint| to.at(joint).sign() * opening(joint, omega) / w1.max(w2))
+            .fold(f64::INFINITY, f64::min);
+        separation.min(self.smallest_impulse(to, &posture, omega, &strike.v_before))
     }
 
     /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
-    fn projected(&self, to: Contact, theta: Pair, v_before: &Rates) -> Pair {
+    fn projected_onto(&self, to: Contact, posture: &Posture, strike: &Strike) -> Pair {
         let motion = self.motion(to);
-        if motion.freedom == Freedom::None {
-            return [0.0, 0.0];
-        }
-        let momenta = self.masses.momenta(&self.posture(to, theta), v_before);
-        motion.mass_matrix(theta).solve(motion.freedom, momenta)
+        let momenta = self.masses.momenta(posture, &strike.v_before);
+        motion.mass_matrix(strike.turns).solve(motion.freedom, momenta)
     }
 
-    fn is_admissible(&self, to: Contact, touching: Touching, theta: Pair, v_before: &Rates) -> bool {
-        let omega = self.projected(to, theta, v_before);
-        let speed = v_before.theta[0].abs().max(v_before.theta[1].abs());
-        let separates = |joint: Joint| {
-            to.at(joint).is_closed()
-                || !touching.at(joint)
-                || to.at(joint).sign() * opening(joint, omega) > ROUNDING * speed
-        };
-        self.joints().all(separates) && self.impulses_push(to, theta, omega, v_before)
+    fn projected(&self, to: Contact, strike: &Strike) -> Pair {
+        self.projected_onto(to, &self.posture(to, strike.turns), strike)
     }
 
-    /// Whether the impulses at both corners of every closed joint are compressive.
-    fn impulses_push(&self, to: Contact, theta: Pair, omega: Pair, v_before: &Rates) -> bool {
-        let posture = self.posture(to, theta);
+    /// Smallest impulse at the corners of the closed joints over the momentum before; infinite where all are open.
+    fn smallest_impulse(&self, to: Contact, posture: &Posture, omega: Pair, v_before: &Rates) -> f64 {
         let jump = posture.rates(omega).minus(*v_before);
-        let impulses = self.masses.impulses(&posture, &jump);
-        let size = impulses.ground.normal.abs() + impulses.ground.shear.abs() + impulses.crack.normal.abs();
-        self.joints().filter(|joint| to.at(*joint).is_closed()).all(|joint| {
-            let corners = impulses.at(joint).corners(self.width_m(joint));
-            corners.iter().all(|impulse| *impulse >= -ROUNDING * size * self.slimness())
-        })
+        let impulses = self.masses.impulses(posture, &jump);
+        // A corner's impulse is a moment over a width: its roundings are those of the momentum times the slimness.
+        let size = (self.masses.momentum_size(v_before) * self.slimness()).max(f64::MIN_POSITIVE);
+        self.joints()
+            .filter(|joint| to.at(*joint).is_closed())
+            .flat_map(|joint| impulses.at(joint).corners(self.width_m(joint)))
+            .map(|impulse| impulse / size)
+            .fold(f64::INFINITY, f64::min)
     }
 
-    /// Height over the narrowest joint: how much a moment's rounding is magnified in a corner impulse.
+    /// Height over the narrowest joint.
     fn slimness(&self) -> f64 {
         let p = self.wall().parameters();
         let narrowest = self.joints().map(|joint| self.width_m(joint)).fold(f64::INFINITY, f64::min);
@@ -132,20 +157,13 @@ impl RockingWall {
 
     /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
     /// the impact, until none is left.
-    fn captured(
-        &self,
-        plastic: Contact,
-        touching: Touching,
-        theta: Pair,
-        v_before: &Rates,
-    ) -> (Contact, Pair) {
-        let limit = self.wall().parameters().restitution.capture_velocity_rad_s;
+    fn captured(&self, plastic: Contact, strike: &Strike) -> (Contact, Pair) {
         let mut contact = plastic;
         loop {
-            let omega = self.projected(contact, theta, v_before);
+            let omega = self.projected(contact, strike);
             let slow = self.joints().find(|joint| {
-                let opened = touching.at(*joint) && contact.at(*joint).is_open();
-                opened && opening(*joint, omega).abs() < limit
+                let opened = strike.touching.at(*joint) && contact.at(*joint).is_open();
+                opened && opening(*joint, omega).abs() < self.capture_rad_s
             });
             match slow {
                 Some(joint) => contact = contact.with(joint, Pivot::Closed),
@@ -155,15 +173,7 @@ impl RockingWall {
     }
 
     /// Scales the projected velocities by the coefficient of the change.
-    fn scaled(
-        &self,
-        change: Option<Table2Change>,
-        contact: Contact,
-        omega: Pair,
-        touching: Touching,
-        theta: Pair,
-        v_before: &Rates,
-    ) -> Pair {
+    fn scaled(&self, change: Option<Table2Change>, contact: Contact, omega: Pair, strike: &Strike) -> Pair {
         let restitution = self.wall().parameters().restitution;
         let Some(change) = change else { return omega };
         let c_l = restitution.coefficients[change.index()];
@@ -172,9 +182,9 @@ impl RockingWall {
             ImpactLaw::Whole => [0.0, 0.0],
             // The motion if every touching joint stuck: what the impact cannot see.
             ImpactLaw::Contact => {
-                let stuck = self.joints().filter(|joint| touching.at(*joint));
+                let stuck = self.joints().filter(|joint| strike.touching.at(*joint));
                 let stuck = stuck.fold(contact, |state, joint| state.with(joint, Pivot::Closed));
-                self.projected(stuck, theta, v_before)
+                self.projected(stuck, strike)
             }
         };
         [0, 1].map(|i| u[i] + c_l * (omega[i] - u[i]))

@@ -9,7 +9,7 @@ use mrbd::ground::{
 
 use crate::shared;
 
-/// Difference allowed from eqsig, which finds durations to a sample and sums where we integrate.
+/// Difference allowed: peaks between 40 points in a period are missed by up to 0.3 %, durations are found to a sample.
 const TOLERANCE: f64 = 5e-3;
 
 /// The first synthetic record of tests/python/check_intensities.py.
@@ -41,9 +41,9 @@ const DECAYING: [f64; 10] = [
     8.56980738115965,
     7.36,
     0.7342231114354505,
-    4.622250541739611,
-    4.901540039634739,
-    2.637287372175403,
+    4.625987910221569,
+    4.9015400396375295,
+    2.6387483779295096,
 ];
 const SWEEP: [f64; 10] = [
     1.9979707406851017,
@@ -53,9 +53,9 @@ const SWEEP: [f64; 10] = [
     12.730005263780908,
     9.330000000000002,
     0.2528532231742285,
-    5.320381813842343,
-    0.7954992885767925,
-    0.8130853146596947,
+    5.320534830699989,
+    0.7955240431821266,
+    0.8132404859744224,
 ];
 
 fn measures(m: &IntensityMeasures) -> [f64; 10] {
@@ -87,13 +87,14 @@ fn verified_measures_agree_with_eqsig() {
 fn verified_spectral_accelerations_agree_with_pyrotd() {
     // pyRotd 0.6.1 in the frequency domain, the record followed by 60 s of zeros; same script.
     for (record, period, expected) in [
-        (decaying(), 0.5, 4.6298217797234305),
-        (decaying(), 1.0, 4.9023146438857825),
-        (decaying(), 2.0, 0.585352833072548),
-        (sweep(), 0.2, 16.103792171288976),
-        (sweep(), 0.5, 5.321448278108243),
-        (sweep(), 1.0, 0.7955098103369025),
-        (sweep(), 2.0, 0.08642629027181829),
+        (decaying(), 0.2, 4.279093973544002),
+        (decaying(), 0.5, 4.62623969320042),
+        (decaying(), 1.0, 4.901389200559379),
+        (decaying(), 2.0, 0.5852454087026574),
+        (sweep(), 0.2, 16.071435624593718),
+        (sweep(), 0.5, 5.320467297625416),
+        (sweep(), 1.0, 0.7955160033683119),
+        (sweep(), 2.0, 0.08642763381811057),
     ] {
         let found = spectral_acceleration_m_s2(&record, period, CODE_DAMPING);
         assert!((found / expected - 1.0).abs() < TOLERANCE, "{period} s: {found} for {expected}");
@@ -126,9 +127,13 @@ fn verified_the_natural_suite_lies_where_an_independent_program_put_it() {
     let Some(folder) = shared::folder("records/natural7") else { return };
     let suite = Suite::load(&folder.join("suite.toml")).expect("valid");
     let check = SuiteCheck::of(&suite, &MIRANDOLA, COMPATIBLE_PERIODS_S);
-    println!("natural7: {:+.4} {:+.4}", check.lowest_deviation, check.highest_deviation);
-    // Stated to a tenth of a percent, on periods that are not stated; another grid moves extremes by some tenths.
-    assert!((check.lowest_deviation + 0.103).abs() < 3e-3, "{}", check.lowest_deviation);
-    assert!((check.highest_deviation - 0.249).abs() < 3e-3, "{}", check.highest_deviation);
+    // By eqsig at the same periods, every 0.01 s; peaks between samples are found with another number of parts.
+    assert!((check.lowest_deviation + 0.1030).abs() < 1e-3, "{}", check.lowest_deviation);
+    assert!((check.highest_deviation - 0.2731).abs() < 1e-3, "{}", check.highest_deviation);
+    // Stated beside the records to a tenth of a percent, for periods every 0.05 s.
+    let every_fifth =
+        check.mean_m_s2.iter().zip(&check.code_m_s2).step_by(5).map(|(mean, code)| mean / code - 1.0);
+    let (low, high) = every_fifth.fold((1.0, -1.0), |(low, high), d| (f64::min(low, d), f64::max(high, d)));
+    assert!((low + 0.103).abs() < 5e-4 && (high - 0.249).abs() < 5e-4, "{low} {high}");
     assert!(!check.is_within(COMPATIBLE_DEVIATION) && check.is_within((-0.11, 0.30)));
 }

@@ -7,11 +7,13 @@ use mrbd::aggregate::{Case, LEVELS, Measure, Medians, Middle, aggregate};
 use mrbd::batch::{Finished, Tally, run_batch};
 use mrbd::input::pipeline::Parameter;
 use mrbd::input::survey::Configuration;
+use mrbd::model::{ImpactLaw, Wall};
 use mrbd::plan::{Level, Plan};
+use mrbd::simulate::{Accuracy, Outcome, Response, Shaking};
 use mrbd::store::{COLUMNS, Manifest, OutputFolder, RunSink, run_files};
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder};
 
-use crate::pipeline_support::{SMALL, pipeline, plan, stand_in};
+use crate::pipeline_support::{SMALL, pipeline, plan, response, stand_in};
 
 /// A manifest without the files it would hash.
 fn manifest(plan: &Plan) -> Manifest {
@@ -26,11 +28,18 @@ fn manifest(plan: &Plan) -> Manifest {
 }
 
 fn run(plan: &Plan, folder: &Path, threads: usize) -> Tally {
+    run_with(plan, folder, threads, &stand_in)
+}
+
+fn run_with<S>(plan: &Plan, folder: &Path, threads: usize, simulate: &S) -> Tally
+where
+    S: Fn(&Wall, &Shaking, Accuracy) -> Response + Sync,
+{
     let folder = OutputFolder::prepare(folder, &manifest(plan), SMALL, false).expect("an empty folder");
     let mut sink = RunSink::new(&folder, 1);
     let keep = |block: Vec<Finished>| sink.keep(&block);
     let tally =
-        run_batch(plan, 0..plan.len(), threads, &stand_in, keep, &ProgressBar::hidden()).expect("a batch");
+        run_batch(plan, 0..plan.len(), threads, simulate, keep, &ProgressBar::hidden()).expect("a batch");
     sink.finish().expect("files on disk");
     tally
 }
@@ -161,6 +170,26 @@ fn analytic_collapses_rank_above_and_failures_take_no_part() {
 }
 
 #[test]
+fn regress_runs_that_come_out_differently_are_counted() {
+    // Under the other law record 1 rotates 0.9 % more, record 2 1.1 % more, 3 falls; records 4, 7 and 8 stay.
+    let differs = |wall: &Wall, shaking: &Shaking, accuracy: Accuracy| {
+        let peak = shaking.horizontal.as_ref().expect("a record").peak_m_s2().round() as u32;
+        match (wall.parameters().restitution.law, peak) {
+            (ImpactLaw::Contact, 1) => response(wall, 0.01 * 1.009, Outcome::Stood),
+            (ImpactLaw::Contact, 2) => response(wall, 0.02 * 1.011, Outcome::Stood),
+            (ImpactLaw::Contact, 3) => response(wall, 2.0, Outcome::Collapsed { time_s: 0.3 }),
+            _ => stand_in(wall, shaking, accuracy),
+        }
+    };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    run_with(&plan(SMALL, 8), folder.path(), 2, &differs);
+    let medians = aggregate(folder.path()).expect("medians");
+    let told: Vec<_> = medians.moved.iter().map(|m| (m.variant.as_str(), m.runs, m.moved)).collect();
+    // 9 runs a record and floor; records 2 and 3 moved.
+    assert_eq!(told, [("contact", 72, 18), ("contact", 72, 18)]);
+}
+
+#[test]
 fn regress_medians_keep_the_order_and_the_assumptions_of_the_plan() {
     let medians = medians_of(2);
     let names: Vec<_> = medians.variants.iter().map(|v| (v.name.as_str(), v.law.as_str(), v.runs)).collect();
@@ -186,8 +215,10 @@ fn rejects_folders_that_hold_something_else() {
     let (one, two) = (plan(SMALL, 1), plan(SMALL, 2));
     prepare(folder.path(), &one, false).expect("an empty folder");
     refused(prepare(folder.path(), &one, false), "holds results of this plan already");
-    prepare(folder.path(), &one, true).expect("the same plan, replaced");
-    refused(prepare(folder.path(), &two, true), "holds another plan");
+    refused(prepare(folder.path(), &two, false), "holds another plan");
+    run(&one, &folder.path().join("x"), 1);
+    prepare(&folder.path().join("x"), &two, true).expect("an earlier study, replaced");
+    assert!(run_files(&folder.path().join("x")).is_err(), "nothing of the earlier study is left");
 
     let foreign = tempfile::tempdir().expect("a temporary folder");
     std::fs::write(foreign.path().join("thesis.txt"), "years of work").expect("written");

@@ -62,6 +62,11 @@ fn regress_a_study_runs_from_pipeline_to_findings() {
     let manifest = fs::read_to_string(out.join("manifest.json")).expect("a manifest");
     assert!(manifest.contains("\"runs\": 72"), "{manifest}");
     assert!(out.join("medians.parquet").is_file());
+    let findings = fs::read_to_string(out.join("findings.csv")).expect("findings");
+    assert!(
+        findings.contains("contact,reverse scale effect,undecided"),
+        "one parameter decides little: {findings}"
+    );
 
     assert_eq!(
         stdout(&mrbd(folder.path(), &["aggregate", "outputs/small"])),

@@ -29,7 +29,7 @@ fn published_sweep_has_189_runs_per_reference_case() {
         assert_eq!(cases.iter().filter(|&&count| count == 189).count(), 6, "{cases:?}");
         assert_eq!(cases.iter().sum::<usize>(), 6 * 189);
     }
-    assert_eq!(plan.len(), 5 * 2268);
+    assert_eq!(plan.len(), 6 * 2268, "six variants");
 }
 
 #[test]
