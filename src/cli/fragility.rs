@@ -208,6 +208,12 @@ impl FragilityCommand {
                 groups.len()
             );
         }
+        let beyond = groups.iter().filter(|group| group.analysis.extrapolates()).count();
+        if beyond > 0 {
+            eprintln!(
+                "mrbd: note: {beyond} medians lie outside the intensities observed: they are extrapolated"
+            );
+        }
         if self.cluster.is_empty() {
             eprintln!("mrbd: note: without --cluster, outcomes are taken as independent");
         }

@@ -77,6 +77,16 @@ pub struct Analysis {
     pub result: Result<Known, Unknown>,
 }
 
+impl Analysis {
+    /// Whether the median lies outside the intensities that were observed, so that it rests on the log-normal shape.
+    pub fn extrapolates(&self) -> bool {
+        match (&self.result, self.range) {
+            (Ok(known), Some([low, high])) => !(low..=high).contains(&known.fitted.curve.median()),
+            _ => false,
+        }
+    }
+}
+
 /// Fits a sample and asks everything that its kind of data can answer.
 pub fn analyse(sample: &Sample, settings: &Settings) -> Analysis {
     let (failures, trials) = sample.totals();

@@ -96,6 +96,7 @@ pub fn as_json(columns: &[String], groups: &[GroupAnalysis], settings: &Settings
             "failures": failures,
             "without_outcome": group.without_outcome,
             "intensity_range": range,
+            "extrapolated": group.analysis.extrapolates(),
         });
         match result {
             Ok(known) => merge(&mut value, known_as_json(known, settings)),

@@ -161,10 +161,10 @@ mod tests {
         let rest = (1.0 - shares[0] - shares[1]).sqrt();
         let mut rows = Vec::new();
         let mut labels = [Vec::new(), Vec::new()];
-        for r in 0..records {
-            for f in 0..facades {
+        for (r, record) in record.iter().enumerate() {
+            for (f, facade) in facade.iter().enumerate() {
                 let x = (0.8 * normal()).exp();
-                let capacity = 0.5 * (record[r] + facade[f] + rest * normal());
+                let capacity = 0.5 * (record + facade + rest * normal());
                 rows.push((x, x.ln() > capacity));
                 labels[0].push(r);
                 labels[1].push(f);

@@ -300,7 +300,7 @@ mod tests {
     #[test]
     fn published_moments_of_table_3() {
         // (variable, median, β = ½ ln(upper/lower)) of the parallel floor; the crack's truncation apart.
-        let table = [
+        let table: [(Variable, f64, f64, f64); 6] = [
             (Variable::Thickness, 0.50, 0.35, 0.70),
             (Variable::Slenderness, 12.0, 9.0, 15.0),
             (Variable::Strength, 3.45e6, 2.60e6, 4.30e6),
@@ -312,8 +312,8 @@ mod tests {
         let sampler = sampler(Configuration::Parallel, &Sampling::plain(n, 3));
         let draws: Vec<[f64; 7]> = (0..n).map(|i| sampler.draw(i)).collect();
         for (variable, median, low, high) in table {
-            let beta = 0.5 * (high / low as f64).ln();
-            let z = draws.iter().map(|draw| (draw[variable as usize] / median as f64).ln() / beta);
+            let beta = 0.5 * (high / low).ln();
+            let z = draws.iter().map(|draw| (draw[variable as usize] / median).ln() / beta);
             let (sum, squares) = z.fold((0.0, 0.0), |(sum, squares), z| (sum + z, squares + z * z));
             let (mean, square) = (sum / n as f64, squares / n as f64);
             // A mean of n scatters by 1/√n = 0.007 and a mean square by √2/√n = 0.01; four of each.
