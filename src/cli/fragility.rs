@@ -151,6 +151,10 @@ impl FragilityCommand {
     }
 
     fn method(&self) -> Result<Method> {
+        if self.method == MethodName::Cloud && self.trials.is_some() {
+            let found = "numbers of failures with --method cloud";
+            return Err(InputError::option("--trials", found, "a demand and an outcome a row").into());
+        }
         match (self.method, &self.demand, self.limit) {
             (MethodName::Outcomes, None, None) => Ok(Method::Outcomes),
             (MethodName::Incremental, None, None) => Ok(Method::Incremental),

@@ -81,6 +81,9 @@ impl Replicates {
     /// Quantile at rank p (n + 1), linear between neighbours; none where it lands outside the values.
     fn quantile(&self, p: f64, below: usize) -> Option<f64> {
         let count = self.sorted.len() + self.unknown;
+        if count == 0 {
+            return None;
+        }
         let rank = (p * (count + 1) as f64).clamp(1.0, count as f64) - 1.0;
         let at = |i: usize| i.checked_sub(below).and_then(|i| self.sorted.get(i)).copied();
         let (floor, weight) = (rank.floor() as usize, rank.fract());
@@ -178,5 +181,6 @@ mod tests {
         let left_out = vec![vec![Some(1.0), Some(2.0), Some(4.0)]];
         assert!(replicates.bias_corrected(0.0, &left_out, 0.95).is_none(), "all on one side");
         assert!(replicates.bias_corrected(500.0, &[vec![Some(1.0), None]], 0.95).is_none());
+        assert_eq!(Replicates::new([]).percentile(0.95), Interval::default());
     }
 }

@@ -71,7 +71,10 @@ impl Table {
     /// An input error with the line or row for a text that is no finite number.
     pub fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>> {
         match self.cells(name)? {
-            Cells::Numbers(numbers) => Ok(numbers.clone()),
+            Cells::Numbers(numbers) => match numbers.iter().position(|x| x.is_some_and(|x| !x.is_finite())) {
+                Some(row) => Err(self.fault(name, row, "a number without a value", "finite numbers").into()),
+                None => Ok(numbers.clone()),
+            },
             Cells::Texts(texts) => texts
                 .iter()
                 .enumerate()
@@ -85,7 +88,7 @@ impl Table {
         Ok(value.ok_or_else(|| self.fault(name, row, format!("{text:?}"), "a finite number"))?)
     }
 
-    /// A column as labels; numbers as they are printed. A cell without one is an empty label.
+    /// A column as labels; numbers as they are printed. A cell without one, or that is not a number, is an empty label.
     ///
     /// # Errors
     /// An input error if the column was not read: a slip of the caller.
@@ -93,7 +96,9 @@ impl Table {
         Ok(match self.cells(name)? {
             Cells::Texts(texts) => texts.iter().map(|text| text.clone().unwrap_or_default()).collect(),
             Cells::Numbers(numbers) => {
-                numbers.iter().map(|number| number.map_or_else(String::new, |x| x.to_string())).collect()
+                let label = |x: &f64| x.to_string();
+                let finite = numbers.iter().map(|number| number.as_ref().filter(|x| x.is_finite()));
+                finite.map(|number| number.map_or_else(String::new, label)).collect()
             }
         })
     }

@@ -1,164 +1,14 @@
 //! Façades drawn from the survey (the source's section 4.1 and Table 3).
 
-use std::collections::BTreeMap;
-
-use serde::{Deserialize, Serialize};
-
 use super::correlation::{Mixture, Pair};
-use super::design::{Design, Points};
-use super::marginal::{Marginal, Truncation};
+use super::design::Points;
+use super::marginal::Marginal;
 use super::refused::Refused;
+use super::spec::Sampling;
+use super::variable::Variable;
 use crate::input::assumptions::Assumptions;
-use crate::input::survey::{Configuration, Survey, ThreeLevels};
+use crate::input::survey::{Configuration, Survey};
 use crate::plan::Facade;
-
-/// A quantity of a façade that varies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-pub enum Variable {
-    /// Thickness b, m.
-    #[serde(rename = "thickness_m")]
-    Thickness,
-    /// Slenderness h_tot / b.
-    #[serde(rename = "slenderness")]
-    Slenderness,
-    /// Height of the crack h_1 / h_tot.
-    #[serde(rename = "crack_height_ratio")]
-    CrackHeight,
-    /// Compressive strength f, Pa.
-    #[serde(rename = "compressive_strength_pa")]
-    Strength,
-    /// Stiffness of the floor k_d, N/m.
-    #[serde(rename = "stiffness_n_per_m")]
-    Stiffness,
-    /// Floor mass m_d / m_tot.
-    #[serde(rename = "diaphragm_mass_ratio")]
-    DiaphragmMass,
-    /// Floor mass m_dp / m_tot.
-    #[serde(rename = "carriage_mass_ratio")]
-    CarriageMass,
-}
-
-impl Variable {
-    /// All; the position decides the random numbers of a variable, so new ones go to the end.
-    pub const ALL: [Variable; 7] = [
-        Variable::Thickness,
-        Variable::Slenderness,
-        Variable::CrackHeight,
-        Variable::Strength,
-        Variable::Stiffness,
-        Variable::DiaphragmMass,
-        Variable::CarriageMass,
-    ];
-
-    /// Name in input and result files; the unit stands in it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Variable::Thickness => "thickness_m",
-            Variable::Slenderness => "slenderness",
-            Variable::CrackHeight => "crack_height_ratio",
-            Variable::Strength => "compressive_strength_pa",
-            Variable::Stiffness => "stiffness_n_per_m",
-            Variable::DiaphragmMass => "diaphragm_mass_ratio",
-            Variable::CarriageMass => "carriage_mass_ratio",
-        }
-    }
-
-    fn levels(self, survey: &Survey, configuration: Configuration) -> ThreeLevels {
-        let (wall, floor) = (&survey.wall, survey.floor(configuration));
-        match self {
-            Variable::Thickness => wall.thickness_m,
-            Variable::Slenderness => wall.slenderness,
-            Variable::CrackHeight => wall.crack_height_ratio,
-            Variable::Strength => wall.compressive_strength_pa,
-            Variable::Stiffness => floor.stiffness_n_per_m,
-            Variable::DiaphragmMass => floor.diaphragm_mass_ratio,
-            Variable::CarriageMass => floor.carriage_mass_ratio,
-        }
-    }
-
-    /// Key of the survey the levels stand under.
-    fn key(self, configuration: Configuration) -> String {
-        let table = match self {
-            Variable::Thickness | Variable::Slenderness | Variable::CrackHeight | Variable::Strength => {
-                "wall"
-            }
-            _ => configuration.name(),
-        };
-        format!("{table}.{}", self.name())
-    }
-
-    /// Values a façade can have: above 0 or from 0, and for ratios below 1.
-    fn possible(self, value: f64) -> bool {
-        match self {
-            Variable::Thickness | Variable::Slenderness | Variable::Strength => value > 0.0,
-            Variable::CrackHeight => value > 0.0 && value < 1.0,
-            Variable::Stiffness => value >= 0.0,
-            Variable::DiaphragmMass | Variable::CarriageMass => (0.0..1.0).contains(&value),
-        }
-    }
-}
-
-/// The highest crack: above it the upper body is a row of bricks.
-pub const HIGHEST_CRACK: f64 = 0.95;
-
-/// How façades are drawn; as a table of a TOML file, every key but `count` may be left out.
-///
-/// ```toml
-/// count = 10000
-/// seed = 1                                   # the default
-/// design = "latin_hypercube"                 # "plain" (the default), "sobol"
-/// fixed = { slenderness = 15.0 }
-/// rank_correlation = [["thickness_m", "slenderness", -0.4]]
-/// [truncation]                               # crack_height_ratio is below 0.95 unless given here
-/// carriage_mass_ratio = { upper = 0.6 }
-/// ```
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Sampling {
-    /// Number of façades.
-    pub count: u64,
-    /// Seed of all draws.
-    #[serde(default = "first_seed")]
-    pub seed: u64,
-    /// How they are spread.
-    #[serde(default)]
-    pub design: Design,
-    /// Variables that do not vary, and their values.
-    #[serde(default)]
-    pub fixed: BTreeMap<Variable, f64>,
-    /// Spearman's rank correlations of pairs.
-    #[serde(default)]
-    pub rank_correlation: Vec<(Variable, Variable, f64)>,
-    /// Limits of variables.
-    #[serde(default)]
-    pub truncation: BTreeMap<Variable, Truncation>,
-}
-
-fn first_seed() -> u64 {
-    1
-}
-
-impl Sampling {
-    /// Independent façades, truncated as the source's crack heights need.
-    pub fn plain(count: u64, seed: u64) -> Self {
-        Self {
-            count,
-            seed,
-            design: Design::Plain,
-            fixed: BTreeMap::new(),
-            rank_correlation: Vec::new(),
-            truncation: BTreeMap::new(),
-        }
-    }
-
-    fn truncation_of(&self, variable: Variable) -> Truncation {
-        let default = match variable {
-            Variable::CrackHeight => Truncation { lower: None, upper: Some(HIGHEST_CRACK) },
-            _ => Truncation::default(),
-        };
-        self.truncation.get(&variable).copied().unwrap_or(default)
-    }
-}
 
 /// Draws façades of one configuration; a draw depends on the seed, the index and the variable alone.
 #[derive(Debug, Clone, PartialEq)]
@@ -282,7 +132,10 @@ mod tests {
 
     use rayon::prelude::*;
 
+    use super::super::design::Design;
+    use super::super::spec::HIGHEST_CRACK;
     use super::*;
+    use crate::model::Restitution;
 
     fn survey() -> Survey {
         let text = include_str!("../../inputs/survey.toml");
@@ -405,6 +258,26 @@ mod tests {
                 assert!((found - asked).abs() < 0.03, "{design}: {found} for {asked}");
             }
         }
+    }
+
+    #[test]
+    fn regress_few_draws_of_table_3_are_no_wall() {
+        let walls = |configuration: Configuration, text: &str| {
+            let (sampler, assumptions) = (sampler(configuration, &parse(text)), Assumptions::default());
+            let stands = |i: &u64| sampler.facade(*i, &assumptions).wall(Restitution::default(), 2.0).is_ok();
+            (0..10_000).filter(stands).count() as f64 / 10_000.0
+        };
+        // Floors of more than the total mass: m_dp/m_tot ≥ 1 - m_d/m_tot has about Φ(-ln(0.96/0.14)/0.75) = 0.5 %, to
+        // 0.1 % of chance; a floor ratio near 1 is a heavy floor under which corners crush, which adds as much again.
+        let parallel = walls(Configuration::Parallel, "count = 10000");
+        assert!((0.985..0.996).contains(&parallel), "{parallel}");
+        // m_d/m_tot ≥ 1 has Φ(-ln(1/0.09)/0.58) = 2e-5, corners that crush about as much: a few in 10⁴ at most.
+        assert!(walls(Configuration::Perpendicular, "count = 10000") > 0.9994);
+        let truncated = "count = 10000\n[truncation]\ncarriage_mass_ratio = { upper = 0.6 }\ndiaphragm_mass_ratio = { upper = 0.3 }";
+        assert!(
+            walls(Configuration::Parallel, truncated) > 0.9994,
+            "limits on the ratios leave corners that crush"
+        );
     }
 
     #[test]

@@ -18,8 +18,12 @@ mod permutation;
 mod random;
 mod refused;
 mod sobol;
+mod spec;
+mod variable;
 
 pub use design::{Design, MOST_STRATA};
-pub use facade::{FacadeSampler, HIGHEST_CRACK, Sampling, Variable};
+pub use facade::FacadeSampler;
 pub use marginal::{Marginal, Truncation};
 pub use refused::Refused;
+pub use spec::{HIGHEST_CRACK, Sampling};
+pub use variable::Variable;

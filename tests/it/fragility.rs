@@ -139,7 +139,17 @@ fn published_shaking_table_figures() {
         [("sp1_overturned", [0.139, 0.394, 0.955], 0.774), ("sp2_overturned", [0.179, 0.458, 0.947], 0.849)]
     {
         let fit = |intensity: &str| {
-            json(&["fragility", text(&table), "--intensity", intensity, "--outcome", outcome, "--json"])
+            json(&[
+                "fragility",
+                text(&table),
+                "--intensity",
+                intensity,
+                "--outcome",
+                outcome,
+                "--replicates",
+                "0",
+                "--json",
+            ])
         };
         let pgv = fit(PGV);
         let found = ["median", "beta", "goodness/auc"].map(|key| number(&pgv, &format!("/groups/0/{key}")));
@@ -322,10 +332,13 @@ fn analytic_the_same_table_as_parquet_gives_the_same_numbers() {
     let csv = folder.path().join("t.csv");
     let rows = outcomes.map(|(x, failed)| format!("{x},{failed},a\n"));
     std::fs::write(&csv, format!("x,failed,label\n{}", rows.concat())).expect("written");
-    let columns: [(&str, ArrayRef); 3] = [
+    let mut with_nan = [0.5; 7];
+    with_nan[2] = f64::NAN;
+    let columns: [(&str, ArrayRef); 4] = [
         ("x", Arc::new(Float64Array::from_iter_values(outcomes.map(|(x, _)| x)))),
         ("failed", Arc::new(BooleanArray::from_iter(outcomes.map(|(_, failed)| Some(failed))))),
         ("label", Arc::new(StringArray::from_iter_values(["a"; 7]))),
+        ("z", Arc::new(Float64Array::from_iter_values(with_nan))),
     ];
     let batch = RecordBatch::try_from_iter(columns).expect("a batch");
     let parquet = folder.path().join("t.parquet");
@@ -347,6 +360,10 @@ fn analytic_the_same_table_as_parquet_gives_the_same_numbers() {
         ])
     };
     assert_eq!(fit(&csv), fit(&parquet));
+    rejects(
+        &["fragility", text(&parquet), "--intensity", "x", "--outcome", "z", "--exceeds", "0"],
+        &["t.parquet: z", "row 3", "finite numbers"],
+    );
 }
 
 #[test]
