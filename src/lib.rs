@@ -59,6 +59,7 @@ pub mod fragility;
 pub mod ground;
 pub mod input;
 pub mod model;
+pub mod overturning;
 pub mod plan;
 pub mod sampling;
 pub mod simulate;

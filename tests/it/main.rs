@@ -19,6 +19,7 @@ mod impacts;
 mod limits;
 mod matrix_form;
 mod matrix_model;
+mod overturning;
 mod pipeline_batch;
 mod pipeline_cli;
 mod pipeline_findings;
