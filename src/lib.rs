@@ -41,11 +41,13 @@
 //! | [`model`] | a wall | motion, openings, impacts |
 //! | [`solver`] | accelerations | steps and where inside a step an event lies; knows no masonry |
 //! | [`simulate`] | a wall and a shaking | a response: maxima, patterns, energy, or a history |
+//! | [`sampling`] | a survey | façades of a Monte Carlo campaign, drawn one by one |
 //! | [`plan`] | a pipeline | a list of runs, computed one by one: façades, walls, records, ids |
 //! | [`batch`] | a plan | finished runs in order, on all threads |
 //! | [`store`] | responses | files that appear whole or not at all |
 //! | [`aggregate`] | those files alone | medians and quantiles over the records |
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
+//! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
 //! | [`report`] | result folders, runs | pages and pictures |
 //! | [`cli`] | the command line | the above, and messages for people |
 
@@ -54,12 +56,14 @@ pub mod batch;
 pub mod cli;
 pub mod error;
 pub mod findings;
+pub mod fragility;
 pub mod ground;
 pub mod input;
 pub mod model;
 pub mod overturning;
 pub mod plan;
 pub mod report;
+pub mod sampling;
 pub mod simulate;
 pub mod solver;
 pub mod store;

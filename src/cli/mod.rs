@@ -3,6 +3,7 @@
 //! stdout is for data, stderr for people.
 
 mod aggregate;
+mod fragility;
 mod output;
 mod records;
 mod report;
@@ -25,6 +26,7 @@ pub struct Cli {
 enum Command {
     Run(run::RunCommand),
     Aggregate(aggregate::AggregateCommand),
+    Fragility(fragility::FragilityCommand),
     Records(records::RecordsArgs),
     Report(report::ReportCommand),
     Simulate(simulate::SimulateArgs),
@@ -39,6 +41,7 @@ impl Cli {
         match self.command {
             Command::Run(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
+            Command::Fragility(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),

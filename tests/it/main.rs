@@ -7,6 +7,7 @@ mod cli_records;
 mod cli_simulate;
 mod convergence;
 mod energy;
+mod fragility;
 mod grazing_contact;
 mod ground_formats;
 mod ground_generated;
