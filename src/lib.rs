@@ -2,6 +2,7 @@
 
 pub mod aggregate;
 pub mod batch;
+pub mod calibrate;
 pub mod cli;
 pub mod error;
 pub mod findings;

@@ -3,6 +3,7 @@
 //! stdout is for data, stderr for people.
 
 mod aggregate;
+mod calibrate;
 mod output;
 mod run;
 mod simulate;
@@ -23,6 +24,7 @@ pub struct Cli {
 enum Command {
     Run(run::RunCommand),
     Aggregate(aggregate::AggregateCommand),
+    Calibrate(calibrate::CalibrateArgs),
     Simulate(simulate::SimulateArgs),
 }
 
@@ -35,6 +37,7 @@ impl Cli {
         match self.command {
             Command::Run(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
+            Command::Calibrate(args) => calibrate::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }
     }
