@@ -57,13 +57,21 @@ struct State {
 }
 
 impl AdaptiveDe {
-    /// Minimises the cost from a first generation like the paper's, until the budget is spent.
+    /// Minimises the cost from a first generation like the paper's, in which `known` vectors take the first places,
+    /// until the budget is spent.
     ///
     /// # Errors
     /// What the evaluation meets.
-    pub fn minimise(&self, bounds: &[Bounds], draws: &Draws, evaluate: &mut dyn Evaluate) -> Result<Found> {
+    pub fn minimise(
+        &self,
+        bounds: &[Bounds],
+        known: &[Vec<f64>],
+        draws: &Draws,
+        evaluate: &mut dyn Evaluate,
+    ) -> Result<Found> {
         let n_init = self.population.clamp(N_MIN, self.budget.max(N_MIN));
-        let first = super::paper_de::first_generation(n_init, bounds, draws);
+        let mut first = super::paper_de::first_generation(n_init, bounds, draws);
+        first.iter_mut().zip(known).for_each(|(place, known)| place.clone_from(known));
         let costs = evaluate.costs(0, &first)?;
         let memory = Memory { m_f: [0.5; H], m_cr: [Some(0.5); H], next: 0 };
         let mut state = State { found: Found::start(members(first, costs)), archive: Vec::new(), memory };

@@ -3,10 +3,10 @@
 //! Under `whole` every impact of a burst scales the whole motion, so the capture velocity, which cuts bursts off,
 //! is a parameter of the model, and C_l mean little without it; under `contact` it should not matter.
 
+use super::adaptive_de::AdaptiveDe;
 use super::archive::Archive;
 use super::draws::Draws;
 use super::experiment::Experiment;
-use super::flow::adaptive;
 use super::objective::{Objective, simulate};
 use super::parameter::ParameterSpace;
 use super::result::CaptureRow;
@@ -28,18 +28,19 @@ pub(super) fn names(velocities_rad_s: &[f64]) -> Vec<String> {
     LAWS.iter().flat_map(of_law).collect()
 }
 
-/// Repeats the joint search under both laws at every capture velocity, with the same random numbers.
+/// Repeats the search over the whole of all tests under both laws at every capture velocity, with the same random
+/// numbers and beginning with the joint vector.
 pub(super) fn study(
     experiment: &Experiment,
     archive: &Archive,
     fit: &[usize],
+    joint: &[f64],
     paper_simulations: usize,
 ) -> Result<Vec<CaptureRow>> {
     let budget = (BUDGET_SHARE * paper_simulations as f64) as usize / fit.len();
     let draws = Draws::new(experiment.settings.seed, "capture");
     let mut rows = Vec::new();
     for law in LAWS {
-        let mut first: Option<Vec<f64>> = None;
         for &velocity in &experiment.settings.capture_study_rad_s {
             let space = experiment.space.under(law, velocity);
             let method = name(law, velocity);
@@ -52,13 +53,13 @@ pub(super) fn study(
                 method: &method,
             };
             let bounds = space.bounds();
-            let found = adaptive(budget, bounds.len()).minimise(&bounds, &draws, &mut objective)?;
+            let search = AdaptiveDe { population: 3 * bounds.len(), budget, good_enough: 0.0 };
+            let found = search.minimise(&bounds, &[joint.to_vec()], &draws, &mut objective)?;
             let best = found.best().values.clone();
-            let first = first.get_or_insert_with(|| best.clone());
             rows.push(CaptureRow {
                 law: law.name().to_owned(),
                 capture_velocity_rad_s: velocity,
-                wme_of_first: mean_wme(experiment, &space, fit, first),
+                wme_of_joint: mean_wme(experiment, &space, fit, joint),
                 wme_of_best: mean_wme(experiment, &space, fit, &best),
                 best,
             });

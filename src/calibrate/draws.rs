@@ -25,6 +25,12 @@ impl Draws {
         Self { key: hash.finalize().into() }
     }
 
+    /// Those of a part of the search.
+    pub fn part(&self, name: &str) -> Self {
+        let hash = Sha256::new().chain_update(self.key).chain_update(name.as_bytes());
+        Self { key: hash.finalize().into() }
+    }
+
     /// The generator of one variable of one candidate of one generation.
     pub fn of(&self, generation: u32, candidate: u32, variable: u32) -> impl Rng + use<> {
         let mut rng = ChaCha8Rng::from_seed(self.key);

@@ -4,7 +4,6 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
-use super::adaptive_de::AdaptiveDe;
 use super::archive::Archive;
 use super::capture;
 use super::draws::Draws;
@@ -15,11 +14,9 @@ use super::paper_de::PaperDe;
 use super::result::{Calibration, MethodResult, TestResult, Vector};
 use super::search::Found;
 use super::similarity::most_similar;
+use super::staged::{STAGES, Staged, stage_name};
 use super::trial::Simulated;
 use crate::error::Result;
-
-/// Most vectors in the first population of the adaptive search, and vectors per variable.
-const POPULATION_PER_VARIABLE: usize = 6;
 
 /// Calibrates an experiment; every simulation goes into the archive.
 ///
@@ -31,7 +28,10 @@ pub fn calibrate(experiment: &Experiment, archive: &Archive) -> Result<Calibrati
 
 /// The names of the searches, in the order they are run.
 pub(super) fn method_names(experiment: &Experiment) -> Vec<String> {
-    let mut names = ["paper", "adaptive", "joint", "bootstrap"].map(str::to_owned).to_vec();
+    let of = |method: &str| STAGES.map(|(share, _)| stage_name(method, share));
+    let mut names = vec!["paper".to_owned()];
+    names.extend(["adaptive", "joint", "refined"].iter().flat_map(|method| of(method)));
+    names.push("bootstrap".into());
     names.extend(capture::names(&experiment.settings.capture_study_rad_s));
     names
 }
@@ -45,19 +45,22 @@ struct Flow<'a> {
 impl Flow<'_> {
     fn go(&self) -> Result<Calibration> {
         let start = Instant::now();
-        let paper = self.in_each_test("paper", |_| None)?;
+        let paper = self.paper_in_each_test()?;
         let similar = self.similarity(&paper);
         let paper_seconds = start.elapsed().as_secs_f64();
         let paper_simulations = paper.iter().map(|found| found.evaluations).sum::<usize>();
-        let adaptive = self.in_each_test("adaptive", |k| Some(paper[k].evaluations))?;
-        let joint = self.joint(paper_simulations / self.fit.len())?;
-        let methods = self.methods(&paper, &adaptive, similar, &joint);
+        let adaptive = self.adaptive_in_each_test(&paper)?;
+        let joint = self.joint("joint", paper_simulations / self.fit.len(), &self.middle())?;
+        let refine = self.experiment.settings.refine_vectors;
+        let refined = self.joint("refined", refine, &joint.best().values)?;
+        let methods = self.methods(&paper, &adaptive, similar, [&joint, &refined]);
         let (vector, joint_from) = cheaper(&methods);
         let vector = self.without_idle(&vector);
         let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
         let per_test = self.better_of(&paper, &adaptive);
         let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
-        let capture_study = capture::study(self.experiment, self.archive, &self.fit, paper_simulations)?;
+        let capture_study =
+            capture::study(self.experiment, self.archive, &self.fit, &vector.values, paper_simulations)?;
         let tests = self.tests(&vector, &per_test);
         let base = self.experiment.space.base();
         let seconds = start.elapsed().as_secs_f64();
@@ -85,29 +88,45 @@ impl Flow<'_> {
         })
     }
 
-    /// The paper's search (`budget` none) or the adaptive one in every test to fit.
-    fn in_each_test(
-        &self,
-        method: &str,
-        budget: impl Fn(usize) -> Option<usize> + Sync,
-    ) -> Result<Vec<Found>> {
-        let search = |(k, test): (usize, &usize)| {
-            let chosen = [*test];
-            let draws = self.draws(&format!("{method}/{}", self.experiment.tests[*test].name));
-            let mut objective = self.objective(method, &chosen);
-            let bounds = self.experiment.space.bounds();
-            match budget(k) {
-                None => self.paper_de().minimise(&bounds, &draws, &mut objective),
-                Some(budget) => adaptive(budget, bounds.len()).minimise(&bounds, &draws, &mut objective),
-            }
+    fn paper_in_each_test(&self) -> Result<Vec<Found>> {
+        let search = |&test: &usize| {
+            let chosen = [test];
+            let Experiment { space, tests, .. } = self.experiment;
+            let mut objective = Objective {
+                space,
+                tests,
+                chosen: &chosen,
+                accuracy: self.experiment.accuracy(),
+                archive: self.archive,
+                method: "paper",
+            };
+            let draws = self.draws(&format!("paper/{}", tests[test].name));
+            self.paper_de().minimise(&space.bounds(), &draws, &mut objective)
         };
-        self.fit.par_iter().enumerate().map(search).collect()
+        self.fit.par_iter().map(search).collect()
     }
 
-    fn joint(&self, budget: usize) -> Result<Found> {
-        let bounds = self.experiment.space.bounds();
-        let mut objective = self.objective("joint", &self.fit);
-        adaptive(budget, bounds.len()).minimise(&bounds, &self.draws("joint"), &mut objective)
+    /// The staged search in every test to fit, with as many simulations as the paper's.
+    fn adaptive_in_each_test(&self, paper: &[Found]) -> Result<Vec<Found>> {
+        let search = |(&test, paper): (&usize, &Found)| {
+            let draws = self.draws(&format!("adaptive/{}", self.experiment.tests[test].name));
+            self.staged("adaptive", &[test], paper.evaluations).minimise(&self.middle(), &draws)
+        };
+        self.fit.par_iter().zip(paper).map(search).collect()
+    }
+
+    /// The staged search in all tests to fit together.
+    fn joint(&self, method: &str, budget: usize, about: &[f64]) -> Result<Found> {
+        self.staged(method, &self.fit, budget).minimise(about, &self.draws(method))
+    }
+
+    fn middle(&self) -> Vec<f64> {
+        self.experiment.space.bounds().iter().map(|b| b.at(0.5)).collect()
+    }
+
+    fn staged<'o>(&'o self, method: &'o str, chosen: &'o [usize], budget: usize) -> Staged<'o> {
+        let Experiment { space, .. } = self.experiment;
+        Staged { experiment: self.experiment, space, chosen, archive: self.archive, method, budget }
     }
 
     fn paper_de(&self) -> PaperDe {
@@ -117,17 +136,6 @@ impl Flow<'_> {
             settle_share: s.settle_share,
             settle_generations: s.settle_generations,
             most_generations: s.most_generations,
-        }
-    }
-
-    fn objective<'o>(&'o self, method: &'o str, chosen: &'o [usize]) -> Objective<'o> {
-        Objective {
-            space: &self.experiment.space,
-            tests: &self.experiment.tests,
-            chosen,
-            accuracy: self.experiment.accuracy(),
-            archive: self.archive,
-            method,
         }
     }
 
@@ -157,7 +165,7 @@ impl Flow<'_> {
         paper: &[Found],
         adaptive: &[Found],
         similar: Option<(Vec<f64>, f64)>,
-        joint: &Found,
+        [joint, refined]: [&Found; 2],
     ) -> Vec<MethodResult> {
         let mut methods = Vec::new();
         for (method, all) in [("paper", paper), ("adaptive", adaptive)] {
@@ -179,6 +187,7 @@ impl Flow<'_> {
             });
         }
         methods.push(self.method("joint", None, joint, self.fit.len()));
+        methods.push(self.method("refined", None, refined, self.fit.len()));
         methods
     }
 
@@ -252,11 +261,6 @@ impl Flow<'_> {
         };
         (0..self.experiment.tests.len()).map(result).collect()
     }
-}
-
-/// The adaptive search with a budget.
-pub(super) fn adaptive(budget: usize, variables: usize) -> AdaptiveDe {
-    AdaptiveDe { population: POPULATION_PER_VARIABLE * variables, budget, good_enough: 0.0 }
 }
 
 /// The better of the two vectors for all tests, and where it comes from.

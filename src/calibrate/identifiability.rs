@@ -139,10 +139,12 @@ impl Judge<'_> {
 
     /// Every vector that was simulated in all tests to fit, and its mean WME.
     fn joint_costs(&self) -> Vec<(Vec<f64>, f64)> {
-        let rows = self.archive.rows(&["joint".into(), "bootstrap".into()]);
-        let mut of_all = rows
+        let searches = ["joint", "refined", "bootstrap"].map(str::to_owned);
+        let mut of_all = self
+            .archive
+            .rows(&searches)
             .into_iter()
-            .filter(|row| row.address.method == "joint" || row.address.method == "bootstrap")
+            .filter(|row| searches.contains(&row.address.method))
             .collect::<Vec<_>>();
         let key = |r: &Row| (r.address.method.clone(), r.address.generation, r.address.index);
         of_all.sort_by_key(key);

@@ -37,6 +37,8 @@ pub struct Target {
     samples: Vec<Sample>,
     /// ∫|θ_i,exp| by block, rad s.
     measured_rad_s: [[f64; BLOCKS]; 2],
+    /// Rotation below which the wall counts as at rest, rad.
+    floor_share_rad: Pair,
     /// The least each channel's denominator may be, rad s; 0: the channel is lost.
     floor_rad_s: Pair,
     independent_samples: f64,
@@ -59,17 +61,34 @@ impl Target {
             block: block(measured.time_s[k]).min(BLOCKS - 1),
         };
         let samples = kept.into_iter().map(sample).collect::<Vec<_>>();
+        Some(Self::of_samples(samples, wall.alpha_i_rad().map(|alpha| REST_SHARE * alpha)))
+    }
+
+    fn of_samples(samples: Vec<Sample>, floor_share_rad: Pair) -> Self {
         let mut measured_rad_s = [[0.0; BLOCKS]; 2];
         for s in &samples {
             for i in 0..2 {
                 measured_rad_s[i][s.block] += s.weight_s[i] * s.theta_rad[i].abs();
             }
         }
-        let alpha = wall.alpha_i_rad();
-        let floor = |i: usize| REST_SHARE * alpha[i] * samples.iter().map(|s| s.weight_s[i]).sum::<f64>();
+        let floor = |i: usize| floor_share_rad[i] * samples.iter().map(|s| s.weight_s[i]).sum::<f64>();
         let floor_rad_s = [floor(0), floor(1)];
         let independent_samples = independent_samples(&samples);
-        Some(Self { samples, measured_rad_s, floor_rad_s, independent_samples })
+        Self { samples, measured_rad_s, floor_share_rad, floor_rad_s, independent_samples }
+    }
+
+    /// The same up to the time by which a share of the measured motion, ∫|θ|, has passed.
+    pub fn shortened(&self, share: f64) -> Self {
+        let motion = |s: &Sample| (0..2).map(|i| s.weight_s[i] * s.theta_rad[i].abs()).sum::<f64>();
+        let whole = self.samples.iter().map(motion).sum::<f64>();
+        let mut passed = 0.0;
+        let until = self.samples.iter().position(|s| {
+            passed += motion(s);
+            passed >= share * whole
+        });
+        // Two samples at least, so that there is a stretch of time.
+        let kept = until.map_or(self.samples.len(), |k| (k + 1).max(2)).min(self.samples.len());
+        Self::of_samples(self.samples[..kept].to_vec(), self.floor_share_rad)
     }
 
     /// End of what counts, s.

@@ -10,6 +10,7 @@ mod adaptive_de;
 mod archive;
 mod bootstrap;
 mod capture;
+mod cma_es;
 mod draws;
 mod experiment;
 mod flow;
@@ -25,12 +26,14 @@ mod report;
 mod result;
 mod search;
 mod similarity;
+mod staged;
 mod table;
 mod trial;
 
 pub use adaptive_de::AdaptiveDe;
 pub use archive::{Address, Archive, Row};
 pub use bootstrap::{correlation, quantile};
+pub use cma_es::CmaEs;
 pub use draws::Draws;
 pub use experiment::Experiment;
 pub use flow::calibrate;
@@ -46,4 +49,5 @@ pub use result::{
 };
 pub use search::{Bounds, Evaluate, Found, Member};
 pub use similarity::{MostSimilar, most_similar, sim};
+pub use staged::Staged;
 pub use trial::{Simulated, Test};

@@ -65,12 +65,12 @@ pub fn summary(c: &Calibration) -> String {
     if !c.capture_study.is_empty() {
         line(String::new());
         line("Joint search by law and capture velocity (fewer simulations than above):".into());
-        line(format!("{:<9}{:>10}{:>12}{:>12}  best", "law", "rad/s", "first's WME", "best WME"));
+        line(format!("{:<9}{:>10}{:>12}{:>12}  best", "law", "rad/s", "joint's WME", "best WME"));
     }
     for row in &c.capture_study {
         let best = row.best.iter().map(|x| format!(" {x:.4}")).collect::<String>();
-        let (first, wme) = (figure(row.wme_of_first), figure(row.wme_of_best));
-        line(format!("{:<9}{:>10}{first:>12}{wme:>12} {best}", row.law, row.capture_velocity_rad_s));
+        let (joint, wme) = (figure(row.wme_of_joint), figure(row.wme_of_best));
+        line(format!("{:<9}{:>10}{joint:>12}{wme:>12} {best}", row.law, row.capture_velocity_rad_s));
     }
     line(String::new());
     line(format!(

@@ -19,11 +19,11 @@ pub struct Calibration {
     pub tolerance: f64,
     /// Where the bounds of C_l come from.
     pub bounds_source: String,
-    /// The searches, at equal numbers of simulations.
+    /// The searches, at equal numbers of simulations but for `refined`, which has its own.
     pub methods: Vec<MethodResult>,
     /// The one vector for all tests.
     pub joint: Vector,
-    /// Where it comes from: `similarity` or `joint`, whichever has the lower mean WME.
+    /// Where it comes from: `similarity`, `joint` or `refined`, whichever has the lowest mean WME.
     pub joint_from: String,
     /// What the tests tell about each parameter.
     pub parameters: Vec<Estimate>,
@@ -59,7 +59,7 @@ pub struct Vector {
 /// What a search found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MethodResult {
-    /// `paper`, `adaptive`, `similarity` or `joint`.
+    /// `paper`, `adaptive`, `similarity`, `joint` or `refined`.
     pub method: String,
     /// The test, for searches in one.
     pub test: Option<String>,
@@ -173,8 +173,8 @@ pub struct CaptureRow {
     pub law: String,
     /// Capture velocity, rad/s.
     pub capture_velocity_rad_s: f64,
-    /// Mean WME of the vector that is best at the first capture velocity of this law.
-    pub wme_of_first: Option<f64>,
+    /// Mean WME of the joint vector, which was found under the experiment's own law and capture velocity.
+    pub wme_of_joint: Option<f64>,
     /// Mean WME of the vector that is best here.
     pub wme_of_best: Option<f64>,
     /// The vector that is best here.

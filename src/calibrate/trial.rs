@@ -60,6 +60,17 @@ impl Test {
         Ok(Self { name: table.name.clone(), purpose: table.purpose, shaking, target, collapse_s })
     }
 
+    /// The same test up to the time by which a share of the measured motion has passed.
+    #[must_use]
+    pub fn shortened(&self, share: f64) -> Self {
+        let target = self.target.shortened(share);
+        let shaking = match &self.shaking.horizontal {
+            Some(record) => shaking(record, target.end_s()),
+            None => self.shaking.clone(),
+        };
+        Self { target, shaking, ..self.clone() }
+    }
+
     /// Runs a wall through the test and compares.
     pub fn simulate(&self, wall: &Wall, accuracy: Accuracy) -> Simulated {
         let mut comparison = Comparison::new(&self.target);

@@ -49,6 +49,8 @@ pub struct CalibrateTable {
     pub settle_generations: usize,
     /// Generations after which the paper's search ends anyway.
     pub most_generations: u32,
+    /// Vectors of a last joint search, beyond those of the comparison at equal numbers of simulations.
+    pub refine_vectors: usize,
     /// Capture velocities at which the joint search is repeated, rad/s; empty: none.
     pub capture_study_rad_s: Vec<f64>,
     /// Bootstrap replicates behind the intervals.
@@ -68,6 +70,7 @@ impl Default for CalibrateTable {
             settle_share: 1e-3,
             settle_generations: 5,
             most_generations: 60,
+            refine_vectors: 1500,
             capture_study_rad_s: vec![1e-4, 1e-3, 1e-2],
             replicates: 200,
         }
