@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use rayon::prelude::*;
 
 use crate::error::{Error, InputError, Result};
@@ -153,8 +153,13 @@ fn message_of(panic: &(dyn std::any::Any + Send)) -> String {
 /// A bar on stderr with rate and time left; silent where stderr is not a terminal.
 pub fn progress_bar(runs: u64) -> ProgressBar {
     let style = ProgressStyle::with_template(
-        "{bar:30} {human_pos}/{human_len} runs  {per_sec}  {elapsed_precise} gone, {eta_precise} left",
+        "{bar:30} {human_pos}/{human_len} runs  {rate}  {elapsed_precise} gone, {eta_precise} left",
     );
     // A template that does not parse would be a slip of this file; the plain bar then does.
-    ProgressBar::new(runs).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+    let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
+        // A text that cannot take a number has nowhere to say so.
+        let _ = write!(out, "{:.0} a second", state.per_sec());
+    };
+    ProgressBar::new(runs).with_style(style.with_key("rate", rate))
 }

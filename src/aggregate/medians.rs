@@ -133,11 +133,26 @@ pub struct VariantNote {
     pub energy_residual: Option<f64>,
 }
 
+/// How many runs of a variant come out differently from the same runs of the first variant.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Moved {
+    /// The variant.
+    pub variant: String,
+    /// How the floor runs.
+    pub configuration: String,
+    /// Runs compared.
+    pub runs: u64,
+    /// Runs with another outcome, or another largest rotation.
+    pub moved: u64,
+}
+
 /// All medians of a study, by case and measure.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Medians {
     /// Variants in the order of the plan, the one to compare with first.
     pub variants: Vec<VariantNote>,
+    /// Runs that come out differently, by variant and floor.
+    pub moved: Vec<Moved>,
     rows: Vec<Median>,
     by_case: BTreeMap<Key, usize>,
 }
@@ -154,7 +169,14 @@ impl Medians {
     /// A table of these rows, in their order.
     pub fn new(variants: Vec<VariantNote>, rows: Vec<Median>) -> Self {
         let by_case = rows.iter().enumerate().map(|(i, row)| (key(&row.case, row.measure), i)).collect();
-        Self { variants, rows, by_case }
+        Self { variants, moved: Vec::new(), rows, by_case }
+    }
+
+    /// The same table with what comparing runs with runs told.
+    #[must_use]
+    pub fn with_moved(mut self, moved: Vec<Moved>) -> Self {
+        self.moved = moved;
+        self
     }
 
     /// All rows, in the order of the plan.

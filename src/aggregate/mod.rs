@@ -1,11 +1,13 @@
 //! From runs to medians: reads only the Parquet files of a study.
 
 mod medians;
+mod moved;
 mod quantile;
 mod scan;
 mod table;
 
-pub use medians::{Case, Measure, Median, Medians, Middle, VariantNote};
+pub use medians::{Case, Measure, Median, Medians, Middle, Moved, VariantNote};
+pub use moved::MOVED_SHARE;
 pub use quantile::{LEVELS, quantiles};
 pub use scan::aggregate;
 pub use table::{print_medians, write_medians};

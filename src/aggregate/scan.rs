@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::*;
 
 use super::medians::{Case, Measure, Median, Medians, VariantNote};
+use super::moved::moved;
 use super::quantile::quantiles;
 use crate::error::{Error, Result};
 use crate::input::pipeline::Parameter;
@@ -23,12 +24,16 @@ pub fn aggregate(folder: &Path) -> Result<Medians> {
     let files = run_files(folder)?;
     let read = || -> PolarsResult<Medians> {
         let variants = variant_notes(&by_variant(scan(&files)?)?)?;
-        Ok(Medians::new(variants, medians(&by_case(scan(&files)?)?)?))
+        let moved = match variants.first() {
+            Some(base) => moved(&files, &base.name)?,
+            None => Vec::new(),
+        };
+        Ok(Medians::new(variants, medians(&by_case(scan(&files)?)?)?).with_moved(moved))
     };
     read().map_err(|e| Error::table(folder, e))
 }
 
-fn scan(files: &[PathBuf]) -> PolarsResult<LazyFrame> {
+pub(super) fn scan(files: &[PathBuf]) -> PolarsResult<LazyFrame> {
     let paths: PolarsResult<Vec<_>> = files.iter().map(|path| PlRefPath::try_from_path(path)).collect();
     let hive_options = HiveOptions { enabled: Some(false), ..Default::default() };
     // The record stands in the files too, and their names may hold what a pattern would read as a wildcard.
@@ -145,7 +150,7 @@ fn absent(name: &str) -> PolarsError {
     polars_err!(ComputeError: "column {name} lacks a value that every run has")
 }
 
-fn text(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<String> {
+pub(super) fn text(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<String> {
     frame.column(name)?.str()?.get(i).map(str::to_owned).ok_or_else(|| absent(name))
 }
 
@@ -153,7 +158,7 @@ fn number(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<f64> {
     frame.column(name)?.f64()?.get(i).ok_or_else(|| absent(name))
 }
 
-fn count(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<u64> {
+pub(super) fn count(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<u64> {
     frame.column(name)?.u64()?.get(i).ok_or_else(|| absent(name))
 }
 

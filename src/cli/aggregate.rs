@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::output;
-use crate::aggregate::{aggregate, print_medians, write_medians};
+use crate::aggregate::{Medians, aggregate, print_medians, write_medians};
 use crate::error::Result;
-use crate::findings::report;
+use crate::findings::{report, write_findings};
 
-/// Reads the runs of a study, writes medians.parquet beside them, prints tables and findings.
+/// Reads the runs of a study, writes medians.parquet and findings.csv beside them, prints tables and findings.
 #[derive(Debug, Args)]
 pub struct AggregateCommand {
     /// Output folder of `mrbd run`.
@@ -25,12 +25,13 @@ impl AggregateCommand {
     /// # Errors
     /// An input error for a folder without results; [`crate::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
-        if !self.csv {
-            return aggregate_and_print(&self.folder);
+        match self.csv {
+            true => {
+                let medians = aggregate_into(&self.folder)?;
+                output::to_stdout(|out| print_medians(out, &medians).map_err(output::failed))
+            }
+            false => aggregate_and_print(&self.folder),
         }
-        let medians = aggregate(&self.folder)?;
-        write_medians(&self.folder.join("medians.parquet"), &medians)?;
-        output::to_stdout(|out| print_medians(out, &medians).map_err(output::failed))
     }
 }
 
@@ -39,7 +40,13 @@ impl AggregateCommand {
 /// # Errors
 /// As [`AggregateCommand::execute`].
 pub(super) fn aggregate_and_print(folder: &Path) -> Result<()> {
+    let medians = aggregate_into(folder)?;
+    output::to_stdout(|out| report(out, &medians).map_err(output::failed))
+}
+
+fn aggregate_into(folder: &Path) -> Result<Medians> {
     let medians = aggregate(folder)?;
     write_medians(&folder.join("medians.parquet"), &medians)?;
-    output::to_stdout(|out| report(out, &medians).map_err(output::failed))
+    write_findings(&folder.join("findings.csv"), &medians)?;
+    Ok(medians)
 }

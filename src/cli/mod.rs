@@ -5,8 +5,11 @@
 mod aggregate;
 mod calibrate;
 mod output;
+mod records;
 mod run;
 mod simulate;
+
+use std::io::Write;
 
 use clap::{Parser, Subcommand};
 
@@ -25,6 +28,7 @@ enum Command {
     Run(run::RunCommand),
     Aggregate(aggregate::AggregateCommand),
     Calibrate(calibrate::CalibrateArgs),
+    Records(records::RecordsArgs),
     Simulate(simulate::SimulateArgs),
 }
 
@@ -38,7 +42,22 @@ impl Cli {
             Command::Run(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
             Command::Calibrate(args) => calibrate::execute(&args),
+            Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }
+    }
+}
+
+/// Prints data to stdout; a reader that closes the pipe early has seen enough.
+///
+/// # Errors
+/// What the system says, other than that the pipe is closed.
+fn print(text: &str) -> Result<()> {
+    let mut stdout = std::io::stdout().lock();
+    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
+            Err(crate::Error::io("print", std::path::Path::new("stdout"), e))
+        }
+        _ => Ok(()),
     }
 }

@@ -18,6 +18,9 @@ use crate::store::{COLUMNS, Manifest, OutputFolder, RunSink, Stage, print_csv};
 /// The whole study is one part.
 const ONLY_SHARD: u32 = 1;
 
+/// Failed runs that are told one by one; all are counted, and stored with their reasons.
+const FAILURES_TOLD: usize = 10;
+
 /// Runs a study: plans it, runs it on all threads, stores every run, prints medians and findings.
 #[derive(Debug, Args)]
 pub struct RunCommand {
@@ -35,7 +38,7 @@ pub struct RunCommand {
     /// Threads; without it one for each processor. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
-    /// Run again over results of the same plan.
+    /// Replace the results of an earlier study in the folder.
     #[arg(long)]
     force: bool,
 }
@@ -70,12 +73,30 @@ impl RunCommand {
         let start = Instant::now();
         let progress = batch::progress_bar(plan.len());
         let mut sink = RunSink::new(folder, ONLY_SHARD);
-        let keep = |block: Vec<Finished>| sink.keep(&block);
+        let mut failures = 0;
+        let keep = |block: Vec<Finished>| {
+            progress.suspend(|| tell_failures(&block, &mut failures));
+            sink.keep(&block)
+        };
         let tally = batch::run_batch(plan, 0..plan.len(), threads, &simulate, keep, &progress)?;
         sink.finish()?;
         progress.finish_and_clear();
         report(tally, start.elapsed().as_secs_f64());
         Ok(())
+    }
+}
+
+/// Says which runs failed and why, up to [`FAILURES_TOLD`].
+fn tell_failures(block: &[Finished], told: &mut usize) {
+    let failed = block.iter().filter_map(|finished| Some((&finished.run, finished.failure.as_ref()?)));
+    for (run, reason) in failed.take(FAILURES_TOLD - *told) {
+        eprintln!(
+            "mrbd: run {} ({}) under record {} failed: {reason}",
+            run.position,
+            run.id,
+            run.record().name
+        );
+        *told += 1;
     }
 }
 

@@ -21,18 +21,18 @@ use crate::store::write_history;
 ///   mrbd simulate wall.toml --record east.csv --scale 1.2 --vertical up.csv --json
 ///   mrbd simulate wall.toml --record record.txt --dt 0.005 --history run.parquet
 #[derive(Debug, Args)]
-#[command(verbatim_doc_comment)]
+#[command(verbatim_doc_comment, allow_negative_numbers = true)]
 pub struct SimulateArgs {
     /// Wall file (TOML).
     wall: PathBuf,
     /// Horizontal accelerogram; its format is told by its content.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
-    /// Time between samples, for records that do not tell it.
-    #[arg(long, value_name = "SECONDS", requires = "record")]
+    /// Time between samples, for records that do not tell it; the step of the history of a free release.
+    #[arg(long, value_name = "SECONDS")]
     dt: Option<f64>,
     /// Factor on the horizontal record.
-    #[arg(long, value_name = "X", default_value_t = 1.0, requires = "record", allow_negative_numbers = true)]
+    #[arg(long, value_name = "X", default_value_t = 1.0)]
     scale: f64,
     /// Vertical accelerogram, at the same step; zero after its end.
     #[arg(long, value_name = "FILE", requires = "record")]
@@ -72,9 +72,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     let shaking = shaking(args)?;
     let accuracy = accuracy(args.tolerance)?;
     check_moves(&wall, args)?;
-    let step_s =
-        shaking.horizontal.as_ref().map_or(crate::simulate::FREE_RELEASE_STEP_S, Accelerogram::step_s);
-    let mut history = History::new(step_s);
+    let mut history = History::new(history_step_s(args, &shaking)?);
     let response = match &args.history {
         Some(path) => {
             let writer = write_history(path)?;
@@ -84,11 +82,11 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
         }
         None => crate::simulate::simulate(&wall, &shaking, accuracy),
     };
-    if args.json {
-        println!("{:#}", as_json(&response));
+    super::print(&if args.json {
+        format!("{:#}", as_json(&wall, &response))
     } else {
-        print_summary(&wall, &response);
-    }
+        summary(&wall, &response)
+    })?;
     match response.outcome {
         Outcome::Failed { time_s, reason } => Err(Error::Run { time_s, reason }),
         _ => Ok(()),
@@ -145,11 +143,21 @@ fn check_moves(wall: &Wall, args: &SimulateArgs) -> Result<()> {
         let allowed = "--record FILE, or rotations to be released from in [initial] of the wall file";
         return Err(InputError::option("--record", "no record and a wall at rest", allowed).into());
     }
+    if args.record.is_none() && args.scale != 1.0 {
+        eprintln!("mrbd: note: no record, so --scale has nothing to act on");
+    }
     Ok(())
 }
 
+/// Time between rows of the history: the record's, or for a free release what was asked for.
+fn history_step_s(args: &SimulateArgs, shaking: &Shaking) -> Result<f64> {
+    let asked_s = args.dt.unwrap_or(crate::simulate::FREE_RELEASE_STEP_S);
+    let asked_s = number("--dt", asked_s, asked_s > 0.0, "a finite number of seconds above 0")?;
+    Ok(shaking.horizontal.as_ref().map_or(asked_s, Accelerogram::step_s))
+}
+
 /// The results under the names that scripts rely on.
-fn as_json(response: &Response) -> Value {
+fn as_json(wall: &Wall, response: &Response) -> Value {
     let [theta1, theta2] = response.theta_max_rad;
     let [over_alpha1, over_alpha2] = response.theta_max_over_alpha_i();
     let collapse_time_s = match response.outcome {
@@ -179,48 +187,54 @@ fn as_json(response: &Response) -> Value {
         "openings": response.openings.total(),
         "energy_residual": response.energy.residual(),
         "friction_demand_ground": response.demand[0].friction,
-        "friction_demand_crack": response.demand[1].friction,
+        "friction_demand_crack": wall.is_cracked().then_some(response.demand[1].friction),
         "tensions_ground": response.demand[0].tensions,
-        "tensions_crack": response.demand[1].tensions,
+        "tensions_crack": wall.is_cracked().then_some(response.demand[1].tensions),
         "steps": response.work.steps,
         "evaluations": response.work.evaluations,
     })
 }
 
-fn print_summary(wall: &Wall, response: &Response) {
-    let restitution = wall.parameters().restitution;
-    let ratios = response.theta_max_over_alpha_i();
-    match &response.outcome {
-        Outcome::Stood => println!("The wall stood until {:.3} s.", response.end_time_s),
-        Outcome::Collapsed { time_s } => println!("The wall collapsed at {time_s:.3} s."),
-        Outcome::Failed { time_s, reason } => println!("The run failed at {time_s:.3} s: {reason}."),
-    }
-    for (i, name) in ["lower", "upper"].into_iter().enumerate() {
-        let peak = response.theta_max_rad[i];
-        let (value, alpha) = (peak.value, response.alpha_i_rad[i]);
-        println!(
-            "{name} body    largest rotation {value:+.6} rad at {:.3} s, {:.4} of α{} = {alpha:.5} rad",
-            peak.time_s,
-            ratios[i],
-            i + 1
-        );
-    }
+fn summary(wall: &Wall, response: &Response) -> String {
+    let mut lines = vec![match &response.outcome {
+        Outcome::Stood => format!("The wall stood until {:.3} s.", response.end_time_s),
+        Outcome::Collapsed { time_s } => format!("The wall collapsed at {time_s:.3} s."),
+        Outcome::Failed { time_s, reason } => format!("The run failed at {time_s:.3} s: {reason}."),
+    }];
+    lines.extend(body_lines(wall, response));
     let top = response.top_displacement_m;
-    println!("top           largest displacement {:+.5} m at {:.3} s", top.value, top.time_s);
+    lines.push(format!("top         largest displacement {:+.5} m at {:.3} s", top.value, top.time_s));
     let patterns = PATTERN_NAMES.iter().zip(response.pattern_time_s).filter(|(_, time_s)| *time_s > 0.0);
     let patterns: Vec<String> = patterns.map(|(name, time_s)| format!("{name} {time_s:.3} s")).collect();
-    println!("patterns      {}", patterns.join(", "));
-    println!("events        {} impacts, {} openings", response.impacts.total(), response.openings.total());
-    for (name, demand) in ["ground", "crack"].into_iter().zip(response.demand) {
-        println!(
-            "friction      {:.3} needed at the {name}; {} times in tension there",
+    lines.push(format!("patterns    {}", patterns.join(", ")));
+    let (impacts, openings) = (response.impacts.total(), response.openings.total());
+    lines.push(format!("events      {impacts} impacts, {openings} openings"));
+    let joints = if wall.is_cracked() { &["ground", "crack"][..] } else { &["ground"] };
+    lines.extend(joints.iter().zip(response.demand).map(|(name, demand)| {
+        format!(
+            "friction    {:.3} needed at the {name}; in tension there {} times",
             demand.friction, demand.tensions
-        );
-    }
-    println!(
-        "assumed       impact law {}, capture velocity {} rad/s; energy residual {:.1e}",
+        )
+    }));
+    let restitution = wall.parameters().restitution;
+    lines.push(format!(
+        "assumed     impact law {}, capture velocity {} rad/s; energy residual {:.1e}",
         restitution.law.name(),
         restitution.capture_velocity_rad_s,
         response.energy.residual()
-    );
+    ));
+    lines.join("\n")
+}
+
+fn body_lines(wall: &Wall, response: &Response) -> Vec<String> {
+    let bodies = if wall.is_cracked() { &["lower body", "upper body"][..] } else { &["wall"] };
+    let ratios = response.theta_max_over_alpha_i();
+    let line = |(i, name): (usize, &&str)| {
+        let peak = response.theta_max_rad[i];
+        format!(
+            "{name:<12}largest rotation {:+.6} rad at {:.3} s, {:.4} of its α = {:.5} rad",
+            peak.value, peak.time_s, ratios[i], response.alpha_i_rad[i]
+        )
+    };
+    bodies.iter().enumerate().map(line).collect()
 }

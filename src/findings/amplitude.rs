@@ -37,8 +37,9 @@ fn only_slender(view: &View) -> Answer {
         (0, _) => Verdict::Holds,
         _ => Verdict::DoesNot,
     };
-    let of_all =
-        view.rows().filter(|row| Measure::BODIES.contains(&row.measure) && row.case.slenderness <= 14.0);
+    let of_all = view.rows().filter(|row| {
+        Measure::BODIES.contains(&row.measure) && Slender::Moderate.holds(row.case.slenderness)
+    });
     let all = Vote::of(of_all.filter_map(|row| row.middle()).map(is_significant));
     let numbers = format!(
         "{}; {}; over all parameters {} of {} medians with h/b ≤ 14 exceed 0.05",

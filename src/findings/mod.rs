@@ -15,7 +15,7 @@ mod variants;
 mod verdict;
 mod view;
 
-pub use report::report;
+pub use report::{report, write_findings};
 pub use verdict::{Answer, Verdict, Vote};
 pub use view::View;
 

@@ -1,13 +1,16 @@
 //! What a study says, for people: assumptions, medians, findings, and how they depend on the assumptions.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use super::tables::print_tables;
 use super::text::{aligned, wrapped};
 use super::variants::shift;
-use super::{FINDINGS, View};
-use crate::aggregate::{Medians, VariantNote};
+use super::{FINDINGS, Finding, View};
+use crate::aggregate::{MOVED_SHARE, Measure, Medians, Moved, VariantNote};
+use crate::error::{Error, Result};
 use crate::input::survey::Configuration;
+use crate::store::write_durably;
 
 /// Prints everything; the first variant is the one whose medians are shown whole.
 ///
@@ -35,6 +38,29 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
         shifts(out, medians, base)?;
     }
     Ok(())
+}
+
+/// Writes every finding under every variant as CSV: answer, numbers, criterion.
+///
+/// # Errors
+/// [`crate::Error::Io`] if the disk refuses.
+pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
+    let failed = |e: csv::Error| Error::table(path, e);
+    let mut csv = csv::Writer::from_writer(Vec::new());
+    csv.write_record(["variant", "finding", "answer", "numbers", "claim", "source", "holds_if"])
+        .map_err(failed)?;
+    for variant in &medians.variants {
+        let view = View::new(medians, &variant.name);
+        for finding in &FINDINGS {
+            let answer = (finding.check)(&view);
+            let Finding { name, claim, source, criterion, .. } = finding;
+            let row: [&str; 7] =
+                [&variant.name, name, answer.verdict.name(), &answer.numbers, claim, source, criterion];
+            csv.write_record(row).map_err(failed)?;
+        }
+    }
+    let bytes = csv.into_inner().map_err(|e| Error::table(path, e))?;
+    write_durably(path, &bytes)
 }
 
 fn heading(out: &mut dyn Write, text: &str) -> io::Result<()> {
@@ -118,27 +144,41 @@ fn matrix(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
 }
 
 fn shifts(out: &mut dyn Write, medians: &Medians, base: &VariantNote) -> io::Result<()> {
-    let head = ["variant", "floor", "median |Δ|", "largest |Δ|", "at", "stood / fell"];
+    let head = ["variant", "floor", "median |Δ|", "largest |Δ|", "at", "stood/fell", "runs moved"];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     for variant in &medians.variants[1..] {
         for configuration in Configuration::ALL {
-            let shift = shift(medians, &base.name, &variant.name, configuration);
-            let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
-            let place = shift.largest.as_ref().map_or("-".to_owned(), |(case, measure)| {
-                let body = if *measure == crate::aggregate::Measure::LowerOwn { "θ1" } else { "θ2" };
-                let level = case.level.name(case.parameter);
-                format!("{body}, {} {level}, h/b {}", case.parameter.name(), case.slenderness)
-            });
-            rows.push(vec![
-                variant.name.clone(),
-                configuration.name().to_owned(),
-                number(shift.median()),
-                number(shift.max()),
-                place,
-                shift.changed_sides.to_string(),
-            ]);
+            rows.push(shift_row(medians, &base.name, &variant.name, configuration));
         }
     }
     writeln!(out, "{}", aligned(&rows))?;
-    writeln!(out, "stood / fell: medians that stood under one of the two and collapsed under the other.")
+    let notes = format!(
+        "stood/fell: medians that stood under one of the two and collapsed under the other. runs moved: runs whose largest rotation differs by more than {} %, or whose outcome does; where only the tolerance differs, these are the ill-conditioned runs.",
+        100.0 * MOVED_SHARE
+    );
+    writeln!(out, "{}", wrapped(&notes, 0))
+}
+
+fn shift_row(medians: &Medians, base: &str, variant: &str, configuration: Configuration) -> Vec<String> {
+    let shift = shift(medians, base, variant, configuration);
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.4}"));
+    let place = shift.largest.as_ref().map_or("-".to_owned(), |(case, measure)| {
+        let body = if *measure == Measure::LowerOwn { "θ1" } else { "θ2" };
+        let level = case.level.name(case.parameter);
+        format!("{body}, {} {level}, h/b {}", case.parameter.name(), case.slenderness)
+    });
+    let of_floor = |moved: &&Moved| moved.variant == variant && moved.configuration == configuration.name();
+    let moved =
+        medians.moved.iter().find(of_floor).map_or("-".to_owned(), |moved| {
+            format!("{:.1} %", 100.0 * moved.moved as f64 / moved.runs as f64)
+        });
+    vec![
+        variant.to_owned(),
+        configuration.name().to_owned(),
+        number(shift.median()),
+        number(shift.max()),
+        place,
+        shift.changed_sides.to_string(),
+        moved,
+    ]
 }

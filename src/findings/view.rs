@@ -20,7 +20,8 @@ pub enum Slender {
 }
 
 impl Slender {
-    fn holds(self, slenderness: f64) -> bool {
+    /// Whether a slenderness is one of them.
+    pub fn holds(self, slenderness: f64) -> bool {
         match self {
             Slender::Moderate => slenderness <= SLENDER_ABOVE,
             Slender::Large => slenderness > SLENDER_ABOVE,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::suite_file::{RecordEntry, SuiteFile};
-use super::{Accelerogram, IntensityMeasures, ReadOptions, Record, read};
+use super::{Accelerogram, ImpossiblePulse, IntensityMeasures, ReadOptions, Record, read};
 use crate::error::{InputError, Result};
 use crate::input::toml_file;
 
@@ -80,21 +80,26 @@ impl Suite {
     /// # Errors
     /// Input errors that name the suite and the key, or the record file and the line.
     pub fn load(path: &Path) -> Result<Self> {
-        let file: SuiteFile = toml_file::load(path)?;
+        Self::from_file(path, &toml_file::load(path)?)
+    }
+
+    /// Reads the records of a suite file that lies at `path`.
+    pub(super) fn from_file(path: &Path, file: &SuiteFile) -> Result<Self> {
         if file.records.is_empty() {
             return Err(InputError::key(path, "records", "no records", "at least one `[[records]]`").into());
         }
         let mut ids = BTreeSet::new();
         let mut records = Vec::with_capacity(file.records.len());
         for (index, entry) in file.records.iter().enumerate() {
-            let place = Entry { path, file: &file, entry, index };
+            let place = Entry { path, file, entry, index };
             if !ids.insert(entry.id) {
                 return Err(place.fault("id", format!("{} again", entry.id), "numbers that differ").into());
             }
             records.push(place.load()?);
         }
         let generated = file.generated || records.iter().all(|r| r.generated);
-        Ok(Self { name: file.name, generated, note: file.note, source: file.source, records })
+        let (name, note, source) = (file.name.clone(), file.note.clone(), file.source.clone());
+        Ok(Self { name, generated, note, source, records })
     }
 }
 
@@ -115,19 +120,19 @@ impl Entry<'_> {
         let entry = self.entry;
         let scale = self.scale("scale", entry.scale)?;
         let vertical_scale = self.scale("vertical_scale", entry.vertical_scale.unwrap_or(entry.scale))?;
-        let read = self.horizontal()?;
-        self.check_peaks(&read.accelerogram)?;
-        let horizontal = read.accelerogram.scaled(scale);
+        let (name, unscaled) = self.horizontal()?;
+        self.check_peaks(&unscaled)?;
+        let horizontal = unscaled.scaled(scale);
         Ok(SuiteRecord {
             id: entry.id,
-            name: entry.name.clone().unwrap_or(read.name),
+            name: entry.name.clone().unwrap_or(name),
             event: entry.event.clone(),
             scale,
             vertical: self.vertical(horizontal.step_s())?.map(|record| record.scaled(vertical_scale)),
             vertical_scale,
             intensity: IntensityMeasures::of(&horizontal),
             horizontal,
-            generated: self.file.generated || entry.generated,
+            generated: self.file.generated || entry.generated || entry.pulse.is_some(),
             about: self.about(),
         })
     }
@@ -140,11 +145,25 @@ impl Entry<'_> {
         Err(self.fault(key, value.to_string(), allowed))
     }
 
-    fn horizontal(&self) -> Result<Record> {
-        let Some(file) = &self.entry.file else {
-            return Err(self.fault("file", "no `file`", "the file of the record").into());
-        };
-        self.read("file", file, self.entry.channel.clone())
+    /// The record and its name.
+    fn horizontal(&self) -> Result<(String, Accelerogram)> {
+        match (&self.entry.file, &self.entry.pulse) {
+            (Some(file), None) => {
+                let record = self.read("file", file, self.entry.channel.clone())?;
+                Ok((record.name, record.accelerogram))
+            }
+            (None, Some(pulse)) => {
+                let step_s = self.entry.step_s.or(self.file.step_s);
+                let refuse = |e: ImpossiblePulse| {
+                    self.fault(&format!("pulse.{}", e.name), e.value.to_string(), e.allowed)
+                };
+                Ok((format!("pulse {}", self.entry.id), pulse.accelerogram(step_s).map_err(refuse)?))
+            }
+            (Some(_), Some(_)) => Err(self.fault("pulse", "`file` and `pulse`", "one of them").into()),
+            (None, None) => {
+                Err(self.fault("file", "no `file`", "the file of the record, or a `pulse`").into())
+            }
+        }
     }
 
     fn vertical(&self, step_s: f64) -> Result<Option<Accelerogram>> {

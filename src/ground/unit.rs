@@ -3,15 +3,15 @@
 use std::fmt;
 use std::str::FromStr;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::model::G_M_S2;
 
 /// A unit of acceleration; inside the program everything is m/s².
 ///
 /// One g is [`G_M_S2`], the same as the weight of the walls.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "String")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
 pub enum Unit {
     /// m/s².
     MetrePerSecond2,
@@ -75,5 +75,11 @@ impl TryFrom<String> for Unit {
 
     fn try_from(text: String) -> Result<Self, UnknownUnit> {
         text.parse()
+    }
+}
+
+impl From<Unit> for String {
+    fn from(unit: Unit) -> Self {
+        unit.to_string()
     }
 }

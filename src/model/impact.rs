@@ -6,8 +6,7 @@
 use super::MechanicsError;
 use super::Table2Change;
 use super::contact::{Contact, Joint, Pivot, Touching};
-use super::motion::Freedom;
-use super::posture::{Pair, Rates};
+use super::posture::{Pair, Posture, Rates, Turns};
 use super::rocking::{RockingWall, State, opening};
 use super::wall::ImpactLaw;
 
@@ -48,27 +47,30 @@ impl Table2Change {
     }
 }
 
+/// An impact while it is worked out: the posture, and the velocities of the mass points before.
+struct Strike {
+    touching: Touching,
+    turns: Turns,
+    v_before: Rates,
+}
+
 impl RockingWall {
     /// The outcome of an impact at a state whose touching joints have zero opening.
     ///
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
-        let admissible = self.admissible_outcomes(from, touching, state);
-        let mut outcomes = admissible.iter().flatten();
-        let Some(&plastic) = outcomes.next() else {
-            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count: 0 });
+        let strike = self.strike(from, touching, state);
+        let mut outcomes = self.admissible(from, &strike);
+        let (Some(plastic), None) = (outcomes.next(), outcomes.next()) else {
+            let count = self.admissible(from, &strike).count();
+            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count });
         };
-        let further = outcomes.count();
-        if further > 0 {
-            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count: 1 + further });
-        }
-        let v_before = self.posture(from, state.theta).rates(state.omega);
-        let (contact, projected) = self.captured(plastic, touching, state.theta, &v_before);
+        let (contact, projected) = self.captured(plastic, &strike);
         let change = Table2Change::of(from, contact);
-        let omega = self.scaled(change, contact, projected, touching, state.theta, &v_before);
-        let before_j = self.motion(from).kinetic_energy_j(state.theta, state.omega);
-        let after_j = self.motion(contact).kinetic_energy_j(state.theta, omega);
+        let omega = self.scaled(change, contact, projected, &strike);
+        let before_j = self.motion(from).kinetic_energy_j(strike.turns, state.omega);
+        let after_j = self.motion(contact).kinetic_energy_j(strike.turns, omega);
         Ok(Impact { contact, omega, change, captured: contact != plastic, loss_j: before_j - after_j })
     }
 
@@ -82,40 +84,51 @@ impl RockingWall {
         touching: Touching,
         state: &State,
     ) -> [Option<Contact>; 9] {
-        let v_before = self.posture(from, state.theta).rates(state.omega);
+        let strike = self.strike(from, touching, state);
         let mut found = [None; 9];
-        let candidates = self.states_touching(from, touching);
-        let admissible = candidates.filter(|c| self.is_admissible(*c, touching, state.theta, &v_before));
-        found.iter_mut().zip(admissible).for_each(|(slot, contact)| *slot = Some(contact));
+        found
+            .iter_mut()
+            .zip(self.admissible(from, &strike))
+            .for_each(|(slot, contact)| *slot = Some(contact));
         found
     }
 
-    /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
-    fn projected(&self, to: Contact, theta: Pair, v_before: &Rates) -> Pair {
-        let motion = self.motion(to);
-        if motion.freedom == Freedom::None {
-            return [0.0, 0.0];
-        }
-        let momenta = self.masses.momenta(&self.posture(to, theta), v_before);
-        motion.mass_matrix(theta).solve(motion.freedom, momenta)
+    fn strike(&self, from: Contact, touching: Touching, state: &State) -> Strike {
+        let turns = Turns::new(state.theta);
+        Strike { touching, turns, v_before: self.posture(from, turns).rates(state.omega) }
     }
 
-    fn is_admissible(&self, to: Contact, touching: Touching, theta: Pair, v_before: &Rates) -> bool {
-        let omega = self.projected(to, theta, v_before);
-        let speed = v_before.theta[0].abs().max(v_before.theta[1].abs());
+    fn admissible(&self, from: Contact, strike: &Strike) -> impl Iterator<Item = Contact> {
+        self.states_touching(from, strike.touching).filter(|to| self.is_admissible(*to, strike))
+    }
+
+    fn is_admissible(&self, to: Contact, strike: &Strike) -> bool {
+        let posture = self.posture(to, strike.turns);
+        let omega = self.projected_onto(to, &posture, strike);
+        let speed = strike.v_before.theta[0].abs().max(strike.v_before.theta[1].abs());
         let separates = |joint: Joint| {
             to.at(joint).is_closed()
-                || !touching.at(joint)
+                || !strike.touching.at(joint)
                 || to.at(joint).sign() * opening(joint, omega) > ROUNDING * speed
         };
-        self.joints().all(separates) && self.impulses_push(to, theta, omega, v_before)
+        self.joints().all(separates) && self.impulses_push(to, &posture, omega, &strike.v_before)
+    }
+
+    /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
+    fn projected_onto(&self, to: Contact, posture: &Posture, strike: &Strike) -> Pair {
+        let motion = self.motion(to);
+        let momenta = self.masses.momenta(posture, &strike.v_before);
+        motion.mass_matrix(strike.turns).solve(motion.freedom, momenta)
+    }
+
+    fn projected(&self, to: Contact, strike: &Strike) -> Pair {
+        self.projected_onto(to, &self.posture(to, strike.turns), strike)
     }
 
     /// Whether the impulses at both corners of every closed joint are compressive.
-    fn impulses_push(&self, to: Contact, theta: Pair, omega: Pair, v_before: &Rates) -> bool {
-        let posture = self.posture(to, theta);
+    fn impulses_push(&self, to: Contact, posture: &Posture, omega: Pair, v_before: &Rates) -> bool {
         let jump = posture.rates(omega).minus(*v_before);
-        let impulses = self.masses.impulses(&posture, &jump);
+        let impulses = self.masses.impulses(posture, &jump);
         let size = impulses.ground.normal.abs() + impulses.ground.shear.abs() + impulses.crack.normal.abs();
         self.joints().filter(|joint| to.at(*joint).is_closed()).all(|joint| {
             let corners = impulses.at(joint).corners(self.width_m(joint));
@@ -132,19 +145,13 @@ impl RockingWall {
 
     /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
     /// the impact, until none is left.
-    fn captured(
-        &self,
-        plastic: Contact,
-        touching: Touching,
-        theta: Pair,
-        v_before: &Rates,
-    ) -> (Contact, Pair) {
+    fn captured(&self, plastic: Contact, strike: &Strike) -> (Contact, Pair) {
         let limit = self.wall().parameters().restitution.capture_velocity_rad_s;
         let mut contact = plastic;
         loop {
-            let omega = self.projected(contact, theta, v_before);
+            let omega = self.projected(contact, strike);
             let slow = self.joints().find(|joint| {
-                let opened = touching.at(*joint) && contact.at(*joint).is_open();
+                let opened = strike.touching.at(*joint) && contact.at(*joint).is_open();
                 opened && opening(*joint, omega).abs() < limit
             });
             match slow {
@@ -155,15 +162,7 @@ impl RockingWall {
     }
 
     /// Scales the projected velocities by the coefficient of the change.
-    fn scaled(
-        &self,
-        change: Option<Table2Change>,
-        contact: Contact,
-        omega: Pair,
-        touching: Touching,
-        theta: Pair,
-        v_before: &Rates,
-    ) -> Pair {
+    fn scaled(&self, change: Option<Table2Change>, contact: Contact, omega: Pair, strike: &Strike) -> Pair {
         let restitution = self.wall().parameters().restitution;
         let Some(change) = change else { return omega };
         let c_l = restitution.coefficients[change.index()];
@@ -172,9 +171,9 @@ impl RockingWall {
             ImpactLaw::Whole => [0.0, 0.0],
             // The motion if every touching joint stuck: what the impact cannot see.
             ImpactLaw::Contact => {
-                let stuck = self.joints().filter(|joint| touching.at(*joint));
+                let stuck = self.joints().filter(|joint| strike.touching.at(*joint));
                 let stuck = stuck.fold(contact, |state, joint| state.with(joint, Pivot::Closed));
-                self.projected(stuck, theta, v_before)
+                self.projected(stuck, strike)
             }
         };
         [0, 1].map(|i| u[i] + c_l * (omega[i] - u[i]))

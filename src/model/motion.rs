@@ -15,7 +15,7 @@ use wide::f64x2;
 use super::contact::Contact;
 use super::effect::Laws;
 use super::joint::{JointForce, JointForces};
-use super::posture::{Arms, Pair};
+use super::posture::{Arms, Pair, Turns};
 use super::vector::{Vector, sin_cos, sin_cos_pair};
 use super::wall::{G_M_S2, Wall};
 
@@ -169,9 +169,11 @@ impl Motion {
 
     #[inline]
     fn turned(&self, theta: Pair) -> Turned {
-        let turn_1 = sin_cos(theta[0]);
-        // Bodies that turn together share the sine; so do their mirror images, to the bit.
-        let turn_2 = if self.freedom == Freedom::Monolithic { turn_1 } else { sin_cos(theta[1]) };
+        self.turned_by(Turns::new(theta))
+    }
+
+    #[inline]
+    fn turned_by(&self, Turns([turn_1, turn_2]): Turns) -> Turned {
         Turned {
             turn_1,
             r_q: self.q.rotated(turn_1),
@@ -192,8 +194,8 @@ impl Motion {
     }
 
     /// Mass matrix Jᵀ M J of the two rotations at a posture, whether free or not.
-    pub fn mass_matrix(&self, theta: Pair) -> MassMatrix {
-        self.mass_matrix_of(&self.turned(theta))
+    pub fn mass_matrix(&self, turns: Turns) -> MassMatrix {
+        self.mass_matrix_of(&self.turned_by(turns))
     }
 
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
@@ -304,8 +306,8 @@ impl Motion {
     }
 
     /// Kinetic energy at a state, J.
-    pub fn kinetic_energy_j(&self, theta: Pair, omega: Pair) -> f64 {
-        0.5 * self.mass_matrix(theta).quadratic(omega)
+    pub fn kinetic_energy_j(&self, turns: Turns, omega: Pair) -> f64 {
+        0.5 * self.mass_matrix(turns).quadratic(omega)
     }
 
     /// Horizontal displacement s_Cx of the top, m.

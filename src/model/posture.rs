@@ -56,10 +56,18 @@ pub(crate) struct Posture {
     pub turn_1: (f64, f64),
 }
 
+/// Sines and cosines of both rotations.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Turns(pub [(f64, f64); 2]);
+
+impl Turns {
+    pub fn new(theta: Pair) -> Self {
+        Self(theta.map(sin_cos))
+    }
+}
+
 impl Posture {
-    pub fn new(arms: &Arms, theta: Pair) -> Self {
-        let turn_1 = sin_cos(theta[0]);
-        let turn_2 = sin_cos(theta[1]);
+    pub fn new(arms: &Arms, Turns([turn_1, turn_2]): Turns) -> Self {
         Self {
             o_x: arms.o_x,
             r_1: arms.g1.rotated(turn_1),

@@ -5,7 +5,7 @@ use super::contact::{Contact, Joint, Pivot, Touching};
 use super::effect::Laws;
 use super::joint::{JointForces, Masses};
 use super::motion::{Motion, MotionRate};
-use super::posture::{Arms, Pair, Posture};
+use super::posture::{Arms, Pair, Posture, Turns};
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 
@@ -50,8 +50,8 @@ impl RockingWall {
         &self.motions[contact.index()]
     }
 
-    pub(super) fn posture(&self, contact: Contact, theta: Pair) -> Posture {
-        Posture::new(&self.arms[contact.index()], theta)
+    pub(super) fn posture(&self, contact: Contact, turns: Turns) -> Posture {
+        Posture::new(&self.arms[contact.index()], turns)
     }
 
     /// Angular accelerations and powers in a contact state under a ground acceleration in m/s².
@@ -81,7 +81,7 @@ impl RockingWall {
     pub fn response_time_s(&self) -> f64 {
         let p = self.wall.parameters();
         let motion = self.motion(Contact { ground: Pivot::Right, crack: Pivot::Closed });
-        let mass = motion.mass_matrix([0.0; 2]).quadratic([1.0, 1.0]);
+        let mass = motion.mass_matrix(Turns::new([0.0; 2])).quadratic([1.0, 1.0]);
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
         let stiffness = p.stiffness_n_per_m * p.height_m * p.height_m + weight * p.height_m / 2.0;
         (mass / stiffness).sqrt()

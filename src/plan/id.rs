@@ -3,7 +3,7 @@
 use sha2::{Digest, Sha256};
 
 use crate::ground::Accelerogram;
-use crate::model::WallParameters;
+use crate::model::{Effect, WallParameters};
 
 /// Digits of an id: 64 bits, so that two of 10⁶ runs share one with a chance of 3e-8.
 const ID_DIGITS: usize = 16;
@@ -67,15 +67,18 @@ impl Fingerprint {
             .number("capture velocity", restitution.capture_velocity_rad_s)
             .number("collapse", *collapse_rotation_ratio)
             .numbers("initial", initial_rotation_rad)
-            .text("effects", &format!("{effects:?}"))
+            .effects(effects)
     }
 
-    /// Adds every sample of a ground motion, or that there is none.
-    pub fn motion(self, name: &str, motion: Option<&Accelerogram>) -> Self {
-        match motion {
-            Some(motion) => self.number(name, motion.step_s()).numbers(name, motion.acceleration_m_s2()),
-            None => self.text(name, "none"),
-        }
+    fn effects(self, effects: &[Effect]) -> Self {
+        // As a wall file has them; numbers, texts and enums always serialise.
+        let texts = effects.iter().map(|effect| serde_json::to_string(effect).unwrap_or_default());
+        texts.fold(self.number("effects", effects.len() as f64), |hash, effect| hash.text("effect", &effect))
+    }
+
+    /// Adds the step and every sample of a ground motion.
+    pub fn motion(self, motion: &Accelerogram) -> Self {
+        self.number("step", motion.step_s()).numbers("samples", motion.acceleration_m_s2())
     }
 
     /// The whole hash, 64 hexadecimal digits.

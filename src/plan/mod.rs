@@ -11,5 +11,5 @@ mod sweep;
 
 pub use facade::{Facade, ImpossibleFacade};
 pub use level::{Level, coefficients, facade};
-pub use run::{Motions, Run};
+pub use run::{Motions, RecordHash, Run};
 pub use sweep::Plan;

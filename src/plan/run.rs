@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::facade::Facade;
 use super::id::Fingerprint;
 use super::level::Level;
-use crate::ground::{Suite, SuiteRecord};
+use crate::ground::{Accelerogram, Suite, SuiteRecord};
 use crate::input::pipeline::{Parameter, Variant};
 use crate::input::survey::Configuration;
 use crate::model::Wall;
@@ -16,21 +16,29 @@ use crate::simulate::{Accuracy, Shaking};
 pub struct Motions {
     /// The suite.
     pub suite: Suite,
-    /// SHA-256 of the samples of each record as they are run (scaled), 64 hexadecimal digits, by position in the suite.
-    pub sha256: Vec<String>,
+    /// Hashes of its records, by position in the suite.
+    pub hashes: Vec<RecordHash>,
+}
+
+/// SHA-256 of the step and samples of a record as they are run (scaled), 64 hexadecimal digits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RecordHash {
+    /// The horizontal component.
+    pub horizontal: String,
+    /// The vertical component; none where the record has none.
+    pub vertical: Option<String>,
 }
 
 impl Motions {
     /// A suite and the hashes of its records.
     pub fn new(suite: Suite) -> Self {
-        let hash = |record: &SuiteRecord| {
-            Fingerprint::of("record")
-                .motion("horizontal", Some(&record.horizontal))
-                .motion("vertical", record.vertical.as_ref())
-                .hex()
+        let hash = |motion: &Accelerogram| Fingerprint::of("motion").motion(motion).hex();
+        let of = |record: &SuiteRecord| RecordHash {
+            horizontal: hash(&record.horizontal),
+            vertical: record.vertical.as_ref().map(hash),
         };
-        let sha256 = suite.records.iter().map(hash).collect();
-        Self { suite, sha256 }
+        let hashes = suite.records.iter().map(of).collect();
+        Self { suite, hashes }
     }
 }
 
@@ -65,9 +73,9 @@ impl Run {
         &self.motions.suite.records[self.record_index]
     }
 
-    /// SHA-256 of the record's samples.
-    pub fn record_sha256(&self) -> &str {
-        &self.motions.sha256[self.record_index]
+    /// Hashes of the record's samples.
+    pub fn record_hash(&self) -> &RecordHash {
+        &self.motions.hashes[self.record_index]
     }
 
     /// What shakes the wall.
@@ -89,6 +97,9 @@ impl Run {
     /// The id: what was asked for, the wall that came out, the samples that shake it and the accuracy.
     pub(super) fn with_id(mut self) -> Self {
         let assumptions = &self.variant.assumptions;
+        let hash = self.record_hash();
+        // A component that does not act is no input.
+        let vertical = hash.vertical.as_deref().filter(|_| assumptions.vertical);
         self.id = Fingerprint::of("run")
             .text("variant", &self.variant.name)
             .text("configuration", self.configuration.name())
@@ -98,8 +109,8 @@ impl Run {
             .number("strength", self.facade.compressive_strength_pa)
             .wall(self.wall.parameters())
             .text("record", &self.record().name)
-            .text("samples", self.record_sha256())
-            .text("vertical", if assumptions.vertical { "yes" } else { "no" })
+            .text("horizontal", &hash.horizontal)
+            .text("vertical", vertical.unwrap_or("none"))
             .numbers("time", &[assumptions.tail_s, assumptions.tolerance])
             .id();
         self

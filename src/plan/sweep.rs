@@ -152,8 +152,9 @@ impl Plan {
             hash = hash.text("run", &self.run(position)?.id);
         }
         let suite = &self.motions.suite;
-        for (record, sha256) in suite.records.iter().zip(&self.motions.sha256) {
-            hash = hash.text("record", &record.name).text("samples", sha256);
+        for (record, motion) in suite.records.iter().zip(&self.motions.hashes) {
+            hash = hash.text("record", &record.name).text("horizontal", &motion.horizontal);
+            hash = hash.text("vertical", motion.vertical.as_deref().unwrap_or("none"));
         }
         Ok(hash.text("suite", &suite.name).hex())
     }

@@ -55,9 +55,11 @@ pub(super) fn first_event(
     [collapse, strike, opening].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
+#[inline]
 fn first_collapse(motion: &Quintic, limit_rad: Pair) -> Option<f64> {
     let crossing = |i: usize| {
         let theta = motion.coordinate(i);
+        // A standing wall is below its limit: only a step that may go higher is looked at.
         if theta.magnitude_bound() < limit_rad[i] {
             return None;
         }
@@ -75,6 +77,7 @@ fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
+#[inline]
 fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
     let closing = |sign: f64, gap: &Bernstein<6>| -> Option<f64> {
         if sign == 0.0 {
@@ -95,6 +98,7 @@ fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
 }
 
 /// Share at which the smallest corner force, not negative at the start, turns negative; on the negative side.
+#[inline]
 fn first_lift(start: f64, end: f64, force_at: impl Fn(f64) -> f64) -> Option<f64> {
     if end < 0.0 {
         return Some(lift_between((0.0, start), (1.0, end), force_at));

@@ -55,10 +55,22 @@ impl GroundPath {
         self.end_s
     }
 
+    /// Start of the `k`-th piece, s.
+    #[inline]
+    pub fn start_s(&self, k: usize) -> f64 {
+        k as f64 * self.step_s
+    }
+
+    /// How many pieces between samples lie wholly within the run.
+    pub fn whole_pieces(&self) -> usize {
+        let between_samples = self.samples.len().saturating_sub(1);
+        between_samples.min((self.end_s / self.step_s) as usize)
+    }
+
     /// The `k`-th piece: one between samples, and one of no acceleration from the last to the end of the run.
     #[inline]
     pub fn piece(&self, k: usize) -> Option<Piece> {
-        let start_s = k as f64 * self.step_s;
+        let start_s = self.start_s(k);
         let left_s = self.end_s - start_s;
         // What is left after the last whole step may be a rounding.
         if left_s <= 1e-9 * self.step_s {
@@ -75,5 +87,13 @@ impl GroundPath {
             }
             _ => None,
         }
+    }
+
+    /// First piece from the `k`-th on, all of which are between samples, whose end does not satisfy `holds`; the
+    /// number of pieces between samples if none.
+    #[inline]
+    pub fn first_end_against(&self, k: usize, mut holds: impl FnMut(Vector) -> bool) -> usize {
+        let ends = self.samples.get(k + 1..).unwrap_or(&[]);
+        k + ends.iter().position(|&a| !holds(a)).unwrap_or(ends.len())
     }
 }

@@ -14,10 +14,18 @@ struct CornerForce {
     standing: f64,
 }
 
+impl CornerForce {
+    #[inline]
+    fn at(&self, ground: Vector) -> f64 {
+        self.x * ground.x + self.y * ground.y + self.standing
+    }
+}
+
 /// When a wall at rest moves, and what it asks of friction while it stands.
 #[derive(Debug, Clone)]
 pub(crate) struct RestLimits {
-    corners: Vec<CornerForce>,
+    /// At the ground, left and right, then at the crack; a crack that is not there never lifts.
+    corners: [CornerForce; 4],
     /// Mass that pushes sideways over mass that presses down, at the ground and at the crack.
     sideways_over_down: [f64; 2],
 }
@@ -28,16 +36,16 @@ impl RestLimits {
             |ground: Vector| wall.joint_forces(Contact::REST, &State::default(), [0.0, 0.0], ground);
         let [still, pushed, lifted] =
             [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| forces_under(Vector { x, y }));
-        let mut corners = Vec::with_capacity(4);
+        let mut corners = [CornerForce { x: 0.0, y: 0.0, standing: 1.0 }; 4];
         for joint in wall.joints() {
             let of = |f: &crate::model::JointForces| f.at(joint).corners(wall.width_m(joint));
             let (still, pushed, lifted) = (of(&still), of(&pushed), of(&lifted));
             for side in 0..2 {
-                corners.push(CornerForce {
+                corners[2 * joint as usize + side] = CornerForce {
                     x: pushed[side] - still[side],
                     y: lifted[side] - still[side],
                     standing: still[side],
-                });
+                };
             }
         }
         let mut sideways_over_down = [0.0; 2];
@@ -48,16 +56,22 @@ impl RestLimits {
         Self { corners, sideways_over_down }
     }
 
-    /// Offset in a piece, not before `from_s`, at which the first corner lifts; none if all stay pressed to its end.
+    /// Whether every corner stays pressed under a ground acceleration.
+    #[inline]
+    pub fn holds(&self, ground: Vector) -> bool {
+        self.corners.iter().all(|corner| corner.at(ground) >= 0.0)
+    }
+
+    /// Offset in a piece, not before `from_s`, at which the first corner lifts; none if all are pressed at its end,
+    /// for between two such ends a linear force cannot vanish.
     #[inline]
     pub fn lift_off_s(&self, piece: &Piece, from_s: f64) -> Option<f64> {
         let (start, end) = (piece.at(from_s), piece.at(piece.length_s));
-        let force = |c: &CornerForce, a: Vector| c.x * a.x + c.y * a.y + c.standing;
-        if self.corners.iter().all(|c| force(c, end) >= 0.0) {
+        if self.holds(end) {
             return None;
         }
-        let root = |c: &CornerForce| {
-            let (f0, f1) = (force(c, start), force(c, end));
+        let root = |corner: &CornerForce| {
+            let (f0, f1) = (corner.at(start), corner.at(end));
             (f1 < 0.0).then(|| if f0 > 0.0 { f0 / (f0 - f1) } else { 0.0 })
         };
         let first = self.corners.iter().filter_map(root).fold(1.0, f64::min);

@@ -16,9 +16,16 @@ pub(crate) struct Tally {
     pub demand: [JointDemand; 2],
     pub work: Work,
     in_tension: [bool; 2],
+    /// Joints the wall has: one, or two where it is cracked.
+    joints: usize,
 }
 
 impl Tally {
+    /// Nothing yet, for a wall with this many joints.
+    pub fn new(joints: usize) -> Self {
+        Self { joints, ..Self::default() }
+    }
+
     /// Raises the largest rotations by what happens inside a step.
     #[inline]
     pub fn rotations(&mut self, start_s: f64, motion: &Quintic) {
@@ -50,7 +57,7 @@ impl Tally {
     /// Counts friction and tension at both joints.
     #[inline]
     pub fn forces(&mut self, forces: &JointForces) {
-        for (i, force) in [forces.ground, forces.crack].iter().enumerate() {
+        for (i, force) in [forces.ground, forces.crack].iter().enumerate().take(self.joints) {
             let tension = force.normal < 0.0;
             let demand = &mut self.demand[i];
             if force.normal > 0.0 {

@@ -9,6 +9,9 @@ pub struct Bernstein<const N: usize>(pub [f64; N]);
 /// Halvings after which a pair of roots that has not come apart counts as a touch, not a crossing.
 const MOST_HALVINGS: u32 = 40;
 
+/// Shares nearer than this are one: a root is known no better, because coefficients carry roundings.
+const SAME_SHARE: f64 = 1e-14;
+
 impl<const N: usize> Bernstein<N> {
     /// Value at a share of the interval (de Casteljau).
     #[inline]
@@ -110,7 +113,7 @@ impl<const N: usize> Bernstein<N> {
             }
             let newton = share - value / slope_of(share);
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - share).abs() <= f64::EPSILON || high - low <= f64::EPSILON {
+            if (next - share).abs() <= SAME_SHARE || high - low <= SAME_SHARE {
                 return next;
             }
             share = next;

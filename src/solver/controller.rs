@@ -58,10 +58,9 @@ impl Controller {
         let error = self.error(step);
         if error <= 1.0 {
             let whole = step.h >= 0.99 * self.proposed_s;
-            // A step cut short by a sample or an event says nothing against a longer one.
-            if whole || step.h * MOST_FACTOR > self.proposed_s {
-                let next_s = step.h * (SAFETY * error.powf(-1.0 / ESTIMATE_ORDER)).min(MOST_FACTOR);
-                self.proposed_s = if whole { next_s } else { next_s.max(self.proposed_s) };
+            // A step cut short by a sample or an event says nothing against a longer one; it may speak for one.
+            if whole || error < (SAFETY * step.h / self.proposed_s).powi(5) {
+                self.proposed_s = step.h * (SAFETY * error.powf(-1.0 / ESTIMATE_ORDER)).min(MOST_FACTOR);
             }
             return true;
         }

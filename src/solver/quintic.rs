@@ -38,14 +38,21 @@ impl Quintic {
     /// Through both ends of a step of length `h`.
     #[inline]
     pub fn new(start: &Point, end: &Point, h: f64) -> Self {
-        let coordinate = [0, 1].map(|i| {
-            let at = |p: &Point| [p.position[i], p.velocity[i], p.acceleration[i]];
-            hermite(at(start), at(end), h)
-        });
+        let at = |p: &Point, i: usize| [p.position[i], p.velocity[i], p.acceleration[i]];
         // From the differences at the ends, not from the two polynomials: coordinates that start together,
         // or move together, differ by an exact zero.
-        let apart = |p: &Point| [p.position, p.velocity, p.acceleration].map(|pair| pair[1] - pair[0]);
-        Self { h, coordinate, difference: hermite(apart(start), apart(end), h) }
+        let apart = |p: &Point| {
+            [
+                p.position[1] - p.position[0],
+                p.velocity[1] - p.velocity[0],
+                p.acceleration[1] - p.acceleration[0],
+            ]
+        };
+        Self {
+            h,
+            coordinate: [hermite(at(start, 0), at(end, 0), h), hermite(at(start, 1), at(end, 1), h)],
+            difference: hermite(apart(start), apart(end), h),
+        }
     }
 
     /// Length of the step.

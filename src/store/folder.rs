@@ -26,8 +26,8 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// Makes the folder ready: it must be writable, and empty or hold results of the same plan that `replace` allows
-    /// to be thrown away. Nothing is written unless all that holds; then the manifest and the pipeline's text are.
+    /// Makes the folder ready: it must be writable, and empty or hold an earlier study that `replace` allows to be
+    /// thrown away. Nothing is written unless all that holds; then the manifest and the pipeline's text are.
     ///
     /// # Errors
     /// Input errors for a folder that cannot be written or holds something else; [`Error::Io`] if the disk refuses.
@@ -35,12 +35,9 @@ impl OutputFolder {
         make_writable(path)?;
         let manifest_path = path.join("manifest.json");
         match Manifest::read(&manifest_path)? {
-            Some(earlier) => check_earlier(path, &earlier, manifest, replace)?,
+            Some(_) if replace => clear(path)?,
+            Some(earlier) => check_earlier(path, &earlier, manifest)?,
             None => check_empty(path)?,
-        }
-        let runs = path.join("runs");
-        if runs.exists() {
-            fs::remove_dir_all(&runs).map_err(|e| Error::io("remove the earlier results", &runs, e))?;
         }
         manifest.write(&manifest_path)?;
         write_durably(&path.join("plan.toml"), pipeline_text.as_bytes())?;
@@ -75,18 +72,26 @@ fn make_writable(path: &Path) -> Result<()> {
     Ok(())
 }
 
-fn check_earlier(path: &Path, earlier: &Manifest, now: &Manifest, replace: bool) -> Result<()> {
+fn check_earlier(path: &Path, earlier: &Manifest, now: &Manifest) -> Result<()> {
     let folder = path.display();
-    if earlier.plan_sha256 != now.plan_sha256 {
-        let found = format!("{folder}, which holds another plan ({:?}, {} runs)", earlier.plan, earlier.runs);
-        return Err(InputError::option("--out", found, "an empty folder, or one of the same plan").into());
-    }
-    if !replace {
-        let found = format!("{folder}, which holds results of this plan already");
-        let allowed = "`mrbd aggregate` to read them, `--force` to run again over them, or another folder";
-        return Err(InputError::option("--out", found, allowed).into());
-    }
-    Ok(())
+    let found = match earlier.plan_sha256 == now.plan_sha256 {
+        true => format!("{folder}, which holds results of this plan already"),
+        false => format!("{folder}, which holds another plan ({:?}, {} runs)", earlier.plan, earlier.runs),
+    };
+    let allowed = "an empty folder, `--force` to replace those results, or `mrbd aggregate` to read them";
+    Err(InputError::option("--out", found, allowed).into())
+}
+
+/// Removes what an earlier study left, so that nothing of it can be taken for this one's.
+fn clear(path: &Path) -> Result<()> {
+    let removed = |path: &Path, result: std::io::Result<()>| match result {
+        Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io("remove earlier results", path, e)),
+        _ => Ok(()),
+    };
+    let runs = path.join("runs");
+    removed(&runs, fs::remove_dir_all(&runs))?;
+    let derived = ["medians.parquet", "findings.csv"].map(|name| path.join(name));
+    derived.iter().try_for_each(|file| removed(file, fs::remove_file(file)))
 }
 
 fn check_empty(path: &Path) -> Result<()> {

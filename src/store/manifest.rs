@@ -9,9 +9,10 @@ use sha2::{Digest, Sha256};
 use super::durable::write_durably;
 use super::schema::SCHEMA_VERSION;
 use crate::error::{Error, InputError, Result};
+use crate::ground::SuiteRecord;
 use crate::input::pipeline::{Pipeline, Variant};
 use crate::model::G_M_S2;
-use crate::plan::Plan;
+use crate::plan::{Plan, RecordHash};
 
 /// Provenance of an output folder: tool, plan, inputs, assumptions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -62,6 +63,8 @@ pub struct RecordNote {
     pub scale: f64,
     /// SHA-256 of its samples after scaling.
     pub sha256: String,
+    /// The same of its vertical component, if it has one.
+    pub vertical_sha256: Option<String>,
 }
 
 /// A file that was read.
@@ -149,16 +152,17 @@ impl Manifest {
 impl SuiteNote {
     fn of(plan: &Plan) -> Self {
         let motions = plan.motions();
-        let record = |(record, sha256): (&crate::ground::SuiteRecord, &String)| RecordNote {
+        let record = |(record, hash): (&SuiteRecord, &RecordHash)| RecordNote {
             name: record.name.clone(),
             event: record.event.clone(),
             scale: record.scale,
-            sha256: sha256.clone(),
+            sha256: hash.horizontal.clone(),
+            vertical_sha256: hash.vertical.clone(),
         };
         Self {
             name: motions.suite.name.clone(),
             generated: motions.suite.generated,
-            records: motions.suite.records.iter().zip(&motions.sha256).map(record).collect(),
+            records: motions.suite.records.iter().zip(&motions.hashes).map(record).collect(),
         }
     }
 }

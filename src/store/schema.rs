@@ -88,7 +88,8 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::input("record_scale", "", "factor the record was scaled by", number!(|f| record(f).scale)),
     Column::input("record_vertical_scale", "", "factor its vertical component was scaled by; null without one", Read::Number(|f| record(f).vertical.as_ref().map(|_| record(f).vertical_scale))),
     Column::input("record_generated", "", "whether the record is generated rather than recorded", Read::Flag(|f| Some(record(f).generated))),
-    Column::input("record_sha256", "", "SHA-256 of the samples after scaling", text!(|f| f.run.record_sha256())),
+    Column::input("record_sha256", "", "SHA-256 of step and samples after scaling", text!(|f| &f.run.record_hash().horizontal)),
+    Column::input("record_vertical_sha256", "", "the same of the vertical component; null without one", Read::Text(|f| f.run.record_hash().vertical.as_deref().map(Cow::Borrowed))),
     Column::input("record_step_s", "s", "time between samples", number!(|f| record(f).horizontal.step_s())),
     Column::input("record_duration_s", "s", "time of the last sample", number!(|f| record(f).horizontal.duration_s())),
     // Its intensity, scaled.

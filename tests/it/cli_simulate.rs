@@ -1,1 +1,173 @@
+//! `mrbd simulate` as a user meets it: what it prints, what it writes, what it refuses.
 
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+const TABLE_WALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/inputs/walls/table_wall.toml");
+
+fn mrbd(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mrbd")).args(arguments).output().expect("mrbd starts")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// A folder with a record of two sines that rock the table wall.
+fn folder_with_record() -> (TempDir, PathBuf) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = folder.path().join("record.csv");
+    let mut text = String::from("time_s,acceleration_m_s2\n");
+    for k in 0..1000 {
+        let t = f64::from(k) * 0.01;
+        text += &format!("{t:.2},{:.6}\n", 0.9 * (9.0 * t).sin() + 0.9 * (23.0 * t).sin());
+    }
+    std::fs::write(&path, text).expect("the record");
+    (folder, path)
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a path in UTF-8")
+}
+
+/// The table wall with one line of its file replaced.
+fn wall_with(folder: &TempDir, old: &str, new: &str) -> PathBuf {
+    let original = std::fs::read_to_string(TABLE_WALL).expect("the table wall");
+    assert!(original.contains(old), "{old}");
+    let path = folder.path().join("wall.toml");
+    std::fs::write(&path, original.replacen(old, new, 1)).expect("the wall");
+    path
+}
+
+fn rejects(arguments: &[&str], told: &[&str]) {
+    let output = mrbd(arguments);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    assert!(output.stdout.is_empty(), "data on stdout");
+    for part in told {
+        assert!(message.contains(part), "no `{part}` in: {message}");
+    }
+}
+
+#[test]
+fn analytic_json_and_history_agree() {
+    let (folder, record) = folder_with_record();
+    let history = folder.path().join("history.csv");
+    let output =
+        mrbd(&["simulate", TABLE_WALL, "--record", text(&record), "--json", "--history", text(&history)]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let result: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(result["outcome"], "stood");
+    let largest = result["theta1_max_rad"].as_f64().expect("a number");
+    let mut rows = csv::Reader::from_path(&history).expect("the history");
+    let header: Vec<String> = rows.headers().expect("a header").iter().map(str::to_owned).collect();
+    assert_eq!(header[..4], ["time_s", "theta1_rad", "theta2_rad", "pattern"]);
+    let rows: Vec<(f64, f64, f64, String)> = rows.deserialize().map(|row| row.expect("a row")).collect();
+    // 999 steps of record and 5 s of free motion at 0.01 s, and the first row.
+    assert_eq!(rows.len(), 1500);
+    let sampled = rows.iter().map(|row| row.1.abs()).fold(0.0, f64::max);
+    // A true maximum is at least the largest sample; over 0.005 s beside it the rotation falls by less than a hundredth.
+    assert!(largest >= sampled && sampled > 0.99 * largest, "{largest} against {sampled}");
+    assert!(largest > 1e-3, "the record must rock the wall");
+    let times: f64 =
+        result["pattern_time_s"].as_object().expect("an object").values().filter_map(Value::as_f64).sum();
+    // A sum of some thousand steps.
+    assert!((times - 14.99).abs() < 1e-9, "{times}");
+}
+
+#[test]
+fn analytic_parquet_history_has_the_rows_of_the_csv() {
+    let (folder, record) = folder_with_record();
+    let [csv, parquet] = ["h.csv", "h.parquet"].map(|name| folder.path().join(name));
+    for history in [&csv, &parquet] {
+        let output = mrbd(&["simulate", TABLE_WALL, "--record", text(&record), "--history", text(history)]);
+        assert!(output.status.success(), "{}", stderr(&output));
+    }
+    let file = std::fs::File::open(&parquet).expect("the history");
+    let reader =
+        parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder::try_new(file).expect("Parquet");
+    let rows = reader.metadata().file_metadata().num_rows();
+    assert_eq!(rows as usize, csv::Reader::from_path(&csv).expect("the history").records().count());
+}
+
+#[test]
+fn analytic_uncracked_wall_turns_as_one() {
+    let (folder, record) = folder_with_record();
+    let wall = wall_with(&folder, "crack_height_m = 2.191", "");
+    let output = mrbd(&["simulate", text(&wall), "--record", text(&record), "--json"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let result: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(result["theta1_max_rad"], result["theta2_max_rad"]);
+    assert_eq!(result["friction_demand_crack"], Value::Null);
+    for pattern in ["1a", "2a", "4a", "1b", "2b", "4b"] {
+        assert_eq!(result["pattern_time_s"][pattern], 0.0, "pattern {pattern}");
+    }
+}
+
+#[test]
+fn rejects_walls_that_cannot_be() {
+    let (folder, record) = folder_with_record();
+    let cases = [
+        ("crack_height_m = 2.191", "crack_height_m = 4.5", "wall.crack_height_m"),
+        ("mass_kg = 179.0", "mass_kg = -1.0", "diaphragm.mass_kg"),
+        ("thickness_m = 0.291", "thickness_m = nan", "wall.thickness_m"),
+        ("thickness_m = 0.291", "thickness_m = \"thick\"", "wall.thickness_m"),
+        ("thickness_m = 0.291", "thicknes_m = 0.291", "thicknes_m"),
+        ("length_m = 1.5", "", "length_m"),
+        ("lower_width_m = 0.271", "lower_width_m = 0.4", "corners.lower_width_m"),
+        ("law = \"whole\"", "law = \"hole\"", "restitution.law"),
+        ("[wall]", "[wall", "wall.toml:"),
+    ];
+    for (old, new, told) in cases {
+        let wall = wall_with(&folder, old, new);
+        rejects(&["simulate", text(&wall), "--record", text(&record)], &["wall.toml", told, "allowed"]);
+    }
+}
+
+#[test]
+fn rejects_unknown_effects_and_their_keys() {
+    let (folder, record) = folder_with_record();
+    for (effect, told) in [
+        ("kind = \"magic\"", "viscous_damping"),
+        ("kind = \"viscous_damping\"\ncoefficient = 3.0", "coefficient_n_s_per_m"),
+    ] {
+        let wall = wall_with(&folder, "[collapse]", &format!("[[effects]]\n{effect}\n\n[collapse]"));
+        rejects(&["simulate", text(&wall), "--record", text(&record)], &["wall.toml", told]);
+    }
+}
+
+#[test]
+fn rejects_options_that_make_no_sense() {
+    let (folder, record) = folder_with_record();
+    let record = text(&record);
+    rejects(&["simulate", "missing.toml", "--record", record], &["missing.toml"]);
+    rejects(&["simulate", TABLE_WALL, "--record", "missing.csv"], &["missing.csv"]);
+    rejects(&["simulate", TABLE_WALL], &["--record", "[initial]"]);
+    rejects(&["simulate", TABLE_WALL, "--record", record, "--tolerance", "0"], &["--tolerance", "1e-12"]);
+    rejects(&["simulate", TABLE_WALL, "--record", record, "--tail", "-1"], &["--tail"]);
+    rejects(&["simulate", TABLE_WALL, "--record", record, "--scale", "inf"], &["--scale"]);
+    rejects(
+        &["simulate", TABLE_WALL, "--record", record, "--capture-velocity", "-1"],
+        &["--capture-velocity"],
+    );
+    let nowhere = folder.path().join("no/folder/h.csv");
+    rejects(
+        &["simulate", TABLE_WALL, "--record", record, "--history", text(&nowhere)],
+        &["h.csv", "--history"],
+    );
+    let odd = folder.path().join("h.xlsx");
+    rejects(&["simulate", TABLE_WALL, "--record", record, "--history", text(&odd)], &["h.xlsx", ".parquet"]);
+}
+
+#[test]
+fn rejects_vertical_records_at_another_step() {
+    let (folder, record) = folder_with_record();
+    let vertical = folder.path().join("up.csv");
+    std::fs::write(&vertical, "time_s,acceleration_m_s2\n0.000,0.0\n0.005,1.0\n0.010,0.5\n")
+        .expect("the record");
+    let arguments = ["simulate", TABLE_WALL, "--record", text(&record), "--vertical", text(&vertical)];
+    rejects(&arguments, &["up.csv", "0.005", "0.01"]);
+}

@@ -5,8 +5,15 @@
 
 mod cli_simulate;
 mod ground_formats;
+mod ground_generated;
+mod ground_intensity;
 mod ground_mutations;
 mod ground_samples;
 mod ground_suite;
+mod pipeline_batch;
+mod pipeline_cli;
+mod pipeline_findings;
+mod pipeline_plan;
+mod pipeline_support;
 mod shared;
 mod verification;

@@ -1,0 +1,34 @@
+# The main jobs. Everything they need beside the Rust toolchain and Debian's build tools is built here.
+
+SUITE ?=
+SHARED_SUITE := ../shared/records/natural7/suite.toml
+# The suite the sweep runs on: SUITE=FILE, else the records beside the repository, where there are any.
+CHOSEN_SUITE := $(or $(SUITE),$(wildcard inputs/records/emilia7/suite.toml),$(wildcard $(SHARED_SUITE)))
+
+.PHONY: sweep test bench lint docs clean
+
+sweep: ## run the parametric sweep of the paper, aggregate it and print the medians and the checked conclusions
+ifeq ($(CHOSEN_SUITE),)
+	@echo "make sweep: no suite of accelerograms: run 'make sweep SUITE=path/to/suite.toml'" >&2
+	@echo "(a suite lists records with file, step, unit and scale; see inputs/records/README.md)" >&2
+	@exit 2
+else
+	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep --force
+endif
+
+test: ## all tests
+	cargo test --release --locked
+
+bench: ## time and work of one run, beside its arithmetic
+	cargo bench --locked
+
+lint: ## formatting and lints, warnings denied
+	cargo fmt --check
+	cargo clippy --release --locked --all-targets -- -D warnings
+
+docs: ## the library's documentation
+	cargo doc --no-deps --locked
+
+clean:
+	cargo clean
+	rm -rf outputs/*/

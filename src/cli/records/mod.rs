@@ -1,0 +1,108 @@
+//! `mrbd records`: accelerograms read, measured, converted, generated and put into suites.
+
+mod check;
+mod convert;
+mod describe;
+mod generate;
+mod import;
+mod pulse;
+mod select;
+
+use std::path::Path;
+
+use clap::{Args, Subcommand};
+
+use super::print;
+use crate::error::Result;
+use crate::ground::{ReadOptions, Record, Unit, read};
+
+/// Read, convert, describe, generate and select accelerograms.
+///
+/// Formats are told by content: CSV under `time_s,acceleration_m_s2`, one number a line (give --dt), PEER AT2,
+/// ESM/ITACA DYNA, GeoNet V1A and V2A, COSMOS, CSMIP V2 and K-NET.
+#[derive(Debug, Args)]
+#[command(arg_required_else_help = true)]
+pub struct RecordsArgs {
+    #[command(subcommand)]
+    command: RecordsCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum RecordsCommand {
+    Describe(describe::DescribeArgs),
+    Convert(convert::ConvertArgs),
+    Check(check::CheckArgs),
+    Generate(generate::GenerateArgs),
+    Select(select::SelectArgs),
+    Import(import::ImportArgs),
+    Pulse(pulse::PulseArgs),
+}
+
+/// Runs the command that was asked for.
+///
+/// # Errors
+/// Whatever the command meets.
+pub fn execute(args: &RecordsArgs) -> Result<()> {
+    match &args.command {
+        RecordsCommand::Describe(args) => describe::execute(args),
+        RecordsCommand::Convert(args) => convert::execute(args),
+        RecordsCommand::Check(args) => check::execute(args),
+        RecordsCommand::Generate(args) => generate::execute(args),
+        RecordsCommand::Select(args) => select::execute(args),
+        RecordsCommand::Import(args) => import::execute(args),
+        RecordsCommand::Pulse(args) => pulse::execute(args),
+    }
+}
+
+/// What is known of files that do not tell it themselves.
+#[derive(Debug, Clone, Args)]
+struct ReadArgs {
+    /// Time between samples, where files do not tell it.
+    #[arg(long, value_name = "SECONDS")]
+    dt: Option<f64>,
+    /// Unit of the samples, where files do not tell it: m/s2, g, cm/s2, gal or mm/s2.
+    #[arg(long)]
+    unit: Option<Unit>,
+    /// Channel of files of several: its number from 1, or its name.
+    #[arg(long)]
+    channel: Option<String>,
+}
+
+impl ReadArgs {
+    fn options(&self) -> ReadOptions {
+        ReadOptions { step_s: self.dt, unit: self.unit, channel: self.channel.clone() }
+    }
+
+    fn read(&self, path: &Path) -> Result<Record> {
+        read(path, &self.options())
+    }
+}
+
+/// Prints rows under a heading, columns aligned to the right but for the first.
+fn print_table(heading: &[&str], rows: &[Vec<String>]) -> Result<()> {
+    let width = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells.chain([heading[column].chars().count()]).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..heading.len()).map(width).collect();
+    let line = |cells: &mut dyn Iterator<Item = &str>| {
+        let pad = |(column, cell): (usize, &str)| match column {
+            0 => format!("{cell:<width$}", width = widths[0]),
+            _ => format!("{cell:>width$}", width = widths[column]),
+        };
+        cells.enumerate().map(pad).collect::<Vec<_>>().join("  ")
+    };
+    print(&line(&mut heading.iter().copied()))?;
+    rows.iter().try_for_each(|row| print(&line(&mut row.iter().map(String::as_str))))
+}
+
+/// A relative deviation as percent with its sign.
+fn percent(deviation: f64) -> String {
+    format!("{:+.1} %", 100.0 * deviation)
+}
+
+/// Prints a value as indented JSON.
+fn print_json(value: &impl serde::Serialize) -> Result<()> {
+    // Numbers, strings and lists of them always make JSON.
+    print(&serde_json::to_string_pretty(value).expect("plain data is valid JSON"))
+}

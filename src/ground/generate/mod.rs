@@ -1,0 +1,80 @@
+//! Generated records: for a row of a table, an accelerogram with its peak acceleration and velocity, of a length that
+//! fits its magnitude and distance, with a smooth spectrum; for a whole table, a mean spectrum near that of the code.
+//!
+//! Noise under an envelope is brought to a target spectrum by repeated correction of its Fourier amplitudes
+//! (Gasparini and Vanmarcke 1976, "SIMQKE: a program for artificial motion generation"), then its peaks are set by small
+//! wavelets, and its end is brought to rest exactly. A record depends on the seed and the number of its row alone.
+
+mod design;
+mod matching;
+mod noise;
+mod peaks;
+mod rest;
+mod write;
+
+use super::Accelerogram;
+use super::code_spectrum::Site;
+use super::pulse::Pulse;
+use super::record_table::{RecordTable, TableRow};
+
+pub use write::write_suite;
+
+use design::Design;
+
+/// Time between the samples of generated records, s.
+pub const STEP_S: f64 = 0.01;
+/// Rounds of correcting the spectrum: more change it by less than it differs between records.
+const ROUNDS: usize = 24;
+/// Rounds of setting the peaks: each disturbs the other by less than the last.
+const PEAK_ROUNDS: usize = 6;
+
+/// Generates a record for every row of `table`, before scaling by the factor of the row.
+///
+/// With a site, targets are adjusted so that the mean of the scaled records follows its code spectrum.
+pub fn generate(table: &RecordTable, site: Option<&Site>, seed: u64) -> Vec<Accelerogram> {
+    let designs = design::designs(table, site);
+    table.records.iter().zip(&designs).map(|(row, design)| record(row, design, seed)).collect()
+}
+
+fn record(row: &TableRow, design: &Design, seed: u64) -> Accelerogram {
+    let mut rng = noise::generator(seed, row.id);
+    let mut samples = noise::under_envelope(design.duration_s, &mut rng);
+    let target = design.target();
+    for _ in 0..ROUNDS {
+        matching::correct(&mut samples, &target);
+        // Setting the velocity in every round gathers long waves about its peak: their phases stay when their amplitudes
+        // are corrected, so the velocity is reached at the spectrum of the code and not by raising it.
+        peaks::set_velocity(&mut samples, design.noise_pgv_m_s, design.corner_s);
+        rest::condition(&mut samples);
+    }
+    if let Some(period_s) = row.pulse_period_s {
+        add_pulse(&mut samples, period_s, design);
+    }
+    for _ in 0..PEAK_ROUNDS {
+        peaks::set_velocity(&mut samples, design.pgv_m_s, design.corner_s);
+        rest::condition(&mut samples);
+        // Last, because what its short wavelets leave of velocity is some quanta, which settling takes off.
+        peaks::set_acceleration(&mut samples, design.pga_m_s2);
+    }
+    let unscaled: Vec<f64> = samples.iter().map(|a| a / row.scale).collect();
+    as_record(&rest::settle(&unscaled))
+}
+
+/// Adds a near-fault pulse where the strong shaking begins.
+fn add_pulse(samples: &mut [f64], period_s: f64, design: &Design) {
+    let pulse = Pulse::MavroeidisPapageorgiou {
+        velocity_m_s: design.pgv_m_s - design.noise_pgv_m_s,
+        period_s,
+        oscillations: 2.0,
+        phase_rad: 0.0,
+    };
+    let start_s = noise::LEAD_S + 0.1 * design.duration_s;
+    for (i, sample) in samples.iter_mut().enumerate() {
+        *sample += pulse.acceleration_m_s2(i as f64 * STEP_S - start_s);
+    }
+}
+
+fn as_record(samples: &[f64]) -> Accelerogram {
+    // Finite numbers, far more than two, at a positive step: sums and products of finite numbers of ordinary size.
+    Accelerogram::new(STEP_S, samples.to_vec()).expect("generated samples are finite")
+}

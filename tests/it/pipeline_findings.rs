@@ -1,0 +1,252 @@
+//! Every finding on made-up medians: each of the three answers must be reachable.
+
+use mrbd::aggregate::{Case, Measure, Median, Medians};
+use mrbd::findings::{FINDINGS, Verdict, View};
+use mrbd::input::pipeline::Parameter;
+use mrbd::input::survey::Configuration;
+use mrbd::plan::Level;
+
+use Configuration::{Parallel, Perpendicular};
+use Level::{High, Low, Mean};
+use Measure::UpperOwn;
+
+/// A rotation and the distance between its 16 and 84 % quantiles, or a collapse.
+type Made = Option<(f64, f64)>;
+
+/// The medians of a whole sweep, made by a function of the case.
+fn medians(make: impl Fn(&Case, Measure) -> Made) -> Medians {
+    let mut rows = Vec::new();
+    for configuration in Configuration::ALL {
+        for parameter in Parameter::ALL {
+            let other = match configuration {
+                Perpendicular => Parameter::CarriageMass,
+                Parallel => Parameter::DiaphragmMass,
+            };
+            for level in Level::ALL.into_iter().filter(|_| parameter != other) {
+                for slenderness in (4..=12).map(|i| f64::from(2 * i)) {
+                    let case =
+                        Case { variant: "made".to_owned(), configuration, parameter, level, slenderness };
+                    rows.extend(
+                        Measure::ALL.map(|measure| median(case.clone(), measure, make(&case, measure))),
+                    );
+                }
+            }
+        }
+    }
+    Medians::new(Vec::new(), rows)
+}
+
+fn median(case: Case, measure: Measure, made: Made) -> Median {
+    let quantiles = made.map_or([None; 7], |(rotation, spread)| {
+        [-0.6, -0.5, -0.4, 0.0, 0.4, 0.5, 0.6].map(|part| Some(rotation + part * spread))
+    });
+    // Crack heights are listed downwards.
+    let value = match case.parameter {
+        Parameter::CrackHeight => [0.73, 0.62, 0.52][case.level.index()],
+        _ => 1.0 + case.level.index() as f64,
+    };
+    let collapsed = if made.is_some() { 0 } else { 7 };
+    let parameter_value = (case.parameter != Parameter::Restitution).then_some(value);
+    Median { case, parameter_value, measure, runs: 7, collapsed, failed: 0, quantiles }
+}
+
+/// The answer to a finding on medians whose rotations are made by a function of the case.
+fn answer(name: &str, make: impl Fn(&Case, Measure) -> f64) -> Verdict {
+    answer_made(name, |case, measure| Some((make(case, measure), 0.0)))
+}
+
+fn answer_made(name: &str, make: impl Fn(&Case, Measure) -> Made) -> Verdict {
+    let finding = FINDINGS.iter().find(|finding| finding.name == name).expect("a finding of that name");
+    let answer = (finding.check)(&View::new(&medians(make), "made"));
+    assert!(!answer.numbers.is_empty(), "numbers decide");
+    answer.verdict
+}
+
+fn slender(case: &Case) -> bool {
+    case.slenderness > 14.0
+}
+
+/// A rotation that a parameter raises, by floor and slenderness: -1, 0 or +1 from low to high level.
+fn raised(case: &Case, parameter: Parameter, by: f64) -> f64 {
+    let step = if case.parameter == parameter { case.level.index() as f64 - 1.0 } else { 0.0 };
+    0.2 + by * step
+}
+
+#[test]
+fn regress_only_slender_walls_rotate() {
+    let name = "only slender walls rotate";
+    assert_eq!(answer(name, |c, _| if slender(c) { 0.1 } else { 0.01 }), Verdict::Holds);
+    assert_eq!(answer(name, |_, _| 0.1), Verdict::DoesNot);
+    assert_eq!(answer(name, |_, _| 0.01), Verdict::Undecided);
+    let falls = |c: &Case, _| if slender(c) { None } else { Some((0.01, 0.0)) };
+    assert_eq!(answer_made(name, falls), Verdict::Holds, "a collapse is a large rotation");
+}
+
+#[test]
+fn regress_parallel_floors_rotate_more() {
+    let times =
+        |factor: f64| move |c: &Case, _| if c.configuration == Parallel { factor * 0.02 } else { 0.02 };
+    let name = "parallel floor rotates more";
+    assert_eq!(answer(name, times(2.0)), Verdict::Holds);
+    assert_eq!(answer(name, times(0.5)), Verdict::DoesNot);
+    assert_eq!(answer(name, times(1.0)), Verdict::Undecided);
+    let name = "about five times more";
+    assert_eq!(answer(name, times(5.0)), Verdict::Holds);
+    assert_eq!(answer(name, times(9.0)), Verdict::Undecided);
+    assert_eq!(answer(name, times(1.5)), Verdict::DoesNot);
+    assert_eq!(answer_made(name, |_, _| None), Verdict::Undecided, "no ratio of collapses");
+}
+
+#[test]
+fn regress_reverse_scale_effect() {
+    let name = "reverse scale effect";
+    let thickness = |by: f64| move |c: &Case, _| raised(c, Parameter::Thickness, by);
+    assert_eq!(answer(name, thickness(0.05)), Verdict::Holds);
+    assert_eq!(answer(name, thickness(-0.05)), Verdict::DoesNot);
+    assert_eq!(answer(name, thickness(0.0)), Verdict::Undecided);
+    let moderate_only = |c: &Case, _| raised(c, Parameter::Thickness, if slender(c) { -0.05 } else { 0.05 });
+    assert_eq!(answer(name, moderate_only), Verdict::DoesNot, "asked of slender walls");
+    let falls = |c: &Case, _| {
+        if (c.parameter, c.level) == (Parameter::Thickness, High) { None } else { Some((0.1, 0.0)) }
+    };
+    assert_eq!(answer_made(name, falls), Verdict::Holds, "collapse outranks every rotation");
+
+    let name = "reverse scale more if parallel";
+    let by_floor = |perpendicular: f64, parallel: f64| {
+        move |c: &Case, _| {
+            raised(
+                c,
+                Parameter::Thickness,
+                if c.configuration == Parallel { parallel } else { perpendicular },
+            )
+        }
+    };
+    assert_eq!(answer(name, by_floor(0.02, 0.05)), Verdict::Holds);
+    assert_eq!(answer(name, by_floor(0.05, 0.02)), Verdict::DoesNot);
+    assert_eq!(answer(name, by_floor(0.05, 0.05)), Verdict::Undecided);
+    assert_eq!(answer_made(name, |_, _| None), Verdict::Undecided, "no increase between collapses");
+}
+
+#[test]
+fn regress_crack_heights_are_compared_by_value() {
+    let name = "higher crack, larger rotation";
+    // The high level is the low crack.
+    let crack = |by: f64| move |c: &Case, _| raised(c, Parameter::CrackHeight, by);
+    assert_eq!(answer(name, crack(-0.05)), Verdict::Holds);
+    assert_eq!(answer(name, crack(0.05)), Verdict::DoesNot);
+    assert_eq!(answer(name, crack(0.0)), Verdict::Undecided);
+}
+
+#[test]
+fn regress_upper_body_below_lower() {
+    let name = "upper body below lower";
+    let upper = |moderate: f64, large: f64| {
+        move |c: &Case, m: Measure| match m == UpperOwn {
+            true => 0.1 * if slender(c) { large } else { moderate },
+            false => 0.1,
+        }
+    };
+    assert_eq!(answer(name, upper(0.5, 2.0)), Verdict::Holds);
+    assert_eq!(answer(name, upper(0.5, 0.5)), Verdict::DoesNot, "it must reverse");
+    assert_eq!(answer(name, upper(2.0, 2.0)), Verdict::DoesNot);
+    assert_eq!(answer(name, upper(0.5, 1.0)), Verdict::Undecided);
+}
+
+#[test]
+fn regress_little_influence_of_strength_and_coefficients() {
+    for (name, parameter) in [
+        ("strength hardly matters", Parameter::Strength),
+        ("coefficients matter little", Parameter::Restitution),
+    ] {
+        // From low to high twice the step, against a tenth of 0.2.
+        assert_eq!(answer(name, |c, _| raised(c, parameter, 0.009)), Verdict::Holds, "{name}");
+        assert_eq!(answer(name, |c, _| raised(c, parameter, 0.011)), Verdict::DoesNot, "{name}");
+        let third =
+            |c: &Case, _: Measure| raised(c, parameter, if c.slenderness >= 20.0 { 0.05 } else { 0.0 });
+        assert_eq!(answer(name, third), Verdict::Undecided, "{name}");
+    }
+    let slender_parallel = |c: &Case, _: Measure| {
+        raised(c, Parameter::Restitution, if slender(c) && c.configuration == Parallel { 0.1 } else { 0.0 })
+    };
+    assert_eq!(answer("coefficients matter little", slender_parallel), Verdict::Holds, "these are apart");
+}
+
+#[test]
+fn regress_stiffer_floors_rotate_less() {
+    let name = "stiffer floor, smaller rotation";
+    let stiffness = |by: f64| move |c: &Case, _| raised(c, Parameter::Stiffness, by);
+    assert_eq!(answer(name, stiffness(-0.05)), Verdict::Holds);
+    assert_eq!(answer(name, stiffness(0.05)), Verdict::DoesNot);
+    assert_eq!(answer(name, stiffness(0.0)), Verdict::Undecided);
+}
+
+#[test]
+fn regress_perpendicular_mass_reverses() {
+    let name = "perpendicular floor mass";
+    let mass = |moderate: f64, large: f64| {
+        move |c: &Case, _| raised(c, Parameter::DiaphragmMass, if slender(c) { large } else { moderate })
+    };
+    assert_eq!(answer(name, mass(0.05, -0.05)), Verdict::Holds);
+    assert_eq!(answer(name, mass(0.05, 0.05)), Verdict::DoesNot);
+    assert_eq!(answer(name, mass(0.05, 0.0)), Verdict::Undecided);
+}
+
+#[test]
+fn regress_parallel_mass_is_amplified() {
+    let name = "parallel floor mass";
+    let mass = |moderate: f64, large: f64| {
+        move |c: &Case, _| raised(c, Parameter::CarriageMass, if slender(c) { large } else { moderate })
+    };
+    assert_eq!(answer(name, mass(0.02, 0.05)), Verdict::Holds);
+    assert_eq!(answer(name, mass(0.05, 0.02)), Verdict::DoesNot, "more, but not amplified");
+    assert_eq!(answer(name, mass(-0.05, -0.05)), Verdict::DoesNot);
+    assert_eq!(answer(name, mass(0.0, 0.0)), Verdict::Undecided);
+    let light_stands = |c: &Case, _| match (c.parameter, c.level) {
+        (Parameter::CarriageMass, Mean | High) if slender(c) => None,
+        (Parameter::CarriageMass, Low) => Some((0.1, 0.0)),
+        _ => Some((0.2, 0.0)),
+    };
+    assert_eq!(answer_made(name, light_stands), Verdict::Holds, "a rise to collapse is endless");
+}
+
+#[test]
+fn regress_spread_between_records() {
+    let name = "record-to-record spread";
+    let spread = |parallel: f64, large: f64| {
+        move |c: &Case, _| {
+            let floor = if c.configuration == Parallel { parallel } else { 1.0 };
+            Some((0.2, 0.02 * floor * if slender(c) { large } else { 1.0 }))
+        }
+    };
+    assert_eq!(answer_made(name, spread(2.0, 3.0)), Verdict::Holds);
+    assert_eq!(answer_made(name, spread(0.5, 3.0)), Verdict::DoesNot);
+    assert_eq!(answer_made(name, spread(2.0, 0.5)), Verdict::DoesNot);
+    assert_eq!(answer_made(name, spread(1.0, 3.0)), Verdict::Undecided);
+}
+
+#[test]
+fn regress_coefficients_matter_more_for_slender_parallel_walls() {
+    let name = "coefficients, slender parallel";
+    let moves = |c: &Case, slender_parallel: f64, elsewhere: f64| {
+        let by = if slender(c) && c.configuration == Parallel { slender_parallel } else { elsewhere };
+        raised(c, Parameter::Restitution, by)
+    };
+    assert_eq!(answer(name, |c, _| moves(c, 0.08, 0.01)), Verdict::Holds);
+    assert_eq!(answer(name, |c, _| moves(c, 0.01, 0.08)), Verdict::DoesNot);
+    assert_eq!(answer(name, |c, _| moves(c, 0.01, 0.01)), Verdict::Undecided);
+}
+
+#[test]
+fn regress_findings_have_names_sources_and_criteria_and_no_medians_decide_nothing() {
+    let empty = Medians::default();
+    for finding in &FINDINGS {
+        let twins = FINDINGS.iter().filter(|other| other.name == finding.name).count();
+        assert!(twins == 1 && finding.source.contains("section") && !finding.criterion.is_empty());
+        assert_eq!(
+            (finding.check)(&View::new(&empty, "none")).verdict,
+            Verdict::Undecided,
+            "{}",
+            finding.name
+        );
+    }
+}
