@@ -9,8 +9,6 @@ mod records;
 mod run;
 mod simulate;
 
-use std::io::Write;
-
 use clap::{Parser, Subcommand};
 
 use crate::error::Result;
@@ -45,19 +43,5 @@ impl Cli {
             Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }
-    }
-}
-
-/// Prints data to stdout; a reader that closes the pipe early has seen enough.
-///
-/// # Errors
-/// What the system says, other than that the pipe is closed.
-fn print(text: &str) -> Result<()> {
-    let mut stdout = std::io::stdout().lock();
-    match writeln!(stdout, "{text}").and_then(|()| stdout.flush()) {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => {
-            Err(crate::Error::io("print", std::path::Path::new("stdout"), e))
-        }
-        _ => Ok(()),
     }
 }

@@ -16,6 +16,14 @@ pub fn to_stdout(print: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()>
     }
 }
 
+/// Prints a text and a line end on stdout.
+///
+/// # Errors
+/// What the system says, unless the reader has gone.
+pub fn print(text: &str) -> Result<()> {
+    to_stdout(|stdout| writeln!(stdout, "{text}").and_then(|()| stdout.flush()).map_err(failed))
+}
+
 /// An error of a stream as an error of stdout.
 pub fn failed(error: io::Error) -> Error {
     Error::io("print the results", Path::new("stdout"), error)

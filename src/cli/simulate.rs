@@ -82,7 +82,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
         }
         None => crate::simulate::simulate(&wall, &shaking, accuracy),
     };
-    super::print(&if args.json {
+    super::output::print(&if args.json {
         format!("{:#}", as_json(&wall, &response))
     } else {
         summary(&wall, &response)

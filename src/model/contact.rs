@@ -172,6 +172,10 @@ impl Touching {
         Self { ground: contact.ground.is_closed(), crack: contact.crack.is_closed() }
     }
 
+    pub(super) fn told(self, touches: bool) -> &'static str {
+        if touches { "touching" } else { "open" }
+    }
+
     /// Whether this joint touches.
     pub fn at(self, joint: Joint) -> bool {
         match joint {

@@ -5,12 +5,12 @@
 
 use super::MechanicsError;
 use super::Table2Change;
-use super::contact::{Contact, Joint, Pivot, Touching};
+use super::contact::{Contact, Pivot, Touching};
 use super::posture::{Pair, Posture, Rates, Turns};
 use super::rocking::{RockingWall, State, opening};
 use super::wall::ImpactLaw;
 
-/// Separations and impulses within this share of the motion's own size count as zero: some hundred roundings.
+/// Separations and impulses within this share of the motion before count as zero: some hundred roundings.
 const ROUNDING: f64 = 1e-13;
 
 /// What came of an impact.
@@ -61,10 +61,10 @@ impl RockingWall {
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
         let strike = self.strike(from, touching, state);
-        let mut outcomes = self.admissible(from, &strike);
+        let mut outcomes = self.admissible(from, &strike).into_iter().flatten();
         let (Some(plastic), None) = (outcomes.next(), outcomes.next()) else {
-            let count = self.admissible(from, &strike).count();
-            return Err(MechanicsError::ImpactOutcomes { from: from.name(), count });
+            let count = self.admissible(from, &strike).iter().flatten().count();
+            return Err(MechanicsError::ImpactOutcomes { from: from.name(), touching, state: *state, count });
         };
         let (contact, projected) = self.captured(plastic, &strike);
         let change = Table2Change::of(from, contact);
@@ -74,23 +74,17 @@ impl RockingWall {
         Ok(Impact { contact, omega, change, captured: contact != plastic, loss_j: before_j - after_j })
     }
 
-    /// Every admissible contact state after an impact, closed states first; exactly one is expected.
+    /// Every admissible contact state after an impact; exactly one is expected.
     ///
     /// Admissible: every closed joint receives impulses that push at both corners, every opened joint separates.
-    /// Ties within rounding go to the closed state.
+    /// Where no state is so by more than rounding, the tie goes to the one with most joints closed.
     pub fn admissible_outcomes(
         &self,
         from: Contact,
         touching: Touching,
         state: &State,
     ) -> [Option<Contact>; 9] {
-        let strike = self.strike(from, touching, state);
-        let mut found = [None; 9];
-        found
-            .iter_mut()
-            .zip(self.admissible(from, &strike))
-            .for_each(|(slot, contact)| *slot = Some(contact));
-        found
+        self.admissible(from, &self.strike(from, touching, state))
     }
 
     fn strike(&self, from: Contact, touching: Touching, state: &State) -> Strike {
@@ -98,20 +92,36 @@ impl RockingWall {
         Strike { touching, turns, v_before: self.posture(from, turns).rates(state.omega) }
     }
 
-    fn admissible(&self, from: Contact, strike: &Strike) -> impl Iterator<Item = Contact> {
-        self.states_touching(from, strike.touching).filter(|to| self.is_admissible(*to, strike))
+    fn admissible(&self, from: Contact, strike: &Strike) -> [Option<Contact>; 9] {
+        let mut clear = [None; 9];
+        let mut tie: Option<Contact> = None;
+        for to in self.states_touching(from, strike.touching) {
+            let margin = self.margin(to, strike);
+            if margin > ROUNDING {
+                clear[to.index()] = Some(to);
+            } else if margin >= -ROUNDING && tie.is_none_or(|tied| to.open_joints() < tied.open_joints()) {
+                tie = Some(to);
+            }
+        }
+        if clear.iter().all(Option::is_none) {
+            clear[0] = tie;
+        }
+        clear
     }
 
-    fn is_admissible(&self, to: Contact, strike: &Strike) -> bool {
+    /// By how much a contact state is admissible: the smallest corner impulse of its closed joints or separation of its
+    /// opened ones, over the momentum or speed before.
+    fn margin(&self, to: Contact, strike: &Strike) -> f64 {
         let posture = self.posture(to, strike.turns);
         let omega = self.projected_onto(to, &posture, strike);
-        let speed = strike.v_before.theta[0].abs().max(strike.v_before.theta[1].abs());
-        let separates = |joint: Joint| {
-            to.at(joint).is_closed()
-                || !strike.touching.at(joint)
-                || to.at(joint).sign() * opening(joint, omega) > ROUNDING * speed
-        };
-        self.joints().all(separates) && self.impulses_push(to, &posture, omega, &strike.v_before)
+        // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
+        let [w1, w2] = strike.v_before.theta.map(|w| w.abs().max(f64::MIN_POSITIVE));
+        let separation = self
+            .joints()
+            .filter(|joint| strike.touching.at(*joint) && to.at(*joint).is_open())
+            .map(|joint| to.at(joint).sign() * opening(joint, omega) / w1.max(w2))
+            .fold(f64::INFINITY, f64::min);
+        separation.min(self.smallest_impulse(to, &posture, omega, &strike.v_before))
     }
 
     /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
@@ -125,18 +135,20 @@ impl RockingWall {
         self.projected_onto(to, &self.posture(to, strike.turns), strike)
     }
 
-    /// Whether the impulses at both corners of every closed joint are compressive.
-    fn impulses_push(&self, to: Contact, posture: &Posture, omega: Pair, v_before: &Rates) -> bool {
+    /// Smallest impulse at the corners of the closed joints over the momentum before; infinite where all are open.
+    fn smallest_impulse(&self, to: Contact, posture: &Posture, omega: Pair, v_before: &Rates) -> f64 {
         let jump = posture.rates(omega).minus(*v_before);
         let impulses = self.masses.impulses(posture, &jump);
-        let size = impulses.ground.normal.abs() + impulses.ground.shear.abs() + impulses.crack.normal.abs();
-        self.joints().filter(|joint| to.at(*joint).is_closed()).all(|joint| {
-            let corners = impulses.at(joint).corners(self.width_m(joint));
-            corners.iter().all(|impulse| *impulse >= -ROUNDING * size * self.slimness())
-        })
+        // A corner's impulse is a moment over a width: its roundings are those of the momentum times the slimness.
+        let size = (self.masses.momentum_size(v_before) * self.slimness()).max(f64::MIN_POSITIVE);
+        self.joints()
+            .filter(|joint| to.at(*joint).is_closed())
+            .flat_map(|joint| impulses.at(joint).corners(self.width_m(joint)))
+            .map(|impulse| impulse / size)
+            .fold(f64::INFINITY, f64::min)
     }
 
-    /// Height over the narrowest joint: how much a moment's rounding is magnified in a corner impulse.
+    /// Height over the narrowest joint.
     fn slimness(&self) -> f64 {
         let p = self.wall().parameters();
         let narrowest = self.joints().map(|joint| self.width_m(joint)).fold(f64::INFINITY, f64::min);
@@ -146,13 +158,12 @@ impl RockingWall {
     /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
     /// the impact, until none is left.
     fn captured(&self, plastic: Contact, strike: &Strike) -> (Contact, Pair) {
-        let limit = self.wall().parameters().restitution.capture_velocity_rad_s;
         let mut contact = plastic;
         loop {
             let omega = self.projected(contact, strike);
             let slow = self.joints().find(|joint| {
                 let opened = strike.touching.at(*joint) && contact.at(*joint).is_open();
-                opened && opening(*joint, omega).abs() < limit
+                opened && opening(*joint, omega).abs() < self.capture_rad_s
             });
             match slow {
                 Some(joint) => contact = contact.with(joint, Pivot::Closed),

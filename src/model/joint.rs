@@ -83,6 +83,12 @@ impl Masses {
         }
     }
 
+    /// Sum of the masses times the magnitudes of their velocities, N s.
+    pub fn momentum_size(&self, v: &Rates) -> f64 {
+        let speed = |v: Vector| v.x.abs() + v.y.abs();
+        self.m[0] * speed(v.g1) + self.m[1] * speed(v.g2) + (self.m_d + self.m_dp) * speed(v.c)
+    }
+
     /// Generalised momenta Jᵀ M v of a state with this posture for velocities of the mass points that came from another.
     pub fn momenta(&self, posture: &Posture, v: &Rates) -> [f64; 2] {
         let p = posture;

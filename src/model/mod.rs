@@ -33,10 +33,18 @@ pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParamet
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MechanicsError {
     /// No contact state, or more than one, is admissible after an impact.
-    #[error("{count} admissible outcomes of an impact in pattern {from}; there must be exactly one")]
+    #[error(
+        "{count} admissible outcomes of an impact in pattern {from}, where there must be exactly one \
+         (ground {}, crack {}, θ {:?} rad, θ' {:?} rad/s)",
+        touching.told(touching.ground), touching.told(touching.crack), state.theta, state.omega
+    )]
     ImpactOutcomes {
         /// Pattern before the impact.
         from: &'static str,
+        /// Joints that touch.
+        touching: Touching,
+        /// Rotations and velocities before.
+        state: State,
         /// How many were admissible.
         count: usize,
     },

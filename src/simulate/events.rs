@@ -30,6 +30,8 @@ impl Event {
 
 /// Two closings nearer than this share of a step are one: roundings could not tell their order.
 const SAME_INSTANT: f64 = 1e-12;
+/// Roundings a rotation gathers over a step of some ten operations.
+const ROUNDINGS: f64 = 8.0;
 /// Corner forces are looked at inside a step where the nearer end is within this share of their size and change of
 /// zero: between ends that are farther away a smooth force cannot dip below zero, because the motion turns by less
 /// than a tenth of a radian of its own period within a step.
@@ -79,15 +81,9 @@ fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 
 #[inline]
 fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
-    let closing = |sign: f64, gap: &Bernstein<6>| -> Option<f64> {
-        if sign == 0.0 {
-            return None;
-        }
-        let gap = gap.times(sign);
-        if gap.is_surely_positive() { None } else { gap.first_root_after_start() }
-    };
-    let ground = closing(contact.ground.sign(), motion.coordinate(0));
-    let crack = closing(contact.crack.sign(), motion.difference());
+    let [lower, upper] = [0, 1].map(|i| motion.coordinate(i));
+    let ground = closing(contact.ground.sign(), lower, lower.magnitude_bound());
+    let crack = closing(contact.crack.sign(), motion.difference(), upper.magnitude_bound());
     let first = earlier(ground, crack)?;
     let now = |at: Option<f64>| at.is_some_and(|share| share - first <= SAME_INSTANT);
     let touching = Touching {
@@ -95,6 +91,28 @@ fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
         crack: now(crack) || contact.crack.is_closed(),
     };
     Some((Event::Strikes(touching), first))
+}
+
+/// Share at which a gap of a joint that is open on this side first closes; `size` is that of the rotations it is the
+/// difference of.
+#[inline]
+fn closing(side: f64, gap: &Bernstein<6>, size: f64) -> Option<f64> {
+    if side == 0.0 {
+        return None;
+    }
+    let mut gap = gap.times(side);
+    if gap.is_surely_positive() {
+        return None;
+    }
+    // A joint that has just opened is apart by less than the rotations' own roundings: that is no closing.
+    let rounding = ROUNDINGS * f64::EPSILON * size;
+    if gap.0.iter().all(|c| *c >= -rounding) {
+        return None;
+    }
+    if gap.0[0] <= rounding {
+        gap.0[0] = 0.0;
+    }
+    gap.first_root_after_start()
 }
 
 /// Share at which the smallest corner force, not negative at the start, turns negative; on the negative side.

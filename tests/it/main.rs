@@ -3,17 +3,29 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod cli_records;
 mod cli_simulate;
+mod convergence;
+mod energy;
+mod grazing_contact;
 mod ground_formats;
 mod ground_generated;
 mod ground_intensity;
 mod ground_mutations;
 mod ground_samples;
 mod ground_suite;
+mod impacts;
+mod limits;
+mod matrix_form;
+mod matrix_model;
 mod pipeline_batch;
 mod pipeline_cli;
 mod pipeline_findings;
 mod pipeline_plan;
 mod pipeline_support;
+mod published;
 mod shared;
+mod symmetry;
+mod traps;
 mod verification;
+mod walls;

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use clap::{Args, Subcommand};
 
-use super::print;
+use super::output::print;
 use crate::error::Result;
 use crate::ground::{ReadOptions, Record, Unit, read};
 
