@@ -4,6 +4,7 @@
 
 mod aggregate;
 mod calibrate;
+mod compare_models;
 mod output;
 mod records;
 mod run;

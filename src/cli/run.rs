@@ -49,6 +49,13 @@ impl RunCommand {
     /// # Errors
     /// Input errors of the pipeline and what it names, and of the output folder; [`Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
+        if crate::comparison::is_comparison(&self.pipeline)? {
+            return super::compare_models::execute(
+                &self.pipeline,
+                self.suite.as_deref(),
+                self.out.as_deref(),
+            );
+        }
         let pipeline = Pipeline::load(&self.pipeline)?;
         let plan = Plan::load(&pipeline, self.suite.as_deref())?;
         if self.dry_run {
