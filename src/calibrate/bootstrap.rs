@@ -3,10 +3,10 @@
 //! Every test is cut into blocks of equal length. A replicate draws as many blocks again, with replacement, and the
 //! vector that fits it best wins; the spread of the winners over many replicates is the interval (B. Efron, R. Tibshirani
 //! (1993), "An introduction to the bootstrap", sections 8.6 and 13.3: moving blocks, percentiles).
-//! A replicate costs no simulation: all of them judge the same cloud of simulated vectors, which is refined
-//! in rounds where the winners are, by steps between winners. So an interval is never narrower than the resampling
-//! makes it, and as wide as the cloud is coarse: it errs to the wide side. An error that lasts from one block into the
-//! next, which is common once a simulation has lost the phase of the measurement, makes intervals too narrow.
+//! A replicate costs no simulation: all of them judge the same cloud of simulated vectors. The cloud begins with the
+//! nearly best vectors of the searches, which lie along the valley of the misfit, and grows in rounds by steps between
+//! its members and winners. Two things make intervals too narrow: an error that lasts from one block into the next,
+//! common once a simulation has lost the phase of the measurement; and another valley the searches did not find.
 
 use rand::{Rng, RngExt};
 use rand_distr::{Distribution, StandardNormal};
@@ -25,10 +25,8 @@ use crate::simulate::Accuracy;
 const ROUNDS: u32 = 6;
 /// Vectors added to the cloud in a round.
 const PER_ROUND: usize = 64;
-/// First spread of the cloud, as a share of the bounds.
-const FIRST_SPREAD: f64 = 1.0 / 8.0;
-/// What the free part of the spread shrinks to in each round.
-const SHRINK: f64 = 0.4;
+/// Free part of a step, as a share of the bounds: it keeps steps from being confined to a plane.
+const FREE_STEP: f64 = 1e-4;
 
 /// What the bootstrap needs to know.
 #[derive(Debug, Clone, Copy)]
@@ -58,25 +56,35 @@ struct Particle {
 type Multiplicities = Vec<[f64; BLOCKS]>;
 
 impl Bootstrap<'_> {
-    /// The winner of every replicate; only the variables in `free` move away from `best`.
+    /// The winner of every replicate, beginning with the best vector and nearly best ones; only the variables in
+    /// `free` move.
     ///
     /// # Errors
     /// [`crate::Error::Io`] if a simulation cannot be kept.
-    pub fn winners(&self, best: &[f64], free: &[usize], draws: &Draws) -> Result<Vec<Vec<f64>>> {
+    pub fn winners(
+        &self,
+        best: &[f64],
+        nearly: &[Vec<f64>],
+        free: &[usize],
+        draws: &Draws,
+    ) -> Result<Vec<Vec<f64>>> {
         let replicates = (0..self.replicates)
             .map(|b| self.multiplicities(&mut draws.of(0, b as u32, 0)))
             .collect::<Vec<_>>();
-        let mut cloud = self.simulated(0, vec![best.to_vec()])?;
-        let mut winners = vec![best.to_vec(); self.replicates];
+        let start = nearly.iter().map(|other| with_free(best, other, free));
+        let mut cloud = self.simulated(0, std::iter::once(best.to_vec()).chain(start).collect())?;
         if free.is_empty() || cloud.is_empty() {
-            return Ok(winners);
+            return Ok(vec![best.to_vec(); self.replicates]);
         }
+        let judged = |cloud: &[Particle]| -> Vec<Vec<f64>> {
+            replicates.par_iter().map(|times| self.winner(cloud, times)).collect()
+        };
         for round in 1..=ROUNDS {
-            let moved = (0..PER_ROUND).map(|k| self.moved(&winners, free, round, k, draws)).collect();
+            let winners = judged(&cloud);
+            let moved = (0..PER_ROUND).map(|k| self.moved(&winners, &cloud, free, round, k, draws)).collect();
             cloud.extend(self.simulated(round, moved)?);
-            winners = replicates.par_iter().map(|times| self.winner(&cloud, times)).collect();
         }
-        Ok(winners)
+        Ok(judged(&cloud))
     }
 
     fn multiplicities(&self, rng: &mut impl Rng) -> Multiplicities {
@@ -88,19 +96,28 @@ impl Bootstrap<'_> {
         self.chosen.iter().map(of_test).collect()
     }
 
-    /// A step from one winner along the difference of two others, and a free step that shrinks by round.
-    fn moved(&self, winners: &[Vec<f64>], free: &[usize], round: u32, k: usize, draws: &Draws) -> Vec<f64> {
+    /// A step from a winner along the difference of two members of the cloud.
+    fn moved(
+        &self,
+        winners: &[Vec<f64>],
+        cloud: &[Particle],
+        free: &[usize],
+        round: u32,
+        k: usize,
+        draws: &Draws,
+    ) -> Vec<f64> {
         let mut rng = draws.of(round, k as u32, 1);
-        let mut pick = || &winners[rng.random_range(0..winners.len())];
-        let (from, a, b) = (pick(), pick(), pick());
-        // The step of ter Braak (2006), which keeps the spread of a cloud of normal shape.
-        let gamma = 2.38 / (2.0 * free.len() as f64).sqrt();
-        let spread = FIRST_SPREAD * SHRINK.powi(round as i32 - 1);
+        let from = &winners[rng.random_range(0..winners.len())];
+        let mut pick = || &cloud[rng.random_range(0..cloud.len())].values;
+        let (a, b) = (pick(), pick());
+        // The step of ter Braak (2006), which keeps the spread of a cloud of normal shape; shorter from round to round.
+        let gamma = 2.38 / (2.0 * free.len() as f64 * f64::from(round)).sqrt();
         let mut values = from.clone();
         for &v in free {
             let bounds = self.space.parameters[v].bounds;
             let normal: f64 = StandardNormal.sample(&mut rng);
-            values[v] = bounds.clamp(from[v] + gamma * (a[v] - b[v]) + spread * bounds.width() * normal);
+            let step = gamma * (a[v] - b[v]) + FREE_STEP * bounds.width() * normal;
+            values[v] = bounds.clamp(from[v] + step);
         }
         values
     }
@@ -156,6 +173,12 @@ impl Bootstrap<'_> {
         }
         (rows, errors)
     }
+}
+
+/// A vector with the free variables of another.
+fn with_free(best: &[f64], other: &[f64], free: &[usize]) -> Vec<f64> {
+    let of = |(v, x): (usize, &f64)| if free.contains(&v) { other[v] } else { *x };
+    best.iter().enumerate().map(of).collect()
 }
 
 /// Value below which a share of the values lies, linear between order statistics; NaN of no values.
