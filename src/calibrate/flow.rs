@@ -14,7 +14,7 @@ use super::paper_de::PaperDe;
 use super::result::{Calibration, MethodResult, TestResult, Vector};
 use super::search::Found;
 use super::similarity::most_similar;
-use super::staged::{STAGES, Staged, stage_name};
+use super::staged::{RESTARTS, STAGES, Staged, restart_name, stage_name};
 use super::trial::Simulated;
 use crate::error::Result;
 
@@ -30,8 +30,9 @@ pub fn calibrate(experiment: &Experiment, archive: &Archive) -> Result<Calibrati
 pub(super) fn method_names(experiment: &Experiment) -> Vec<String> {
     let of = |method: &str| STAGES.map(|(share, _)| stage_name(method, share));
     let mut names = vec!["paper".to_owned()];
-    names.extend(["adaptive", "joint", "refined"].iter().flat_map(|method| of(method)));
-    names.push("bootstrap".into());
+    names.extend(["adaptive", "joint"].iter().flat_map(|method| of(method)));
+    names.extend((1..=RESTARTS).flat_map(|k| of(&restart_name("refined", k))));
+    names.push("bootstrap".to_owned());
     names.extend(capture::names(&experiment.settings.capture_study_rad_s));
     names
 }
@@ -50,9 +51,10 @@ impl Flow<'_> {
         let paper_seconds = start.elapsed().as_secs_f64();
         let paper_simulations = paper.iter().map(|found| found.evaluations).sum::<usize>();
         let adaptive = self.adaptive_in_each_test(&paper)?;
-        let joint = self.joint("joint", paper_simulations / self.fit.len(), &self.middle())?;
-        let refine = self.experiment.settings.refine_vectors;
-        let refined = self.joint("refined", refine, &joint.best().values)?;
+        let budget = paper_simulations / self.fit.len();
+        let joint = self.staged("joint", &self.fit, budget).minimise(&self.middle(), &self.draws("joint"))?;
+        let refine = self.staged("refined", &self.fit, self.experiment.settings.refine_vectors);
+        let refined = refine.minimise_again(&joint.best().values, &self.draws("refined"))?;
         let methods = self.methods(&paper, &adaptive, similar, [&joint, &refined]);
         let (vector, joint_from) = cheaper(&methods);
         let vector = self.without_idle(&vector);
@@ -113,11 +115,6 @@ impl Flow<'_> {
             self.staged("adaptive", &[test], paper.evaluations).minimise(&self.middle(), &draws)
         };
         self.fit.par_iter().zip(paper).map(search).collect()
-    }
-
-    /// The staged search in all tests to fit together.
-    fn joint(&self, method: &str, budget: usize, about: &[f64]) -> Result<Found> {
-        self.staged(method, &self.fit, budget).minimise(about, &self.draws(method))
     }
 
     fn middle(&self) -> Vec<f64> {

@@ -7,6 +7,7 @@ use super::experiment::Experiment;
 use super::objective::simulate;
 use super::parameter::Parameter;
 use super::result::{Estimate, Identifiability, ProfilePoint, Vector};
+use super::staged::{RESTARTS, restart_name};
 use super::trial::Simulated;
 use crate::error::Result;
 use crate::model::ImpactLaw;
@@ -145,7 +146,8 @@ impl Judge<'_> {
 
     /// Every vector that was simulated in all tests to fit, and its mean WME.
     fn joint_costs(&self) -> Vec<(Vec<f64>, f64)> {
-        let searches = ["joint", "refined", "bootstrap"].map(str::to_owned);
+        let mut searches = ["joint", "bootstrap"].map(str::to_owned).to_vec();
+        searches.extend((1..=RESTARTS).map(|k| restart_name("refined", k)));
         let mut of_all = self
             .archive
             .rows(&searches)

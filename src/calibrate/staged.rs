@@ -14,6 +14,9 @@ use super::search::Found;
 use super::trial::Test;
 use crate::error::Result;
 
+/// Last searches, of which the best counts: under `whole` some one in three ends in a wrong valley.
+pub const RESTARTS: usize = 2;
+
 /// Shares of the measured motion, and shares of the budget spent on them.
 pub const STAGES: [(f64, f64); 5] = [(0.1, 0.2), (0.25, 0.2), (0.5, 0.2), (0.75, 0.2), (1.0, 0.2)];
 
@@ -24,6 +27,9 @@ const FIRST_SIGMA: f64 = 0.3;
 const NEXT_SIGMA: f64 = 0.1;
 /// Vectors of a generation per variable: thrice the least of the tutorial, because the valley is rough.
 const VECTORS_PER_VARIABLE: usize = 3;
+
+/// Least vectors of a generation: with few variables a small cloud shrinks before it has gone down a rough valley.
+const LEAST_VECTORS: usize = 12;
 
 /// A staged search in some tests of an experiment.
 #[derive(Debug, Clone, Copy)]
@@ -47,14 +53,20 @@ pub fn stage_name(method: &str, share: f64) -> String {
     if share < 1.0 { format!("{method} first {}%", 100.0 * share) } else { method.to_owned() }
 }
 
+/// Name under which the simulations of a restart are kept.
+pub fn restart_name(method: &str, restart: usize) -> String {
+    format!("{method} start {restart}")
+}
+
 impl Staged<'_> {
-    /// Searches every stage, the first in a cloud about a vector; what is found is that of the last, with all evaluations counted.
+    /// Searches every stage, the first in a cloud about a vector; what is found is that of the last, with all evaluations
+    /// counted.
     ///
     /// # Errors
     /// [`crate::Error::Io`] if a simulation cannot be kept.
     pub fn minimise(&self, about: &[f64], draws: &Draws) -> Result<Found> {
         let bounds = self.space.bounds();
-        let lambda = VECTORS_PER_VARIABLE * bounds.len();
+        let lambda = (VECTORS_PER_VARIABLE * bounds.len()).max(LEAST_VECTORS);
         let mut cloud = CmaEs::new(about, &bounds, FIRST_SIGMA, lambda);
         let mut spent = 0;
         let (last, earlier) = STAGES.split_last().unwrap_or((&(1.0, 1.0), &[]));
@@ -66,6 +78,29 @@ impl Staged<'_> {
         let mut found = self.stage(last.0, self.budget.saturating_sub(spent), &mut cloud, draws)?;
         found.evaluations += spent;
         Ok(found)
+    }
+
+    /// Searches [`RESTARTS`] times with the whole budget each, the first time in a cloud about a vector, then about the
+    /// middle of the bounds; the best counts.
+    ///
+    /// # Errors
+    /// [`crate::Error::Io`] if a simulation cannot be kept.
+    pub fn minimise_again(&self, about: &[f64], draws: &Draws) -> Result<Found> {
+        let middle = self.space.bounds().iter().map(|b| b.at(0.5)).collect::<Vec<_>>();
+        let start = |restart: usize, about: &[f64]| {
+            let method = restart_name(self.method, restart);
+            Staged { method: &method, ..*self }.minimise(about, &draws.part(&method))
+        };
+        let mut best = start(1, about)?;
+        for restart in 2..=RESTARTS {
+            let mut found = start(restart, &middle)?;
+            let evaluations = best.evaluations + found.evaluations;
+            if found.best().cost < best.best().cost {
+                std::mem::swap(&mut best, &mut found);
+            }
+            best.evaluations = evaluations;
+        }
+        Ok(best)
     }
 
     fn stage(&self, share: f64, budget: usize, cloud: &mut CmaEs, draws: &Draws) -> Result<Found> {

@@ -49,7 +49,7 @@ pub struct CalibrateTable {
     pub settle_generations: usize,
     /// Generations after which the paper's search ends anyway.
     pub most_generations: u32,
-    /// Vectors of a last joint search, beyond those of the comparison at equal numbers of simulations.
+    /// Vectors of each of two last joint searches, beyond those of the comparison at equal numbers of simulations.
     pub refine_vectors: usize,
     /// Capture velocities at which the joint search is repeated, rad/s; empty: none.
     pub capture_study_rad_s: Vec<f64>,
