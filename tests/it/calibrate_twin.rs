@@ -1,6 +1,6 @@
 //! Twin experiments: known coefficients are found again from the rotations they gave.
 
-use mrbd::calibrate::{Calibration, Identifiability};
+use mrbd::calibrate::{Calibration, Experiment, Identifiability, simulate};
 use mrbd::model::ImpactLaw;
 
 use crate::calibrate_support::{TRUE, Twin, calibrated};
@@ -20,7 +20,7 @@ fn found_again(twin: &Twin, seed: u64) -> Calibration {
 fn analytic_contact_twins_are_found_without_noise_from_several_seeds() {
     let mut twin = Twin::of(ImpactLaw::Contact);
     twin.scales = vec![0.7, 0.9, 1.1];
-    twin.settings += "most_generations = 20\nrefine_vectors = 4500\n";
+    twin.settings += "most_generations = 20\nrefine_vectors = 3000\n";
     for seed in [1, 2] {
         let calibration = found_again(&twin, seed);
         // Half a percent is the accuracy asked for; on six tests seeds 1 to 4 end at 0.005 % or less.
@@ -72,20 +72,24 @@ fn analytic_a_stiffness_is_found_like_a_coefficient_with_its_prior() {
     assert!((c_6 / 0.76 - 1.0).abs() < 5e-3, "{c_6}");
 }
 
+/// Misfits of the true coefficients in a twin's first test, at capture velocities other than the twin's 1e-3 rad/s.
+fn misfits_by_capture(law: ImpactLaw) -> [f64; 2] {
+    let twin = Twin { scales: vec![0.7], test_lines: "windows_s = [[0.0, 2.6]]\n".into(), ..Twin::of(law) };
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let experiment = Experiment::load(&twin.write(folder.path()), None).expect("a valid experiment");
+    [1e-4, 1e-5].map(|velocity| {
+        let space = experiment.space.under(law, velocity);
+        let run = simulate(&space, &experiment.tests[0], &TRUE, experiment.accuracy());
+        run.expect("a possible wall").wme.expect("a finished run")
+    })
+}
+
 #[test]
-fn regress_contact_misfits_do_not_depend_on_the_capture_velocity() {
-    let mut twin = Twin::of(ImpactLaw::Contact);
-    twin.scales = vec![0.7];
-    twin.test_lines = "windows_s = [[0.0, 2.6]]\n".into();
-    twin.settings =
-        "capture_study_rad_s = [1e-4, 1e-3]\nmost_generations = 20\nrefine_vectors = 1000\n".into();
-    let calibration = found_again(&twin, 1);
-    let of_joint = |law: &str| {
-        let rows = calibration.capture_study.iter().filter(|row| row.law == law);
-        rows.map(|row| row.wme_of_joint.expect("the runs finish")).collect::<Vec<_>>()
-    };
-    let [contact, whole] = [of_joint("contact"), of_joint("whole")].map(|wme| (wme[0] - wme[1]).abs());
-    // Bursts are cut 1e-4 to 1e-3 rad/s before they end by themselves; the wall turns at some 0.1 rad/s.
-    assert!(contact < 0.01, "{contact}");
-    assert!(whole > 2.0 * contact, "{whole} and {contact}");
+fn regress_misfits_depend_on_the_capture_velocity_under_whole_and_hardly_under_contact() {
+    let [contact, whole] = [ImpactLaw::Contact, ImpactLaw::Whole].map(misfits_by_capture);
+    for k in 0..2 {
+        // What a burst still holds below 1e-3 rad/s, of a motion of some 0.1 rad/s: about a percent.
+        assert!(contact[k] < 0.02, "{contact:?}");
+        assert!(whole[k] > 3.0 * contact[k], "{whole:?} and {contact:?}");
+    }
 }
