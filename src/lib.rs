@@ -53,7 +53,9 @@
 
 pub mod aggregate;
 pub mod batch;
+pub mod calibrate;
 pub mod cli;
+pub mod comparison;
 pub mod error;
 pub mod findings;
 pub mod fragility;

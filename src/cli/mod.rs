@@ -3,6 +3,8 @@
 //! stdout is for data, stderr for people.
 
 mod aggregate;
+mod calibrate;
+mod compare_models;
 mod fragility;
 mod output;
 mod records;
@@ -27,6 +29,7 @@ enum Command {
     Run(run::RunCommand),
     Aggregate(aggregate::AggregateCommand),
     Fragility(fragility::FragilityCommand),
+    Calibrate(calibrate::CalibrateArgs),
     Records(records::RecordsArgs),
     Report(report::ReportCommand),
     Simulate(simulate::SimulateArgs),
@@ -42,6 +45,7 @@ impl Cli {
             Command::Run(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
             Command::Fragility(command) => command.execute(),
+            Command::Calibrate(args) => calibrate::execute(&args),
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),

@@ -53,6 +53,13 @@ impl RunCommand {
         if let Some(study) = overturning::Study::load(&self.pipeline)? {
             return self.overturning(&study);
         }
+        if crate::comparison::is_comparison(&self.pipeline)? {
+            return super::compare_models::execute(
+                &self.pipeline,
+                self.suite.as_deref(),
+                self.out.as_deref(),
+            );
+        }
         let pipeline = Pipeline::load(&self.pipeline)?;
         let plan = Plan::load(&pipeline, self.suite.as_deref())?;
         if self.dry_run {

@@ -2,9 +2,11 @@
 
 pub mod assumptions;
 pub mod coefficients;
+pub mod experiment;
 pub mod pipeline;
 pub mod survey;
 pub(crate) mod toml_file;
 mod wall_file;
 
 pub use wall_file::load_wall;
+pub(crate) use wall_file::wall_from_table;

@@ -86,6 +86,16 @@ pub fn load_wall(path: &Path) -> Result<Wall> {
     Ok(wall(path, file)?)
 }
 
+/// Makes a wall from the table of a wall file, whose values a calibration has changed.
+///
+/// # Errors
+/// As [`load_wall`].
+pub(crate) fn wall_from_table(path: &Path, table: toml::Table) -> Result<Wall, InputError> {
+    let file =
+        WallFile::deserialize(table).map_err(|e| InputError::file(path, e.to_string(), "a wall file"))?;
+    wall(path, file)
+}
+
 fn wall(path: &Path, file: WallFile) -> Result<Wall, InputError> {
     let mass_kg = mass_kg(path, &file.wall)?;
     let [lower_width_m, upper_width_m] = widths_m(path, &file, mass_kg)?;

@@ -3,6 +3,11 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod calibrate_cli;
+mod calibrate_files;
+mod calibrate_search;
+mod calibrate_support;
+mod calibrate_twin;
 mod cli_records;
 mod cli_simulate;
 mod convergence;

@@ -1,0 +1,189 @@
+//! CMA-ES: a normal cloud that learns the shape of the valley it goes down.
+//!
+//! Source: N. Hansen (2016), "The CMA evolution strategy: a tutorial", arXiv:1604.00772, figure 6 and table 1 (without
+//! negative weights); names are the tutorial's. Variables run from 0 to 1 between their bounds; a point outside is
+//! simulated at the nearest point inside, and its cost raised by the square of its distance.
+//!
+//! Coefficients that act in turns, C_1 and C_2 in a burst of impacts at the crack, are told by their product long
+//! before they are told apart: a narrow, slanting valley, which differential evolution crosses slowly.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use rand_distr::{Distribution, StandardNormal};
+
+use super::draws::Draws;
+use super::search::{Bounds, Evaluate, Found, Member};
+use crate::error::Result;
+
+/// Step sizes are kept between these, as shares of the bounds.
+const SIGMA_RANGE: (f64, f64) = (1e-12, 0.5);
+
+/// Constants of the strategy: table 1 of the tutorial.
+#[derive(Debug, Clone)]
+struct Constants {
+    weights: Vec<f64>,
+    mu_eff: f64,
+    c_sigma: f64,
+    d_sigma: f64,
+    c_c: f64,
+    c_1: f64,
+    c_mu: f64,
+    chi_n: f64,
+}
+
+impl Constants {
+    fn new(n: usize, lambda: usize) -> Self {
+        let n = n as f64;
+        let mu = lambda / 2;
+        let raw = (1..=mu).map(|i| (0.5 * (lambda as f64 + 1.0)).ln() - (i as f64).ln()).collect::<Vec<_>>();
+        let sum = raw.iter().sum::<f64>();
+        let weights = raw.iter().map(|w| w / sum).collect::<Vec<_>>();
+        let mu_eff = 1.0 / weights.iter().map(|w| w * w).sum::<f64>();
+        let c_sigma = (mu_eff + 2.0) / (n + mu_eff + 5.0);
+        let c_1 = 2.0 / ((n + 1.3).powi(2) + mu_eff);
+        let c_mu = (1.0 - c_1).min(2.0 * (mu_eff - 2.0 + 1.0 / mu_eff) / ((n + 2.0).powi(2) + mu_eff));
+        Self {
+            d_sigma: 1.0 + 2.0 * (((mu_eff - 1.0) / (n + 1.0)).sqrt() - 1.0).max(0.0) + c_sigma,
+            c_c: (4.0 + mu_eff / n) / (n + 4.0 + 2.0 * mu_eff / n),
+            chi_n: n.sqrt() * (1.0 - 1.0 / (4.0 * n) + 1.0 / (21.0 * n * n)),
+            weights,
+            mu_eff,
+            c_sigma,
+            c_1,
+            c_mu,
+        }
+    }
+}
+
+/// The cloud: it can go on under another cost, such as a longer part of the tests.
+#[derive(Debug, Clone)]
+pub struct CmaEs {
+    lambda: usize,
+    constants: Constants,
+    mean: DVector<f64>,
+    sigma: f64,
+    covariance: DMatrix<f64>,
+    p_sigma: DVector<f64>,
+    p_c: DVector<f64>,
+    generation: u32,
+}
+
+impl CmaEs {
+    /// A round cloud of a size, as a share of the bounds, about a point; `lambda` vectors a generation, 4 or more.
+    pub fn new(about: &[f64], bounds: &[Bounds], sigma: f64, lambda: usize) -> Self {
+        let n = bounds.len();
+        let lambda = lambda.max(4);
+        let share = |(x, b): (&f64, &Bounds)| ((x - b.lower) / b.width()).clamp(0.0, 1.0);
+        Self {
+            lambda,
+            constants: Constants::new(n, lambda),
+            mean: DVector::from_iterator(n, about.iter().zip(bounds).map(share)),
+            sigma,
+            covariance: DMatrix::identity(n, n),
+            p_sigma: DVector::zeros(n),
+            p_c: DVector::zeros(n),
+            generation: 0,
+        }
+    }
+
+    /// Widens the cloud to at least this size, keeping its shape.
+    pub fn widen(&mut self, sigma: f64) {
+        let largest = self.covariance.diagonal().max().sqrt();
+        self.sigma = self.sigma.max(sigma / largest);
+        self.p_sigma.fill(0.0);
+        self.p_c.fill(0.0);
+    }
+
+    /// Minimises the cost until the budget is spent, or the cost is zero.
+    ///
+    /// The vectors found are the best of all generations, as many as a generation has.
+    ///
+    /// # Errors
+    /// What the evaluation meets.
+    pub fn minimise(
+        &mut self,
+        bounds: &[Bounds],
+        budget: usize,
+        draws: &Draws,
+        evaluate: &mut dyn Evaluate,
+    ) -> Result<Found> {
+        let centre = vec![to_values(&self.mean, bounds)];
+        let costs = evaluate.costs(0, &centre)?;
+        let mut found = Found::start(super::search::members(centre, costs));
+        let mut round = 0;
+        while found.evaluations + self.lambda <= budget && found.best().cost > 0.0 {
+            round += 1;
+            let points = self.sampled(draws);
+            let values = points.iter().map(|x| to_values(x, bounds)).collect::<Vec<_>>();
+            let costs = evaluate.costs(round, &values)?;
+            found.evaluations += self.lambda;
+            let penalised = points.iter().zip(&costs).map(|(x, cost)| cost * (1.0 + outside(x))).collect();
+            self.learn(&points, penalised);
+            keep_best(&mut found, values, costs, self.lambda);
+            found.note();
+        }
+        Ok(found)
+    }
+
+    fn sampled(&mut self, draws: &Draws) -> Vec<DVector<f64>> {
+        self.generation += 1;
+        let root = self.root();
+        let normal = |k: usize, v: usize| -> f64 {
+            StandardNormal.sample(&mut draws.of(self.generation, k as u32, v as u32))
+        };
+        let point = |k: usize| {
+            let z = DVector::from_fn(self.mean.len(), |v, _| normal(k, v));
+            &self.mean + self.sigma * &root * z
+        };
+        (0..self.lambda).map(point).collect()
+    }
+
+    /// Square root of the covariance: B D Bᵀ.
+    fn root(&self) -> DMatrix<f64> {
+        self.power(|eigenvalue| eigenvalue.sqrt())
+    }
+
+    fn power(&self, of: impl Fn(f64) -> f64) -> DMatrix<f64> {
+        let eigen = SymmetricEigen::new(self.covariance.clone());
+        // Roundings may leave an eigenvalue of nearly zero negative.
+        let diagonal = eigen.eigenvalues.map(|eigenvalue| of(eigenvalue.max(1e-20)));
+        &eigen.eigenvectors * DMatrix::from_diagonal(&diagonal) * eigen.eigenvectors.transpose()
+    }
+
+    fn learn(&mut self, points: &[DVector<f64>], costs: Vec<f64>) {
+        let k = self.constants.clone();
+        let mut order = (0..points.len()).collect::<Vec<_>>();
+        order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+        let steps = order.iter().take(k.weights.len());
+        let steps = steps.map(|&i| (&points[i] - &self.mean) / self.sigma).collect::<Vec<_>>();
+        let weighted = k.weights.iter().zip(&steps);
+        let y_w = weighted.clone().fold(DVector::zeros(self.mean.len()), |sum, (w, y)| sum + *w * y);
+        self.mean += self.sigma * &y_w;
+        let whitened = self.power(|eigenvalue| 1.0 / eigenvalue.sqrt()) * &y_w;
+        let keep = (k.c_sigma * (2.0 - k.c_sigma) * k.mu_eff).sqrt();
+        self.p_sigma = (1.0 - k.c_sigma) * &self.p_sigma + keep * whitened;
+        let length = self.p_sigma.norm() / k.chi_n;
+        let h_sigma = if length < 1.4 + 2.0 / (self.mean.len() as f64 + 1.0) { 1.0 } else { 0.0 };
+        let keep = (k.c_c * (2.0 - k.c_c) * k.mu_eff).sqrt();
+        self.p_c = (1.0 - k.c_c) * &self.p_c + h_sigma * keep * y_w;
+        let old = 1.0 - k.c_1 - k.c_mu + (1.0 - h_sigma) * k.c_1 * k.c_c * (2.0 - k.c_c);
+        self.covariance = old * &self.covariance + k.c_1 * &self.p_c * self.p_c.transpose();
+        weighted.for_each(|(w, y)| self.covariance += k.c_mu * *w * y * y.transpose());
+        let sigma = self.sigma * (k.c_sigma / k.d_sigma * (length - 1.0)).exp();
+        self.sigma = sigma.clamp(SIGMA_RANGE.0, SIGMA_RANGE.1);
+    }
+}
+
+fn to_values(x: &DVector<f64>, bounds: &[Bounds]) -> Vec<f64> {
+    x.iter().zip(bounds).map(|(share, b)| b.clamp(b.at(share.clamp(0.0, 1.0)))).collect()
+}
+
+fn outside(x: &DVector<f64>) -> f64 {
+    x.iter().map(|share| (share - share.clamp(0.0, 1.0)).powi(2)).sum()
+}
+
+fn keep_best(found: &mut Found, values: Vec<Vec<f64>>, costs: Vec<f64>, room: usize) {
+    let new = values.into_iter().zip(costs).map(|(values, cost)| Member { values, cost });
+    found.population.extend(new);
+    found.population.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    found.population.truncate(room);
+}

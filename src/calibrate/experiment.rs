@@ -1,0 +1,72 @@
+//! An experiment, read whole: what is calibrated, the tests, the settings.
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::parameter::ParameterSpace;
+use super::trial::Test;
+use crate::error::{InputError, Result};
+use crate::input::experiment::{CalibrateTable, ExperimentFile, Purpose};
+use crate::simulate::Accuracy;
+
+/// An experiment ready to be calibrated.
+#[derive(Debug, Clone)]
+pub struct Experiment {
+    /// The file.
+    pub path: PathBuf,
+    /// What is calibrated.
+    pub space: ParameterSpace,
+    /// The tests, in the order of the file.
+    pub tests: Vec<Test>,
+    /// The settings.
+    pub settings: CalibrateTable,
+    /// SHA-256 of everything that decides the result.
+    pub request: String,
+}
+
+impl Experiment {
+    /// Reads an experiment and every file it names; `seed` replaces the file's.
+    ///
+    /// # Errors
+    /// Input errors with file, key or line, what was found and what is allowed.
+    pub fn load(path: &Path, seed: Option<u64>) -> Result<Self> {
+        let file = ExperimentFile::load(path)?;
+        let space = ParameterSpace::load(path, &file)?;
+        let nominal = space.wall(&space.nominal())?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let tests =
+            file.tests.iter().map(|table| Test::load(folder, table, &nominal)).collect::<Result<Vec<_>>>()?;
+        let settings = CalibrateTable { seed: seed.unwrap_or(file.calibrate.seed), ..file.calibrate.clone() };
+        let request = request(path, &file, &settings)?;
+        Ok(Self { path: path.to_path_buf(), space, tests, settings, request })
+    }
+
+    /// Numbers of the tests that the search sees.
+    pub fn fit_tests(&self) -> Vec<usize> {
+        (0..self.tests.len()).filter(|&k| self.tests[k].purpose == Purpose::Fit).collect()
+    }
+
+    /// Accuracy of the simulations.
+    pub fn accuracy(&self) -> Accuracy {
+        Accuracy { tolerance: self.settings.tolerance }
+    }
+}
+
+/// Identifies the inputs: program, settings, and the bytes of every file.
+fn request(path: &Path, file: &ExperimentFile, settings: &CalibrateTable) -> Result<String> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION"));
+    hash.update(format!("{settings:?}"));
+    let mut names = vec![path.to_path_buf(), folder.join(&file.wall)];
+    names.extend(settings.coefficients.iter().map(|name| folder.join(name)));
+    for test in &file.tests {
+        names.extend([folder.join(&test.record), folder.join(&test.measured)]);
+    }
+    for name in names {
+        let readable = |e: std::io::Error| InputError::file(&name, e.to_string(), "a readable file");
+        hash.update(std::fs::read(&name).map_err(readable)?);
+    }
+    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}

@@ -1,0 +1,270 @@
+//! The calibration from start to end.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::archive::Archive;
+use super::capture;
+use super::draws::Draws;
+use super::experiment::Experiment;
+use super::identifiability::Judge;
+use super::objective::{Objective, simulate};
+use super::paper_de::PaperDe;
+use super::result::{Calibration, MethodResult, TestResult, Vector};
+use super::search::Found;
+use super::similarity::most_similar;
+use super::staged::{RESTARTS, STAGES, Staged, restart_name, stage_name};
+use super::trial::Simulated;
+use crate::error::Result;
+
+/// Calibrates an experiment; every simulation goes into the archive.
+///
+/// # Errors
+/// [`crate::Error::Io`] if a simulation cannot be kept.
+pub fn calibrate(experiment: &Experiment, archive: &Archive) -> Result<Calibration> {
+    Flow { experiment, archive, fit: experiment.fit_tests() }.go()
+}
+
+/// The names of the searches, in the order they are run.
+pub(super) fn method_names(experiment: &Experiment) -> Vec<String> {
+    let of = |method: &str| STAGES.map(|(share, _)| stage_name(method, share));
+    let mut names = vec!["paper".to_owned()];
+    names.extend(["adaptive", "joint"].iter().flat_map(|method| of(method)));
+    names.extend((1..=RESTARTS).flat_map(|k| of(&restart_name("refined", k))));
+    names.push("bootstrap".to_owned());
+    names.extend(capture::names(&experiment.settings.capture_study_rad_s));
+    names
+}
+
+struct Flow<'a> {
+    experiment: &'a Experiment,
+    archive: &'a Archive,
+    fit: Vec<usize>,
+}
+
+impl Flow<'_> {
+    fn go(&self) -> Result<Calibration> {
+        let start = Instant::now();
+        let paper = self.paper_in_each_test()?;
+        let similar = self.similarity(&paper);
+        let paper_seconds = start.elapsed().as_secs_f64();
+        let paper_simulations = paper.iter().map(|found| found.evaluations).sum::<usize>();
+        let adaptive = self.adaptive_in_each_test(&paper)?;
+        let budget = paper_simulations / self.fit.len();
+        let joint = self.staged("joint", &self.fit, budget).minimise(&self.middle(), &self.draws("joint"))?;
+        let refine = self.staged("refined", &self.fit, self.experiment.settings.refine_vectors);
+        let refined = refine.minimise_again(&joint.best().values, &self.draws("refined"))?;
+        let methods = self.methods(&paper, &adaptive, similar, [&joint, &refined]);
+        let (vector, joint_from) = cheaper(&methods);
+        let vector = self.without_idle(&vector);
+        let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
+        let per_test = self.better_of(&paper, &adaptive);
+        let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
+        let capture_study =
+            capture::study(self.experiment, self.archive, &self.fit, &vector.values, paper_simulations)?;
+        let tests = self.tests(&vector, &per_test);
+        let base = self.experiment.space.base();
+        let seconds = start.elapsed().as_secs_f64();
+        let simulations = self.archive.simulated();
+        Ok(Calibration {
+            tool_version: env!("CARGO_PKG_VERSION").to_owned(),
+            request_sha256: self.experiment.request.clone(),
+            seed: self.experiment.settings.seed,
+            law: base.restitution.law.name().to_owned(),
+            capture_velocity_rad_s: base.restitution.capture_velocity_rad_s,
+            tolerance: self.experiment.settings.tolerance,
+            bounds_source: self.experiment.space.bounds_source.clone(),
+            methods,
+            joint: vector,
+            joint_from,
+            parameters,
+            correlation,
+            tests,
+            capture_study,
+            simulations,
+            paper_seconds,
+            paper_simulations,
+            seconds,
+            simulations_per_second: simulations as f64 / seconds,
+        })
+    }
+
+    fn paper_in_each_test(&self) -> Result<Vec<Found>> {
+        let search = |&test: &usize| {
+            let chosen = [test];
+            let Experiment { space, tests, .. } = self.experiment;
+            let mut objective = Objective {
+                space,
+                tests,
+                chosen: &chosen,
+                accuracy: self.experiment.accuracy(),
+                archive: self.archive,
+                method: "paper",
+            };
+            let draws = self.draws(&format!("paper/{}", tests[test].name));
+            self.paper_de().minimise(&space.bounds(), &draws, &mut objective)
+        };
+        self.fit.par_iter().map(search).collect()
+    }
+
+    /// The staged search in every test to fit, with as many simulations as the paper's.
+    fn adaptive_in_each_test(&self, paper: &[Found]) -> Result<Vec<Found>> {
+        let search = |(&test, paper): (&usize, &Found)| {
+            let draws = self.draws(&format!("adaptive/{}", self.experiment.tests[test].name));
+            self.staged("adaptive", &[test], paper.evaluations).minimise(&self.middle(), &draws)
+        };
+        self.fit.par_iter().zip(paper).map(search).collect()
+    }
+
+    fn middle(&self) -> Vec<f64> {
+        self.experiment.space.bounds().iter().map(|b| b.at(0.5)).collect()
+    }
+
+    fn staged<'o>(&'o self, method: &'o str, chosen: &'o [usize], budget: usize) -> Staged<'o> {
+        let Experiment { space, .. } = self.experiment;
+        Staged { experiment: self.experiment, space, chosen, archive: self.archive, method, budget }
+    }
+
+    fn paper_de(&self) -> PaperDe {
+        let s = &self.experiment.settings;
+        PaperDe {
+            population: s.population,
+            settle_share: s.settle_share,
+            settle_generations: s.settle_generations,
+            most_generations: s.most_generations,
+        }
+    }
+
+    fn draws(&self, search: &str) -> Draws {
+        Draws::new(self.experiment.settings.seed, search)
+    }
+
+    /// Eq. 10 over the last generations; variables of other units than C_l count relative to their nominal value.
+    fn similarity(&self, paper: &[Found]) -> Option<(Vec<f64>, f64)> {
+        let nominal = self.experiment.space.nominal();
+        let relative = |values: &[f64]| -> Vec<f64> {
+            let of = |(x, n): (&f64, &f64)| if *n == 0.0 { *x } else { x / n };
+            values.iter().zip(&nominal).map(of).collect()
+        };
+        let generations = paper
+            .iter()
+            .map(|found| found.population.iter().map(|m| relative(&m.values)).collect::<Vec<_>>())
+            .collect::<Vec<_>>();
+        most_similar(&generations).map(|chosen| {
+            let (test, index) = chosen.from;
+            (paper[test].population[index].values.clone(), chosen.similarity)
+        })
+    }
+
+    fn methods(
+        &self,
+        paper: &[Found],
+        adaptive: &[Found],
+        similar: Option<(Vec<f64>, f64)>,
+        [joint, refined]: [&Found; 2],
+    ) -> Vec<MethodResult> {
+        let mut methods = Vec::new();
+        for (method, all) in [("paper", paper), ("adaptive", adaptive)] {
+            for (found, &test) in all.iter().zip(&self.fit) {
+                let name = Some(self.experiment.tests[test].name.clone());
+                methods.push(self.method(method, name, found, 1));
+            }
+        }
+        if let Some((values, similarity)) = similar {
+            methods.push(MethodResult {
+                method: "similarity".into(),
+                test: None,
+                best: self.vector(&values),
+                simulations: paper.iter().map(|found| found.evaluations).sum(),
+                generations: paper.iter().map(|found| found.best_costs.len() - 1).max().unwrap_or(0),
+                best_costs: Vec::new(),
+                cost_sums: Vec::new(),
+                similarity: Some(similarity),
+            });
+        }
+        methods.push(self.method("joint", None, joint, self.fit.len()));
+        methods.push(self.method("refined", None, refined, self.fit.len()));
+        methods
+    }
+
+    fn method(&self, method: &str, test: Option<String>, found: &Found, runs_each: usize) -> MethodResult {
+        MethodResult {
+            method: method.to_owned(),
+            test,
+            best: self.vector(&found.best().values),
+            simulations: found.evaluations * runs_each,
+            generations: found.best_costs.len() - 1,
+            best_costs: found.best_costs.clone(),
+            cost_sums: found.cost_sums.clone(),
+            similarity: None,
+        }
+    }
+
+    /// A vector in every test.
+    fn vector(&self, values: &[f64]) -> Vector {
+        let wme = self.simulated(values).into_iter().map(|s| s.and_then(|s| s.wme)).collect::<Vec<_>>();
+        let sum = self.fit.iter().map(|&k| wme[k]).sum::<Option<f64>>();
+        let mean_wme = sum.map(|sum| sum / self.fit.len() as f64);
+        Vector { values: values.to_vec(), mean_wme, wme }
+    }
+
+    fn simulated(&self, values: &[f64]) -> Vec<Option<Simulated>> {
+        let Experiment { space, tests, .. } = self.experiment;
+        tests.par_iter().map(|test| simulate(space, test, values, self.experiment.accuracy())).collect()
+    }
+
+    /// The vector with the coefficients that never act in it at 1, which changes none of its runs.
+    fn without_idle(&self, vector: &Vector) -> Vector {
+        let acting = Judge::acting(&self.simulated(&vector.values), &self.fit);
+        let parameters = &self.experiment.space.parameters;
+        let law = self.experiment.space.base().restitution.law;
+        let values =
+            vector.values.iter().zip(parameters).map(|(&value, parameter)| match parameter.coefficient() {
+                Some(l) if Judge::idle(l, &acting, law).is_some() => 1.0,
+                _ => value,
+            });
+        self.vector(&values.collect::<Vec<_>>())
+    }
+
+    /// Best vector and WME of each test to fit, by the better of the two searches.
+    fn better_of(&self, paper: &[Found], adaptive: &[Found]) -> Vec<(Vec<f64>, f64)> {
+        let better = |(p, a): (&Found, &Found)| {
+            let best = if a.best().cost < p.best().cost { a.best() } else { p.best() };
+            (best.values.clone(), best.cost)
+        };
+        paper.iter().zip(adaptive).map(better).collect()
+    }
+
+    fn tests(&self, joint: &Vector, per_test: &[(Vec<f64>, f64)]) -> Vec<TestResult> {
+        let before = self.simulated(&self.experiment.space.nominal());
+        let after = self.simulated(&joint.values);
+        let result = |k: usize| {
+            let test = &self.experiment.tests[k];
+            let alone = self.fit.iter().position(|&f| f == k).map(|f| per_test[f].1);
+            TestResult {
+                name: test.name.clone(),
+                purpose: test.purpose.name().to_owned(),
+                wme_before: before[k].as_ref().and_then(|s| s.wme),
+                wme_joint: after[k].as_ref().and_then(|s| s.wme),
+                wme_alone: alone.filter(|wme| wme.is_finite()),
+                transitions: after[k].as_ref().map_or([0; 8], |s| s.transitions),
+                measured_collapse_s: test.collapse_s,
+                simulated_collapse_s: after[k].as_ref().and_then(|s| s.collapse_s),
+                lost_channels: test.target.counted_s().map(|s| s == 0.0),
+                channels_at_rest: test.target.at_rest(),
+                independent_samples: test.target.independent_samples(),
+            }
+        };
+        (0..self.experiment.tests.len()).map(result).collect()
+    }
+}
+
+/// The better of the two vectors for all tests, and where it comes from.
+fn cheaper(methods: &[MethodResult]) -> (Vector, String) {
+    let cost = |m: &&MethodResult| m.best.mean_wme.unwrap_or(f64::INFINITY);
+    let for_all = methods.iter().filter(|m| m.test.is_none());
+    let best = for_all.reduce(|a, b| if cost(&&b) < cost(&&a) { b } else { a });
+    // The joint search always stands in the list.
+    best.map_or_else(|| (methods[0].best.clone(), String::new()), |m| (m.best.clone(), m.method.clone()))
+}

@@ -1,0 +1,182 @@
+//! What a calibration found, as it is written to `calibration.json`.
+
+use serde::Serialize;
+
+/// Everything a calibration found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Calibration {
+    /// Version of the program.
+    pub tool_version: String,
+    /// SHA-256 of program, settings and files.
+    pub request_sha256: String,
+    /// Seed of every random number.
+    pub seed: u64,
+    /// Impact law.
+    pub law: String,
+    /// Capture velocity, rad/s.
+    pub capture_velocity_rad_s: f64,
+    /// Accuracy of the simulations.
+    pub tolerance: f64,
+    /// Where the bounds of C_l come from.
+    pub bounds_source: String,
+    /// The searches, at equal numbers of simulations but for `refined`, which has its own.
+    pub methods: Vec<MethodResult>,
+    /// The one vector for all tests.
+    pub joint: Vector,
+    /// Where it comes from: `similarity`, `joint` or `refined`, whichever has the lowest mean WME.
+    pub joint_from: String,
+    /// What the tests tell about each parameter.
+    pub parameters: Vec<Estimate>,
+    /// Correlations of the parameters with an interval, in the order of `parameters`; null where one has none.
+    pub correlation: Vec<Vec<Option<f64>>>,
+    /// The tests, held-out ones too.
+    pub tests: Vec<TestResult>,
+    /// How result and misfit depend on law and capture velocity.
+    pub capture_study: Vec<CaptureRow>,
+    /// Simulations run, those recalled from a stopped calibration not counted.
+    pub simulations: usize,
+    /// Time of the paper's own part (every test and the similarity), s.
+    pub paper_seconds: f64,
+    /// Simulations of the paper's own part.
+    pub paper_simulations: usize,
+    /// Time of the whole, s.
+    pub seconds: f64,
+    /// Simulations a second over the whole.
+    pub simulations_per_second: f64,
+}
+
+/// A vector and its misfits.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Vector {
+    /// Values, in the order of `parameters`; coefficients that never act are 1.
+    pub values: Vec<f64>,
+    /// Mean WME over the tests to fit.
+    pub mean_wme: Option<f64>,
+    /// WME in every test, held-out ones too; null where the run could not be finished.
+    pub wme: Vec<Option<f64>>,
+}
+
+/// What a search found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MethodResult {
+    /// `paper`, `adaptive`, `similarity`, `joint` or `refined`.
+    pub method: String,
+    /// The test, for searches in one.
+    pub test: Option<String>,
+    /// Its best vector.
+    pub best: Vector,
+    /// Simulations it took.
+    pub simulations: usize,
+    /// Generations after the first.
+    pub generations: usize,
+    /// Lowest cost after each generation.
+    pub best_costs: Vec<f64>,
+    /// Sum of costs after each generation; null while a vector of the population has no finite cost (Fig. 6).
+    pub cost_sums: Vec<f64>,
+    /// Eq. 10, for the similarity.
+    pub similarity: Option<f64>,
+}
+
+/// Whether the tests tell a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Identifiability {
+    /// The interval is narrower than the bounds.
+    Identified,
+    /// The interval reaches over nearly all of the bounds: it acts, but these tests do not tell its value.
+    NotToldByTheTests,
+    /// Its transition never happens in a test to fit; left at 1.
+    NeverActs,
+    /// Its transition happens, but under this law there is nothing for it to scale; left at 1.
+    NothingToScale,
+}
+
+impl Identifiability {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Identifiability::Identified => "identified",
+            Identifiability::NotToldByTheTests => "not told by these tests",
+            Identifiability::NeverActs => "never acts, left at 1",
+            Identifiability::NothingToScale => "nothing to scale, left at 1",
+        }
+    }
+}
+
+/// A point of a profile.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ProfilePoint {
+    /// From this value of the parameter ...
+    pub from: f64,
+    /// ... to this.
+    pub to: f64,
+    /// The lowest mean WME of all vectors simulated there; null where there are none.
+    pub mean_wme: Option<f64>,
+}
+
+/// What the tests tell about a parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Estimate {
+    /// Its name.
+    pub name: String,
+    /// Lower bound.
+    pub lower_bound: f64,
+    /// Upper bound.
+    pub upper_bound: f64,
+    /// Value in the joint vector.
+    pub value: f64,
+    /// Whether the tests tell it.
+    pub identifiability: Identifiability,
+    /// 2.5 and 97.5 % quantiles over bootstrap replicates; null where it is left at 1.
+    pub interval_95: Option<[f64; 2]>,
+    /// Whether the value lies on a bound, which then decides it.
+    pub on_bound: bool,
+    /// Best value in each test to fit in which it acts, by the better of the two searches.
+    pub by_test: Vec<Option<f64>>,
+    /// Standard deviation of those; null for fewer than two.
+    pub spread_over_tests: Option<f64>,
+    /// Lowest misfit by value.
+    pub profile: Vec<ProfilePoint>,
+}
+
+/// A test under the joint vector.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TestResult {
+    /// Its name.
+    pub name: String,
+    /// `fit` or `hold-out`.
+    pub purpose: String,
+    /// WME with C_l = 1 and the wall as given.
+    pub wme_before: Option<f64>,
+    /// WME with the joint vector.
+    pub wme_joint: Option<f64>,
+    /// Best WME of the searches in this test alone; null for held-out tests.
+    pub wme_alone: Option<f64>,
+    /// Impacts by change of Table 2 with the joint vector.
+    pub transitions: [u64; 8],
+    /// When the measured wall collapsed, s.
+    pub measured_collapse_s: Option<f64>,
+    /// When the simulated wall collapsed, before the end of what counts, s.
+    pub simulated_collapse_s: Option<f64>,
+    /// Channels (θ_1, θ_2) that are lost.
+    pub lost_channels: [bool; 2],
+    /// Channels (θ_1, θ_2) measured at rest, whose denominator is the floor.
+    pub channels_at_rest: [bool; 2],
+    /// How many samples of the measurement are independent.
+    pub independent_samples: f64,
+}
+
+/// The joint search under one law and capture velocity.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CaptureRow {
+    /// Impact law.
+    pub law: String,
+    /// Capture velocity, rad/s.
+    pub capture_velocity_rad_s: f64,
+    /// Mean WME of the joint vector, which was found under the experiment's own law and capture velocity.
+    pub wme_of_joint: Option<f64>,
+    /// Mean WME of the vector that is best here.
+    pub wme_of_best: Option<f64>,
+    /// The vector that is best here.
+    pub best: Vec<f64>,
+}

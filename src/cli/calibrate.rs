@@ -1,0 +1,96 @@
+//! `mrbd calibrate`: coefficients and other numbers of a wall from measured tests.
+
+use std::io::BufRead;
+use std::num::NonZero;
+use std::path::PathBuf;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::output;
+use crate::calibrate::{
+    Archive, Experiment, OutputNames, calibrate, print_parameters, simulate, summary, write_results,
+};
+use crate::error::{InputError, Result};
+
+/// Calibrate a wall to measured tests.
+///
+/// Finds C_1 to C_8 (or any other number of the wall file) that minimise the weighted mean error between measured and
+/// simulated rotations: by the differential evolution of the source for each test and cosine similarity for all tests,
+/// and beside it by an adaptive differential evolution, for each test and for all tests jointly, with as many
+/// simulations. Says which of them the tests can tell.
+///
+/// Examples:
+///   mrbd calibrate experiment.toml --out calibrated
+///   mrbd simulate calibrated/wall.calibrated.toml --record record.csv
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub struct CalibrateArgs {
+    /// Experiment file (TOML): wall, tests, what to calibrate.
+    experiment: PathBuf,
+    /// Folder for the results; must be empty or not exist.
+    #[arg(long, value_name = "DIR", required_unless_present = "evaluate")]
+    out: Option<PathBuf>,
+    /// Seed of every random number, instead of the file's.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Go on with a calibration that was stopped; the result is the same as without the stop.
+    #[arg(long)]
+    resume: bool,
+    /// Threads; without it one for each processor. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZero<usize>>,
+    /// Calibrate nothing: read vectors from stdin, one a line, and print the WME of each in every test, so that
+    /// another optimiser can be used.
+    #[arg(long, conflicts_with_all = ["out", "resume"])]
+    evaluate: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Input errors of the experiment and what it names, and of the output folder; failures to write.
+pub fn execute(args: &CalibrateArgs) -> Result<()> {
+    let experiment = Experiment::load(&args.experiment, args.seed)?;
+    let threads = args.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
+        InputError::option("--threads", e.to_string(), "a number of threads the system grants")
+    })?;
+    let Some(out) = args.out.as_ref().filter(|_| !args.evaluate) else { return evaluate(&experiment) };
+    let names = OutputNames::prepare(out, args.resume)?;
+    let progress = ProgressBar::new_spinner().with_style(style());
+    let archive = Archive::open(&names.journal, &experiment.request, args.resume, progress)?;
+    let calibration = pool.install(|| calibrate(&experiment, &archive))?;
+    write_results(&names, &experiment, &calibration, archive)?;
+    eprintln!("{}", summary(&calibration));
+    output::to_stdout(|out| print_parameters(out, &calibration).map_err(output::failed))
+}
+
+fn style() -> ProgressStyle {
+    let style =
+        ProgressStyle::with_template("{spinner} {human_pos} simulations  {per_sec}  {elapsed}  {msg}");
+    // A template that does not parse would be a slip of this file; the plain spinner then does.
+    style.unwrap_or_else(|_| ProgressStyle::default_spinner())
+}
+
+/// Answers vectors from stdin with their WME in every test, one line each, as they come.
+fn evaluate(experiment: &Experiment) -> Result<()> {
+    let count = experiment.space.parameters.len();
+    for (number, line) in std::io::stdin().lock().lines().enumerate() {
+        let line = line.map_err(output::failed)?;
+        let values = line.split([',', ' ', '\t']).filter(|x| !x.is_empty()).map(str::parse::<f64>);
+        let values = values.collect::<std::result::Result<Vec<_>, _>>().ok();
+        let Some(values) = values.filter(|v| v.len() == count && v.iter().all(|x| x.is_finite())) else {
+            let path = std::path::Path::new("stdin");
+            let allowed = format!("{count} numbers, parted by commas or spaces");
+            return Err(InputError::line(path, number + 1, format!("{line:?}"), allowed).into());
+        };
+        let wme = experiment.tests.iter().map(|test| {
+            let run = simulate(&experiment.space, test, &values, experiment.accuracy());
+            run.and_then(|run| run.wme).map_or_else(|| "nan".to_owned(), |wme| format!("{wme:?}"))
+        });
+        let wme = wme.collect::<Vec<_>>().join(",");
+        output::to_stdout(|out| writeln!(out, "{wme}").and_then(|()| out.flush()).map_err(output::failed))?;
+    }
+    Ok(())
+}

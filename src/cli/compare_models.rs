@@ -1,0 +1,35 @@
+//! `mrbd run` on a pipeline that compares models: rows on stdout, findings on stderr, both in the output folder.
+
+use std::path::Path;
+
+use super::output;
+use crate::comparison::{Finding, ModelComparison, compare, print_rows};
+use crate::error::{Error, InputError, Result};
+use crate::store::write_durably;
+
+/// Runs the comparison.
+///
+/// # Errors
+/// Input errors of the pipeline and what it names, and of the output folder; [`Error::Io`] if the disk refuses.
+pub fn execute(pipeline: &Path, suite: Option<&Path>, out: Option<&Path>) -> Result<()> {
+    let comparison = compare(pipeline, suite)?;
+    let default = Path::new("outputs").join(&comparison.name);
+    write(&comparison, out.unwrap_or(&default))?;
+    for Finding { law, claim, holds, of } in &comparison.findings {
+        eprintln!("{law:<8} {holds:>3} of {of:<3} {claim}");
+    }
+    output::to_stdout(|out| print_rows(out, &comparison.rows).map_err(output::failed))
+}
+
+fn write(comparison: &ModelComparison, folder: &Path) -> Result<()> {
+    std::fs::create_dir_all(folder).map_err(|e| {
+        let found = format!("{}: {e}", folder.display());
+        InputError::option("--out", found, "a folder that can be written")
+    })?;
+    let mut rows = Vec::new();
+    print_rows(&mut rows, &comparison.rows).map_err(|e| Error::io("write the rows", folder, e))?;
+    write_durably(&folder.join("comparison.csv"), &rows)?;
+    let findings = serde_json::to_vec_pretty(&comparison.findings)
+        .map_err(|e| Error::io("write the findings", folder, e.into()))?;
+    write_durably(&folder.join("findings.json"), &findings)
+}
