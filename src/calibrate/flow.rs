@@ -262,9 +262,9 @@ impl Flow<'_> {
 
 /// The better of the two vectors for all tests, and where it comes from.
 fn cheaper(methods: &[MethodResult]) -> (Vector, String) {
-    let cost = |m: &&MethodResult| m.best.mean_wme.unwrap_or(f64::INFINITY);
+    let cost = |m: &MethodResult| m.best.mean_wme.unwrap_or(f64::INFINITY);
     let for_all = methods.iter().filter(|m| m.test.is_none());
-    let best = for_all.reduce(|a, b| if cost(&&b) < cost(&&a) { b } else { a });
+    let best = for_all.reduce(|a, b| if cost(b) < cost(a) { b } else { a });
     // The joint search always stands in the list.
     best.map_or_else(|| (methods[0].best.clone(), String::new()), |m| (m.best.clone(), m.method.clone()))
 }

@@ -67,8 +67,8 @@ impl Target {
     fn of_samples(samples: Vec<Sample>, floor_share_rad: Pair) -> Self {
         let mut measured_rad_s = [[0.0; BLOCKS]; 2];
         for s in &samples {
-            for i in 0..2 {
-                measured_rad_s[i][s.block] += s.weight_s[i] * s.theta_rad[i].abs();
+            for (i, blocks) in measured_rad_s.iter_mut().enumerate() {
+                blocks[s.block] += s.weight_s[i] * s.theta_rad[i].abs();
             }
         }
         let floor = |i: usize| floor_share_rad[i] * samples.iter().map(|s| s.weight_s[i]).sum::<f64>();
@@ -207,9 +207,9 @@ impl<'a> Comparison<'a> {
     fn compare_until(&mut self, end_s: f64, theta_at: impl Fn(f64) -> Pair) {
         while let Some(sample) = self.target.samples.get(self.next).filter(|s| s.time_s < end_s) {
             let theta = theta_at(sample.time_s);
-            for i in 0..2 {
+            for (i, blocks) in self.errors.rad_s.iter_mut().enumerate() {
                 let error = (sample.theta_rad[i] - theta[i]).abs();
-                self.errors.rad_s[i][sample.block] += sample.weight_s[i] * error;
+                blocks[sample.block] += sample.weight_s[i] * error;
             }
             self.next += 1;
         }
