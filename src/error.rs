@@ -38,6 +38,16 @@ pub enum Error {
         /// Why it cannot be run.
         message: String,
     },
+    /// The user or the system asked to stop; everything that was finished is stored.
+    #[error("stopped; {done} of {missing} runs were done, and stored; to go on: {again}")]
+    Stopped {
+        /// Runs that were done.
+        done: u64,
+        /// Runs that were to be done.
+        missing: u64,
+        /// The command that goes on.
+        again: String,
+    },
     /// A run could not be finished; this is a defect of the program to report.
     #[error("the run failed at {time_s} s: {reason}")]
     Run {

@@ -43,6 +43,7 @@
 //! | [`simulate`] | a wall and a shaking | a response: maxima, patterns, energy, or a history |
 //! | [`plan`] | a pipeline | a list of runs, computed one by one: façades, walls, records, ids |
 //! | [`batch`] | a plan | finished runs in order, on all threads |
+//! | [`campaign`] | a plan and what is done of it | what is missing, in any parts, after any interruption |
 //! | [`store`] | responses | files that appear whole or not at all |
 //! | [`aggregate`] | those files alone | medians and quantiles over the records |
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
@@ -50,6 +51,7 @@
 
 pub mod aggregate;
 pub mod batch;
+pub mod campaign;
 pub mod cli;
 pub mod error;
 pub mod findings;

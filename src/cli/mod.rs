@@ -3,10 +3,12 @@
 //! stdout is for data, stderr for people.
 
 mod aggregate;
+mod merge;
 mod output;
 mod records;
 mod run;
 mod simulate;
+mod stop;
 
 use clap::{Parser, Subcommand};
 
@@ -23,6 +25,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::RunCommand),
+    Merge(merge::MergeCommand),
     Aggregate(aggregate::AggregateCommand),
     Records(records::RecordsArgs),
     Simulate(simulate::SimulateArgs),
@@ -36,6 +39,7 @@ impl Cli {
     pub fn execute(self) -> Result<()> {
         match self.command {
             Command::Run(command) => command.execute(),
+            Command::Merge(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
