@@ -36,6 +36,7 @@ fn check_complete(folder: &OutputFolder, layout: &Layout, standing: &Standing) -
         some => format!(" ({some} damaged files)"),
     };
     let found = format!("{done} of {all} runs{damaged}");
-    let allowed = "all runs: `mrbd run PIPELINE --out DIR --resume` does what is missing, all of it or a --shard";
+    let allowed =
+        "all runs: `mrbd run PIPELINE --out DIR --resume` does what is missing, all of it or a --shard";
     Err(InputError::file(folder.path(), found, allowed).into())
 }

@@ -7,7 +7,11 @@ use crate::error::{InputError, Result};
 /// Pairs of variables in which schedulers give an index and a count, and the lowest index.
 const SCHEDULERS: [Scheduler; 2] = [
     // Slurm's job arrays start where the user says: the script `mrbd slurm` writes starts at 1.
-    Scheduler { index: "SLURM_ARRAY_TASK_ID", count: "SLURM_ARRAY_TASK_COUNT", first: "SLURM_ARRAY_TASK_MIN" },
+    Scheduler {
+        index: "SLURM_ARRAY_TASK_ID",
+        count: "SLURM_ARRAY_TASK_COUNT",
+        first: "SLURM_ARRAY_TASK_MIN",
+    },
     // Kubernetes' indexed jobs count from 0; the job has to pass its `completions` on.
     Scheduler { index: "JOB_COMPLETION_INDEX", count: "JOB_COMPLETIONS", first: "" },
 ];

@@ -70,7 +70,10 @@ impl RunCommand {
         let folder = OutputFolder::prepare(&out, &manifest, &pipeline.text, self.earlier())?;
         self.run(&plan, &folder, shard.unwrap_or(Shard::WHOLE))?;
         match shard {
-            Some(_) => Ok(eprintln!("mrbd: `mrbd merge {}` puts the parts together when all are done", out.display())),
+            Some(_) => Ok(eprintln!(
+                "mrbd: `mrbd merge {}` puts the parts together when all are done",
+                out.display()
+            )),
             None => super::merge::merge_and_print(&folder),
         }
     }
@@ -105,7 +108,8 @@ impl RunCommand {
         let progress = batch::progress_bar(missing);
         let mut failures = 0;
         let watch = |runs: &[Finished]| progress.suspend(|| tell_failures(runs, &mut failures));
-        let work = Work { plan, folder, shard, threads, simulate: &simulate, stop: &stop, progress: &progress };
+        let work =
+            Work { plan, folder, shard, threads, simulate: &simulate, stop: &stop, progress: &progress };
         let tally = run_missing(&work, &standing, watch)?;
         progress.finish_and_clear();
         report(tally, start.elapsed().as_secs_f64());

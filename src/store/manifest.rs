@@ -3,7 +3,6 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use serde::{Deserialize, Serialize};
 use super::checksum::file_sha256;
 use super::durable::write_durably;
 use super::schema::SCHEMA_VERSION;
@@ -12,6 +11,7 @@ use crate::ground::SuiteRecord;
 use crate::input::pipeline::{Pipeline, Variant};
 use crate::model::G_M_S2;
 use crate::plan::{Plan, RecordHash};
+use serde::{Deserialize, Serialize};
 
 /// Provenance of an output folder: tool, plan, inputs, assumptions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -110,9 +110,7 @@ impl OutputFolder {
         checksums.remove(&hive(record));
         write_checksums(self.path(), &checksums)?;
         match fs::remove_file(self.part_path(record)) {
-            Err(e) if e.kind() != ErrorKind::NotFound => {
-                Err(Error::io("remove", &self.part_path(record), e))
-            }
+            Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io("remove", &self.part_path(record), e)),
             _ => Ok(()),
         }
     }
@@ -266,7 +264,12 @@ mod tests {
     fn regress_other_files_are_no_blocks() {
         let of = |name: &str| block_file(PathBuf::from(name)).map(|(index, _)| index);
         assert_eq!(of("x/block-000012-0123456789abcdef.parquet"), Some(12));
-        for other in ["block-12.parquet", ".unfinished-x", "block-000012-0123.parquet", "block-a-0123456789abcdef.parquet"] {
+        for other in [
+            "block-12.parquet",
+            ".unfinished-x",
+            "block-000012-0123.parquet",
+            "block-a-0123456789abcdef.parquet",
+        ] {
             assert_eq!(of(other), None, "{other}");
         }
     }

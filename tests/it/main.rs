@@ -3,6 +3,8 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod campaign;
+mod campaign_cli;
 mod cli_simulate;
 mod grazing_contact;
 mod ground_formats;

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 use crate::pipeline_support::SMALL;
 
 /// A folder with a small study: its pipeline, survey, coefficients and a suite of two short records.
-fn study(pipeline: &str) -> tempfile::TempDir {
+pub fn study(pipeline: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let inputs = Path::new(env!("CARGO_MANIFEST_DIR")).join("inputs");
     for name in ["survey.toml", "coefficients.toml"] {
@@ -33,12 +33,12 @@ fn pulse(peak: f64) -> String {
     format!("time_s,acceleration_m_s2\n{}", samples.collect::<String>())
 }
 
-fn mrbd(folder: &Path, arguments: &[&str]) -> Output {
+pub fn mrbd(folder: &Path, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_mrbd"));
     command.current_dir(folder).args(arguments).output().expect("the program starts")
 }
 
-fn stdout(output: &Output) -> String {
+pub fn stdout(output: &Output) -> String {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout.clone()).expect("UTF-8")
 }
