@@ -5,7 +5,7 @@ SHARED_SUITE := ../shared/records/natural7/suite.toml
 # The suite the sweep runs on: SUITE=FILE, else the records beside the repository, where there are any.
 CHOSEN_SUITE := $(or $(SUITE),$(wildcard inputs/records/emilia7/suite.toml),$(wildcard $(SHARED_SUITE)))
 
-.PHONY: sweep test bench lint docs clean
+.PHONY: sweep check test bench lint docs clean
 
 sweep: ## run the parametric sweep of the paper, aggregate it and print the medians and the checked conclusions
 ifeq ($(CHOSEN_SUITE),)
@@ -15,6 +15,10 @@ ifeq ($(CHOSEN_SUITE),)
 else
 	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep --force
 endif
+
+check: ## run a smaller sweep and compare its medians with the accepted ones
+	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null
+	cargo run --release --locked --bin mrbd -- check outputs/check --baseline tests/baselines/emilia7.csv
 
 test: ## all tests
 	cargo test --release --locked

@@ -48,6 +48,14 @@ pub enum Error {
         /// The command that goes on.
         again: String,
     },
+    /// Medians are not what was accepted.
+    #[error("{figures} figures moved from {}; `--accept --because REASON` makes the new ones the baseline", baseline.display())]
+    Moved {
+        /// Figures beyond their tolerance.
+        figures: usize,
+        /// The accepted medians.
+        baseline: PathBuf,
+    },
     /// A run could not be finished; this is a defect of the program to report.
     #[error("the run failed at {time_s} s: {reason}")]
     Run {

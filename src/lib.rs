@@ -47,11 +47,13 @@
 //! | [`store`] | responses | files that appear whole or not at all |
 //! | [`aggregate`] | those files alone | medians and quantiles over the records |
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
+//! | [`check`] | medians and accepted medians | what moved, beyond a tolerance that says where it comes from |
 //! | [`cli`] | the command line | the above, and messages for people |
 
 pub mod aggregate;
 pub mod batch;
 pub mod campaign;
+pub mod check;
 pub mod cli;
 pub mod error;
 pub mod findings;

@@ -2,12 +2,14 @@
 
 mod medians;
 mod moved;
+mod outcomes;
 mod quantile;
 mod scan;
 mod table;
 
 pub use medians::{Case, Measure, Median, Medians, Middle, Moved, VariantNote};
 pub use moved::MOVED_SHARE;
+pub use outcomes::{Ending, endings};
 pub use quantile::{LEVELS, quantiles};
 pub use scan::aggregate;
 pub use table::{print_medians, write_medians};

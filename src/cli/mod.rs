@@ -3,11 +3,13 @@
 //! stdout is for data, stderr for people.
 
 mod aggregate;
+mod check;
 mod merge;
 mod output;
 mod records;
 mod run;
 mod simulate;
+mod status;
 mod stop;
 
 use clap::{Parser, Subcommand};
@@ -26,7 +28,9 @@ pub struct Cli {
 enum Command {
     Run(run::RunCommand),
     Merge(merge::MergeCommand),
+    Status(status::StatusCommand),
     Aggregate(aggregate::AggregateCommand),
+    Check(check::CheckCommand),
     Records(records::RecordsArgs),
     Simulate(simulate::SimulateArgs),
 }
@@ -40,7 +44,9 @@ impl Cli {
         match self.command {
             Command::Run(command) => command.execute(),
             Command::Merge(command) => command.execute(),
+            Command::Status(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
+            Command::Check(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }

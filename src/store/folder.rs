@@ -59,7 +59,11 @@ impl OutputFolder {
         if there.is_none() || earlier == Earlier::Replace {
             clear(path)?;
             manifest.write(&path.join("manifest.json"))?;
-            write_durably(&path.join("plan.toml"), pipeline_text.as_bytes())?;
+        }
+        let copy = path.join("plan.toml");
+        // It lacks after a kill between the two as well.
+        if there.is_none() || earlier == Earlier::Replace || !copy.is_file() {
+            write_durably(&copy, pipeline_text.as_bytes())?;
         }
         Ok(Self { path: path.to_path_buf(), manifest: manifest.clone(), _lock: lock })
     }

@@ -12,7 +12,7 @@ use mrbd::campaign::{Layout, Shard, Standing, Work, compact, run_missing};
 use mrbd::model::Wall;
 use mrbd::plan::Plan;
 use mrbd::simulate::{Accuracy, Response, Shaking};
-use mrbd::store::{Earlier, Manifest, OutputFolder, run_files};
+use mrbd::store::{Earlier, Manifest, OutputFolder, file_sha256, run_files};
 
 use crate::pipeline_support::{SMALL, pipeline, plan, stand_in};
 
@@ -57,8 +57,8 @@ where
     run_missing(&work, &standing(folder), |_| {})
 }
 
-/// The contents of every file by its path in the folder, but the manifest, which tells the time.
-pub fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+/// The SHA-256 of every file by its path in the folder, but the manifest's, which tells the time.
+pub fn contents(folder: &Path) -> BTreeMap<PathBuf, String> {
     let mut all = BTreeMap::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(next) = folders.pop() {
@@ -68,8 +68,8 @@ pub fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
                 true => folders.push(path),
                 false if path.ends_with("manifest.json") => {}
                 false => {
-                    let bytes = fs::read(&path).expect("readable");
-                    all.insert(path.strip_prefix(folder).expect("inside").to_path_buf(), bytes);
+                    let sha256 = file_sha256(&path).expect("readable");
+                    all.insert(path.strip_prefix(folder).expect("inside").to_path_buf(), sha256);
                 }
             }
         }
@@ -78,7 +78,7 @@ pub fn contents(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
 }
 
 /// A finished study of 4 records.
-fn undisturbed() -> (tempfile::TempDir, BTreeMap<PathBuf, Vec<u8>>) {
+fn undisturbed() -> (tempfile::TempDir, BTreeMap<PathBuf, String>) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     finish(folder.path(), Earlier::Refuse);
     let contents = contents(folder.path());

@@ -5,6 +5,7 @@
 
 mod campaign;
 mod campaign_cli;
+mod check;
 mod cli_simulate;
 mod grazing_contact;
 mod ground_formats;
