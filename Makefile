@@ -36,3 +36,5 @@ docs: ## the library's documentation
 clean:
 	cargo clean
 	rm -rf outputs/*/
+
+include make/examples.mk

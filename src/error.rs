@@ -56,6 +56,20 @@ pub enum Error {
         /// The accepted medians.
         baseline: PathBuf,
     },
+    /// A run that was done again gave other bits than are stored.
+    #[error(
+        "run {position} of the study: {column} is stored as {stored:?} and came out as {now:?}: another version of the program, or other arithmetic"
+    )]
+    Differs {
+        /// Position in the plan, from 0.
+        position: u64,
+        /// What differs.
+        column: &'static str,
+        /// As stored; none where it does not exist.
+        stored: Option<f64>,
+        /// As it came out.
+        now: Option<f64>,
+    },
     /// A run could not be finished; this is a defect of the program to report.
     #[error("the run failed at {time_s} s: {reason}")]
     Run {

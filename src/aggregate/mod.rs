@@ -5,6 +5,7 @@ mod moved;
 mod outcomes;
 mod quantile;
 mod scan;
+mod stored;
 mod table;
 
 pub use medians::{Case, Measure, Median, Medians, Middle, Moved, VariantNote};
@@ -12,4 +13,5 @@ pub use moved::MOVED_SHARE;
 pub use outcomes::{Ending, endings};
 pub use quantile::{LEVELS, quantiles};
 pub use scan::aggregate;
+pub use stored::stored_numbers;
 pub use table::{print_medians, write_medians};

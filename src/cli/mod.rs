@@ -7,8 +7,10 @@ mod check;
 mod merge;
 mod output;
 mod records;
+mod replay;
 mod run;
 mod simulate;
+mod slurm;
 mod status;
 mod stop;
 
@@ -29,6 +31,8 @@ enum Command {
     Run(run::RunCommand),
     Merge(merge::MergeCommand),
     Status(status::StatusCommand),
+    Replay(replay::ReplayCommand),
+    Slurm(slurm::SlurmCommand),
     Aggregate(aggregate::AggregateCommand),
     Check(check::CheckCommand),
     Records(records::RecordsArgs),
@@ -45,6 +49,8 @@ impl Cli {
             Command::Run(command) => command.execute(),
             Command::Merge(command) => command.execute(),
             Command::Status(command) => command.execute(),
+            Command::Replay(command) => command.execute(),
+            Command::Slurm(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
             Command::Check(command) => command.execute(),
             Command::Records(args) => records::execute(&args),

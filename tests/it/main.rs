@@ -19,5 +19,6 @@ mod pipeline_cli;
 mod pipeline_findings;
 mod pipeline_plan;
 mod pipeline_support;
+mod replay_slurm;
 mod shared;
 mod verification;
