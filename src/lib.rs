@@ -41,6 +41,7 @@
 //! | [`model`] | a wall | motion, openings, impacts |
 //! | [`solver`] | accelerations | steps and where inside a step an event lies; knows no masonry |
 //! | [`simulate`] | a wall and a shaking | a response: maxima, patterns, energy, or a history |
+//! | [`sampling`] | a survey | façades of a Monte Carlo campaign, drawn one by one |
 //! | [`plan`] | a pipeline | a list of runs, computed one by one: façades, walls, records, ids |
 //! | [`batch`] | a plan | finished runs in order, on all threads |
 //! | [`campaign`] | a plan and what is done of it | what is missing, in any parts, after any interruption |
@@ -48,6 +49,7 @@
 //! | [`aggregate`] | those files alone | medians and quantiles over the records |
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
 //! | [`check`] | medians and accepted medians | what moved, beyond a tolerance that says where it comes from |
+//! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
 //! | [`cli`] | the command line | the above, and messages for people |
 
 pub mod aggregate;
@@ -57,10 +59,13 @@ pub mod check;
 pub mod cli;
 pub mod error;
 pub mod findings;
+pub mod fragility;
 pub mod ground;
 pub mod input;
 pub mod model;
+pub mod overturning;
 pub mod plan;
+pub mod sampling;
 pub mod simulate;
 pub mod solver;
 pub mod store;

@@ -42,7 +42,7 @@ const COLUMNS: &[Column<Median>] = &[
 /// # Errors
 /// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
 pub fn write_medians(path: &Path, medians: &Medians) -> Result<()> {
-    write_table(path, COLUMNS, medians.rows())
+    write_table(path, COLUMNS, &[], medians.rows())
 }
 
 /// Writes the medians as CSV.

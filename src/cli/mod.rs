@@ -4,6 +4,7 @@
 
 mod aggregate;
 mod check;
+mod fragility;
 mod merge;
 mod output;
 mod records;
@@ -35,6 +36,7 @@ enum Command {
     Slurm(slurm::SlurmCommand),
     Aggregate(aggregate::AggregateCommand),
     Check(check::CheckCommand),
+    Fragility(fragility::FragilityCommand),
     Records(records::RecordsArgs),
     Simulate(simulate::SimulateArgs),
 }
@@ -53,6 +55,7 @@ impl Cli {
             Command::Slurm(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
             Command::Check(command) => command.execute(),
+            Command::Fragility(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Simulate(args) => simulate::execute(&args),
         }

@@ -10,8 +10,9 @@ use clap::Args;
 use super::{output, stop};
 use crate::batch::{self, Finished, Tally};
 use crate::campaign::{BLOCK_RUNS, Block, Layout, Shard, Standing, Work, run_missing};
-use crate::error::{Error, Result};
+use crate::error::{Error, InputError, Result};
 use crate::input::pipeline::Pipeline;
+use crate::overturning;
 use crate::plan::Plan;
 use crate::simulate::simulate;
 use crate::store::{COLUMNS, Earlier, Manifest, OutputFolder, Stage, print_csv};
@@ -58,6 +59,9 @@ impl RunCommand {
     /// # Errors
     /// Input errors of the pipeline and what it names, and of the output folder; [`Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
+        if let Some(study) = overturning::Study::load(&self.pipeline)? {
+            return self.overturning(&study);
+        }
         let pipeline = Pipeline::load(&self.pipeline)?;
         let plan = Plan::load(&pipeline, self.suite.as_deref())?;
         if self.dry_run {
@@ -93,6 +97,31 @@ impl RunCommand {
             (None, false, true) => Earlier::Replace,
             (None, false, false) => Earlier::Refuse,
         }
+    }
+
+    /// An overturning spectrum: a study of one wall under pulses, without survey and suite.
+    fn overturning(&self, study: &overturning::Study) -> Result<()> {
+        let refused = [
+            ("--suite", self.suite.is_some()),
+            ("--dry-run", self.dry_run),
+            ("--shard", self.shard.is_some()),
+            ("--resume", self.resume),
+        ];
+        if let Some((option, _)) = refused.into_iter().find(|(_, given)| *given) {
+            let allowed = "left out: an overturning spectrum has pulses for records and a grid for a plan";
+            return Err(InputError::option(option, "given", allowed).into());
+        }
+        let out = self.out.clone().unwrap_or_else(|| Path::new("outputs").join(&study.name));
+        overturning::prepare(&out)?;
+        let progress = batch::progress_bar(study.frequency_over_p.values().len() as u64);
+        let threads =
+            rayon::ThreadPoolBuilder::new().num_threads(self.threads.map_or(0, NonZero::get)).build();
+        let threads = threads.map_err(|e| InputError::option("--threads", e.to_string(), "fewer threads"))?;
+        let spectrum = threads.install(|| overturning::spectrum(study, || progress.inc(1)))?;
+        progress.finish_and_clear();
+        overturning::store(&out, study, &spectrum)?;
+        eprintln!("mrbd: trials.parquet and boundaries.parquet in {}", out.display());
+        output::print(&overturning::picture(&spectrum))
     }
 
     fn run(&self, plan: &Plan, folder: &OutputFolder, shard: Shard) -> Result<()> {

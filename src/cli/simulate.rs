@@ -108,11 +108,11 @@ fn shaking(args: &SimulateArgs) -> Result<Shaking> {
     let vertical_scale = number("--vertical-scale", args.vertical_scale, true, any)?;
     let horizontal = load(args.record.as_deref(), args.dt, scale)?;
     let vertical = load(args.vertical.as_deref(), args.dt, vertical_scale)?;
-    if let (Some(h), Some(v), Some(path)) = (&horizontal, &vertical, &args.vertical) {
-        if h.step_s() != v.step_s() {
-            let allowed = format!("the step of the horizontal record, {} s", h.step_s());
-            return Err(InputError::file(path, format!("a step of {} s", v.step_s()), allowed).into());
-        }
+    if let (Some(h), Some(v), Some(path)) = (&horizontal, &vertical, &args.vertical)
+        && h.step_s() != v.step_s()
+    {
+        let allowed = format!("the step of the horizontal record, {} s", h.step_s());
+        return Err(InputError::file(path, format!("a step of {} s", v.step_s()), allowed).into());
     }
     Ok(Shaking { horizontal, vertical, tail_s })
 }

@@ -47,7 +47,7 @@ pub enum Pulse {
         period_s: f64,
     },
     /// Velocity (A/2)·(1 + cos(2πτ/γT))·cos(2πτ/T + ν) for |τ| ≤ γT/2 (Mavroeidis and Papageorgiou 2003, "A mathematical
-    /// representation of near-fault ground motions", eq. 3).
+    /// representation of near-fault ground motions").
     MavroeidisPapageorgiou {
         /// A, m/s.
         velocity_m_s: f64,
@@ -111,7 +111,7 @@ impl Pulse {
                 amplitude_m_s2 * (1.0 - 2.0 * square) * (-square).exp()
             }
             Pulse::MavroeidisPapageorgiou { velocity_m_s, period_s, oscillations, phase_rad } => {
-                // The derivative of the velocity above (eq. 4 of the source).
+                // The derivative of the velocity above.
                 let slow = TAU * middle / (oscillations * period_s);
                 let fast = TAU * middle / period_s + phase_rad;
                 let swell = slow.sin() * fast.cos() / oscillations;

@@ -19,7 +19,7 @@ struct Recursion {
 }
 
 impl Recursion {
-    /// For circular frequency ω (rad/s), damping ratio ζ and step h (s); coefficients by Nigam and Jennings, eq. 2.7.
+    /// For circular frequency ω (rad/s), damping ratio ζ and step h (s): the matrices A and B of the source.
     fn new(omega: f64, damping: f64, step: f64) -> Self {
         let root = (1.0 - damping * damping).sqrt();
         let omega_d = omega * root;

@@ -62,19 +62,23 @@ mod tests {
     #[derive(Debug, serde::Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Outer {
-        #[allow(dead_code)]
         inner: Inner,
     }
 
     #[derive(Debug, serde::Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Inner {
-        #[allow(dead_code)]
         height_m: f64,
     }
 
     fn message(text: &str) -> String {
         parse::<Outer>(Path::new("a.toml"), text).expect_err("must be refused").to_string()
+    }
+
+    #[test]
+    fn analytic_reads_what_is_written() {
+        let outer: Outer = parse(Path::new("a.toml"), "[inner]\nheight_m = 2.5\n").expect("valid");
+        assert_eq!(outer.inner.height_m, 2.5);
     }
 
     #[test]

@@ -25,7 +25,7 @@ pub fn crushed_widths_m(
     }
     let depth_m = above_kg.map(|mass_kg| mass_kg * G_M_S2 / (BLOCK_STRENGTH * strength_pa * length_m));
     let deepest_m = depth_m[0].max(depth_m[1]);
-    if !(deepest_m < thickness_m) {
+    if deepest_m.is_nan() || deepest_m >= thickness_m {
         let least = strength_pa * deepest_m / thickness_m;
         return Err(refuse(format!("above {least:.4e} Pa, below which the corner crushes through the wall")));
     }

@@ -158,13 +158,12 @@ impl RockingWall {
     /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
     /// the impact, until none is left.
     fn captured(&self, plastic: Contact, strike: &Strike) -> (Contact, Pair) {
-        let limit = self.wall().parameters().restitution.capture_velocity_rad_s;
         let mut contact = plastic;
         loop {
             let omega = self.projected(contact, strike);
             let slow = self.joints().find(|joint| {
                 let opened = strike.touching.at(*joint) && contact.at(*joint).is_open();
-                opened && opening(*joint, omega).abs() < limit
+                opened && opening(*joint, omega).abs() < self.capture_rad_s
             });
             match slow {
                 Some(joint) => contact = contact.with(joint, Pivot::Closed),

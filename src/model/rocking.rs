@@ -9,6 +9,15 @@ use super::posture::{Arms, Pair, Posture, Turns};
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 
+/// Least velocity that still counts as opening, as a share of α over the time of response: a flight this slow rises to
+/// less than a rounding of α and is over within roundings of the time. Without it a wall whose capture velocity is zero
+/// would come to rest through infinitely many impacts.
+const LEAST_CAPTURE: f64 = 1e-8;
+
+/// Corner forces within this share of the weight count as zero where no state carries the forces exactly: the rounding of
+/// the top's position times the stiffest spring.
+const FORCE_ROUNDING: f64 = 1e-9;
+
 /// Rotations (rad) and angular velocities (rad/s) of the two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct State {
@@ -25,6 +34,8 @@ pub struct RockingWall {
     pub(super) masses: Masses,
     pub(super) arms: [Arms; 9],
     pub(super) motions: [Motion; 9],
+    /// Relative velocity below which a joint that would open stays closed, rad/s.
+    pub(super) capture_rad_s: f64,
 }
 
 impl RockingWall {
@@ -32,12 +43,16 @@ impl RockingWall {
     pub fn new(wall: &Wall) -> Self {
         let p = wall.parameters();
         let laws = Laws::new(p.carriage_mass_kg, p.stiffness_n_per_m, &p.effects);
-        Self {
+        let mut rocking = Self {
             masses: Masses::new(wall, laws.carriage_mass_kg),
             arms: Contact::ALL.map(|contact| Arms::new(wall, contact)),
             motions: Contact::ALL.map(|contact| Motion::new(wall, contact, laws)),
+            capture_rad_s: p.restitution.capture_velocity_rad_s,
             wall: wall.clone(),
-        }
+        };
+        let least = LEAST_CAPTURE * wall.alpha_rad() / rocking.response_time_s();
+        rocking.capture_rad_s = rocking.capture_rad_s.max(least);
+        rocking
     }
 
     /// The wall.
@@ -80,8 +95,12 @@ impl RockingWall {
     /// the whole wall on the spring, or of its rocking where there is no spring.
     pub fn response_time_s(&self) -> f64 {
         let p = self.wall.parameters();
-        let motion = self.motion(Contact { ground: Pivot::Right, crack: Pivot::Closed });
-        let mass = motion.mass_matrix(Turns::new([0.0; 2])).quadratic([1.0, 1.0]);
+        // An eccentric top makes the two sides differ; the heavier one, so that a mirror changes nothing.
+        let about = |ground: Pivot| {
+            let motion = self.motion(Contact { ground, crack: Pivot::Closed });
+            motion.mass_matrix(Turns::new([0.0; 2])).quadratic([1.0, 1.0])
+        };
+        let mass = about(Pivot::Right).max(about(Pivot::Left));
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
         let stiffness = p.stiffness_n_per_m * p.height_m * p.height_m + weight * p.height_m / 2.0;
         (mass / stiffness).sqrt()
@@ -140,6 +159,12 @@ impl RockingWall {
             if let Some(found) = candidates.find(|c| self.carries(contact, *c, state, ground)) {
                 return Ok(found);
             }
+        }
+        // A corner force so near zero that neither it nor the opening that would follow has a sign beyond roundings.
+        let theta_dd = self.rate(contact, state, ground).theta_dd;
+        let forces = self.joint_forces(contact, state, theta_dd, ground);
+        if self.smallest_corner_force(contact, &forces).is_none_or(|least| least >= -FORCE_ROUNDING) {
+            return Ok(contact);
         }
         Err(MechanicsError::NoContactState { from: contact.name() })
     }

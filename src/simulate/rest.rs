@@ -34,15 +34,16 @@ impl RestLimits {
     pub fn new(wall: &RockingWall) -> Self {
         let forces_under =
             |ground: Vector| wall.joint_forces(Contact::REST, &State::default(), [0.0, 0.0], ground);
-        let [still, pushed, lifted] =
-            [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)].map(|(x, y)| forces_under(Vector { x, y }));
+        let [still, pushed, pulled, lifted] =
+            [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0)].map(|(x, y)| forces_under(Vector { x, y }));
         let mut corners = [CornerForce { x: 0.0, y: 0.0, standing: 1.0 }; 4];
         for joint in wall.joints() {
             let of = |f: &crate::model::JointForces| f.at(joint).corners(wall.width_m(joint));
-            let (still, pushed, lifted) = (of(&still), of(&pushed), of(&lifted));
+            let (still, pushed, pulled, lifted) = (of(&still), of(&pushed), of(&pulled), of(&lifted));
             for side in 0..2 {
                 corners[2 * joint as usize + side] = CornerForce {
-                    x: pushed[side] - still[side],
+                    // Both ways, so that the mirrored wall gets the mirrored number to the bit.
+                    x: 0.5 * (pushed[side] - pulled[side]),
                     y: lifted[side] - still[side],
                     standing: still[side],
                 };

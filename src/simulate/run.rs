@@ -7,7 +7,9 @@ use super::response::{Outcome, Peak, Response};
 use super::rest::RestLimits;
 use super::tally::Tally;
 use super::{Accuracy, Shaking};
-use crate::model::{Aftermath, Contact, MechanicsError, Pair, RockingWall, State, Touching, Vector, Wall};
+use crate::model::{
+    Aftermath, Contact, Joint, MechanicsError, Pair, RockingWall, State, Touching, Vector, Wall, opening,
+};
 use crate::solver::{Controller, DormandPrince, ErrorScale, Point, Quintic, Rate, STAGES, Step};
 
 /// Error of a step allowed, as a share of the error of a run. Impacts magnify what is there before them: over the
@@ -19,13 +21,15 @@ const STEP_SHARE: f64 = 1e-3;
 /// does accelerate apart; it moves nothing by more than roundings.
 const AFTER_OPENING: f64 = 1e-9;
 
-/// A time so short that a parabola is exact over it: its cube times any jerk of a wall is below roundings.
-const SHORT_S: f64 = 1e-9;
+/// A share of a sample step so short that a parabola is exact over it: its cube times any jerk of a wall is below
+/// roundings. A share and no time, so that a wall four times as large moves the same to the bit.
+const SHORT: f64 = 2e-7;
 /// Newton corrections of an event's time; one suffices but for grazing impacts.
 const MOST_CORRECTIONS: u32 = 4;
 
-/// Events without progress, one after another, that count as a defect: a burst of impacts ends by capture long before.
-const MOST_EVENTS_AT_ONCE: u32 = 1000;
+/// Events without progress, one after another, that count as a defect: the longest burst of impacts, that of a wall sixty
+/// times as high as thick with a capture velocity of zero, takes some ten thousand to come to rest.
+const MOST_EVENTS_AT_ONCE: u32 = 50_000;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
 const PROGRESS: f64 = 1e-6;
 
@@ -275,7 +279,7 @@ impl<'a, O: Observer> Run<'a, O> {
         }
         let mut step = self.step(piece, from_s, h);
         if let Some(gap) = event.gap() {
-            step = self.onto_contact(piece, from_s, step, gap);
+            step = self.onto_contact(piece, from_s, step, whole.h, gap);
         }
         let to_s = from_s + step.h;
         let (start_s, time_s) = (piece.start_s + from_s, piece.start_s + to_s);
@@ -293,20 +297,33 @@ impl<'a, O: Observer> Run<'a, O> {
     /// Moves the end of a step onto the zero of a gap: the quintic that found it is only as accurate as the step.
     ///
     /// To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow, and what is
-    /// small beside the wall's rotation is not small beside it.
-    fn onto_contact(&mut self, piece: &Piece, from_s: f64, mut step: Step, gap: fn(Pair) -> f64) -> Step {
+    /// small beside the wall's rotation is not small beside it. Not beyond the step that was searched: behind it may lie
+    /// the end of the piece.
+    fn onto_contact(
+        &mut self,
+        piece: &Piece,
+        from_s: f64,
+        mut step: Step,
+        most_s: f64,
+        gap: fn(Pair) -> f64,
+    ) -> Step {
+        let short_s = SHORT * self.ground.step_s();
         for _ in 0..MOST_CORRECTIONS {
             let late_s = gap(step.end.position) / gap(step.end.velocity);
-            if late_s.abs() <= SHORT_S {
+            if late_s.abs() <= short_s {
                 step.end = step.end.after(-late_s);
                 step.h -= late_s;
                 break;
             }
-            let h = step.h - late_s;
+            let h = (step.h - late_s).min(most_s);
             if !(h > 0.0 && h < 2.0 * step.h) {
                 break;
             }
-            step = self.step(piece, from_s, h);
+            let nearer = self.step(piece, from_s, h);
+            if gap(nearer.end.position).abs() >= gap(step.end.position).abs() {
+                break;
+            }
+            step = nearer;
         }
         step
     }
@@ -323,11 +340,22 @@ impl<'a, O: Observer> Run<'a, O> {
 
     /// An impact: joints that touch close exactly, velocities change, and the wall goes on.
     fn strike(&mut self, touching: Touching, ground: Vector, time_s: f64) -> Result<(), Stop> {
-        if touching.ground {
+        let touching = Touching {
+            ground: self.touches(Joint::Ground, touching.ground),
+            crack: self.touches(Joint::Crack, touching.crack),
+        };
+        let sign = |joint: Joint| self.contact.at(joint).sign();
+        let [ground_gap, crack_gap] =
+            [Joint::Ground, Joint::Crack].map(|joint| sign(joint) * opening(joint, self.now.position));
+        if touching.ground || ground_gap < 0.0 {
             self.now.position[0] = 0.0;
         }
-        if touching.crack {
+        if touching.crack || crack_gap < 0.0 {
             self.now.position[1] = self.now.position[0];
+        }
+        if touching == Touching::closed_in(self.contact) {
+            // A flight lower than the error of a step: the root was thought to be where the joint still opens.
+            return self.enter(self.contact, ground, time_s);
         }
         let impact =
             self.wall.impact(self.contact, touching, &self.state()).map_err(|e| failed(time_s, &e))?;
@@ -336,12 +364,26 @@ impl<'a, O: Observer> Run<'a, O> {
         self.enter(impact.contact, ground, time_s)
     }
 
+    /// Whether a joint takes part in an impact: it is closed, or does not separate and either strikes or stands within a
+    /// rounding of contact, so that its own impact would follow at the same instant.
+    fn touches(&self, joint: Joint, strikes: bool) -> bool {
+        let sign = self.contact.at(joint).sign();
+        let gap = sign * opening(joint, self.now.position);
+        let reached = strikes || gap <= f64::EPSILON * self.wall.wall().alpha_rad();
+        reached && sign * opening(joint, self.now.velocity) <= 0.0
+    }
+
     fn response(mut self, outcome: Outcome) -> Response {
         let end_time_s = match outcome {
             Outcome::Stood => self.ground.end_s(),
             Outcome::Collapsed { time_s } | Outcome::Failed { time_s, .. } => time_s,
         };
         self.tally.energy.final_j = self.wall.energy_j(self.contact, &self.state());
+        // A wall that falls from rest by its own weight turns one energy into another, with no work from outside.
+        let halted = State { omega: [0.0; 2], ..self.state() };
+        let kinetic_j = self.tally.energy.final_j - self.wall.energy_j(self.contact, &halted);
+        let passed_j = &mut self.tally.energy.passed_through_j;
+        *passed_j = passed_j.max(kinetic_j);
         self.observer.ended(end_time_s, self.contact, self.now.position);
         let wall = self.wall.wall();
         let lower = self.tally.theta_max[0];

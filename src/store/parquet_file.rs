@@ -81,12 +81,17 @@ impl<R> ParquetFile<R> {
     }
 }
 
-/// Writes a table as one file, there whole or as it was before.
+/// Writes a table as one file, there whole or as it was before; `metadata` as for [`ParquetFile::create_in`].
 ///
 /// # Errors
 /// [`Error::Io`] or [`Error::Table`] if the disk refuses.
-pub fn write_table<R>(path: &Path, columns: &'static [Column<R>], rows: &[R]) -> Result<()> {
-    let mut file = ParquetFile::create_in(durable::folder_of(path), columns, &[])?;
+pub fn write_table<R>(
+    path: &Path,
+    columns: &'static [Column<R>],
+    metadata: &[(String, String)],
+    rows: &[R],
+) -> Result<()> {
+    let mut file = ParquetFile::create_in(durable::folder_of(path), columns, metadata)?;
     file.write(rows)?;
     file.finish_as(|_| path.to_path_buf()).map(|_| ())
 }

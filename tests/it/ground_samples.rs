@@ -17,8 +17,10 @@ pub fn small_files() -> Vec<(Format, String)> {
         (Format::Peer, peer("   7    0.0050    NPTS, DT")),
         (Format::Dyna, dyna()),
         (Format::GeoNet, geonet()),
+        (Format::GeoNet, geonet_raw()),
         (Format::Cosmos, cosmos()),
         (Format::Csmip, csmip()),
+        (Format::Csmip, csmip_lower_case()),
         (Format::Knet, knet()),
     ]
 }
@@ -68,6 +70,18 @@ fn geonet() -> String {
     text + &rows(10, |a| format!("{a:8.2}")).repeat(3)
 }
 
+/// Volume 1: acceleration alone, and another wording.
+fn geonet_raw() -> String {
+    let text = geonet().replace("Corrected accel", "Uncorrected accel");
+    let text = text
+        .replace("Instrument corrected data at 0.005 sec intervals", "Raw readings at intervals of 0.005 s");
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    lines.truncate(27);
+    lines[19] = format!("{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}{:>8}", 7, 0, 0, 7, 0, 0, 0, 0, 0, 0);
+    lines[20].replace_range(7 * 8..8 * 8, "   1.000");
+    lines.join("\n")
+}
+
 fn cosmos() -> String {
     let mut text = String::from("Corrected acceleration   (Format v01.20 with 13 text lines) Src: x\n");
     text += &"text\n".repeat(7);
@@ -93,6 +107,16 @@ fn csmip() -> String {
     let blocks =
         mark("ACCEL", "CM/SEC/SEC") + &body + &mark("VELOC", "CM/SEC") + &body + &mark("DISPL", "CM") + &body;
     format!("{head}{blocks}/&  ----------  END OF DATA FOR CHANNEL  1  ----------\n")
+}
+
+/// The wording of later years.
+fn csmip_lower_case() -> String {
+    let head = "Corrected accelerogram   X       Chan  1:  90 deg\ntext\n";
+    let mark = "    7 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)\n";
+    format!(
+        "{head}{mark}{}/&  ---------- End of data for channel  1 ----------\n",
+        rows(8, |a| format!("{a:10.6}"))
+    )
 }
 
 fn knet() -> String {
@@ -131,6 +155,10 @@ fn analytic_line_ends_latin_letters_and_exponents_of_fortran_are_read() {
     bytes.splice(5..5, [0xe9]);
     let record = read_bytes(Path::new("a"), &bytes, &ReadOptions::default()).expect("readable");
     assert_eq!(record.unit, Unit::G);
+    let commented = format!("# a note\n\n{}", two_column());
+    let commented = read_text(&commented.replace("0.010,", "0.010,x"), &ReadOptions::default());
+    let message = commented.expect_err("must be refused").to_string();
+    assert!(message.contains("small.txt:6"), "lines are counted with comments and blanks: {message}");
     assert_eq!(record.accelerogram.acceleration_m_s2().len(), 7);
 }
 

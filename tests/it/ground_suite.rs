@@ -53,6 +53,21 @@ fn analytic_a_suite_scales_horizontal_and_vertical_together_or_apart() {
 }
 
 #[test]
+fn analytic_a_pulse_stands_in_a_suite_by_its_name() {
+    let text = "name = \"pulses\"\nstep_s = 0.01\n\
+        [[records]]\nid = 1\nscale = 2.0\npulse = { kind = \"one_sine\", amplitude_m_s2 = 1.5, period_s = 1.0 }\n\
+        [[records]]\nid = 2\nname = \"near\"\npulse = { kind = \"mavroeidis_papageorgiou\", velocity_m_s = 0.5, \
+        period_s = 1.4, oscillations = 2.0 }\n";
+    let (_folder, path) = Folder::with(text);
+    let suite = Suite::load(&path).expect("valid");
+    assert!(suite.generated);
+    assert_eq!((suite.records[0].horizontal.step_s(), suite.records[0].name.as_str()), (0.01, "pulse 1"));
+    assert_eq!(suite.records[0].horizontal.peak_m_s2(), 3.0);
+    // Trapezia of 140 a period err by (2π/140)²/12 = 1.7e-4.
+    assert!((suite.records[1].intensity.pgv_m_s - 0.5).abs() < 2e-4 && suite.records[1].name == "near");
+}
+
+#[test]
 fn rejects_suites_that_do_not_hold_together() {
     let suite = |top: &str, record: &str| format!("name = \"x\"\n{top}\n[[records]]\nid = 1\n{record}\n");
     for (text, parts) in [
@@ -68,6 +83,18 @@ fn rejects_suites_that_do_not_hold_together() {
         (suite("unit = \"furlong\"", "file = \"a.csv\""), &["suite.toml:2", "furlong", "\"cm/s2\""]),
         (suite("unit = \"g\"", "file = \"a.csv\""), &["unit m/s2", "unit g"]),
         (suite("", ""), &["records[0].file"]),
+        (suite("", "pulse = { kind = \"bump\" }"), &["suite.toml:5", "bump", "one_sine"]),
+        (
+            suite("", "pulse = { kind = \"ricker\", amplitude_m_s2 = 1.0, period_s = -1.0 }"),
+            &["records[0].pulse.period_s", "-1"],
+        ),
+        (
+            suite(
+                "",
+                "file = \"a.csv\"\npulse = { kind = \"ricker\", amplitude_m_s2 = 1.0, period_s = 1.0 }",
+            ),
+            &["records[0].pulse", "one of them"],
+        ),
         (suite("", "file = \"a.csv\"\n[[records]]\nid = 1\nfile = \"a.csv\""), &["records[1].id", "1 again"]),
         (suite("step_s = 0.01", "file = \"a.csv\"\nvertical = \"d.csv\""), &["records[0].vertical", "d.csv"]),
         ("name = \"x\"\nrecords = []\n".into(), &["records", "at least one"]),

@@ -46,8 +46,8 @@ pub(super) struct PeriodArgs {
 }
 
 impl PeriodArgs {
-    /// Periods and deviations, once they make sense.
-    pub(super) fn checked(&self) -> Result<((f64, f64), (f64, f64)), InputError> {
+    /// Shortest and longest period, and deviations below and above, once they make sense.
+    pub(super) fn checked(&self) -> Result<[(f64, f64); 2], InputError> {
         if !(self.from >= 0.0 && self.from < self.to && self.to <= 10.0) {
             let found = format!("{} to {} s", self.from, self.to);
             return Err(InputError::option("--from and --to", found, "0 <= from < to <= 10 s"));
@@ -56,12 +56,12 @@ impl PeriodArgs {
             let found = format!("{} and {}", self.below, self.above);
             return Err(InputError::option("--below and --above", found, "a number <= 0 and a number >= 0"));
         }
-        Ok(((self.from, self.to), (self.below, self.above)))
+        Ok([(self.from, self.to), (self.below, self.above)])
     }
 }
 
 pub(super) fn execute(args: &CheckArgs) -> Result<()> {
-    let (periods, deviation) = args.band.checked()?;
+    let [periods, deviation] = args.band.checked()?;
     let site = Site::load(&args.site)?;
     let suite = Suite::load(&args.suite)?;
     let check = SuiteCheck::of(&suite, &site, periods);

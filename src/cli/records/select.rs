@@ -86,7 +86,7 @@ pub(super) fn execute(args: &SelectArgs) -> Result<()> {
 }
 
 fn criteria(args: &SelectArgs) -> Result<Criteria, InputError> {
-    let (periods_s, deviation) = args.band.checked()?;
+    let [periods_s, deviation] = args.band.checked()?;
     if !(args.scale_from > 0.0 && args.scale_from <= args.scale_to && args.scale_to <= 100.0) {
         let found = format!("{} to {}", args.scale_from, args.scale_to);
         return Err(InputError::option("--scale-from and --scale-to", found, "0 < from <= to <= 100"));

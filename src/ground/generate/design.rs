@@ -100,6 +100,8 @@ impl Design {
 
 /// Significant duration on ground between rock and alluvium: −4.88 + 2.33·M + 0.149·Δ (Trifunac and Brady 1975, "A study
 /// on the duration of strong earthquake ground motion", s = 1), s.
+///
+/// The coefficients are those that reviews quote; they were not checked against the source, and only set a length.
 fn duration_s(magnitude: f64, distance_km: f64) -> f64 {
     (-4.88 + 2.33 * magnitude + 0.149 * distance_km).clamp(4.0, 60.0)
 }

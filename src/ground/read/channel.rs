@@ -83,13 +83,13 @@ impl Channel {
     }
 
     fn check_step(&self, source: &Source, options: &ReadOptions) -> Result<(), InputError> {
-        match options.step_s {
-            Some(step) if !((step - self.step_s).abs() <= STEP_TOLERANCE * self.step_s) => {
-                let found = format!("a step of {} s", self.step_s);
-                Err(source.fault_file(found, format!("the step of {step} s that was given for it")))
-            }
-            _ => Ok(()),
+        let Some(step) = options.step_s else { return Ok(()) };
+        let agrees = (step - self.step_s).abs() <= STEP_TOLERANCE * self.step_s;
+        if agrees {
+            return Ok(());
         }
+        let allowed = format!("the step of {step} s that was given for it");
+        Err(source.fault_file(format!("a step of {} s", self.step_s), allowed))
     }
 
     fn check_unit(&self, source: &Source, options: &ReadOptions) -> Result<Unit, InputError> {

@@ -5,12 +5,13 @@
 //! The step is real header 34, in milliseconds.
 
 use super::channel::Channel;
-use super::source::{Source, after, count, find_any_case, first_number, step};
+use super::source::{Source, after, count, field_width, find_any_case, first_number, step};
 use crate::error::InputError;
 use crate::ground::Unit;
 
 const DATA_MARK: &str = "acceleration pts";
 const REALS_MARK: &str = "real-header values";
+const FORMAT_MARK: &str = "format=";
 const STEP_MS: usize = 33;
 /// How far samples × step may be from the whole seconds of the line before the data: they are rounded or cut.
 const DURATION_TOLERANCE_S: f64 = 1.5;
@@ -52,7 +53,7 @@ fn real_header(source: &Source, index: usize) -> Result<(Option<f64>, usize), In
     let Some(points) = count(line.split_whitespace().next().and_then(first_number)) else {
         return Err(source.fault_line(index, "`<number> Real-header values follow on …`"));
     };
-    let (values, next) = source.block(index + 1, points, field_width(line))?;
+    let (values, next) = source.block(index + 1, points, field_width(line, FORMAT_MARK))?;
     let step_s = step(values.get(STEP_MS).map(|ms| ms / 1000.0));
     if step_s.is_none() {
         let found = format!("{:?} as value 34 of the real header", values.get(STEP_MS));
@@ -75,7 +76,7 @@ fn channel(
         return Err(source.fault_line(index, "a block of real-header values before the samples"));
     };
     check_duration(source, index, points as f64 * step_s)?;
-    let (samples, next) = source.block(index + 1, points, field_width(line))?;
+    let (samples, next) = source.block(index + 1, points, field_width(line, FORMAT_MARK))?;
     Ok((Channel { label, step_s, unit: Some(unit(source, index)?), samples }, next))
 }
 
@@ -95,11 +96,4 @@ fn unit(source: &Source, index: usize) -> Result<Unit, InputError> {
     word.parse().map_err(|_| {
         source.fault_line(index, "units=cm/sec2 or another unit of acceleration; counts are not")
     })
-}
-
-/// `Format=(8f10.6)` gives 10.
-fn field_width(line: &str) -> Option<usize> {
-    let format = after(line, "format=")?;
-    let width = format.split(|c: char| c.is_ascii_alphabetic()).nth(1)?;
-    width.split(['.', ')']).next()?.parse().ok().filter(|w| (1..=40).contains(w))
 }

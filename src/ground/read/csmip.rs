@@ -4,12 +4,12 @@
 //! The line before the data is looked for, because the length of the header changed over the years.
 
 use super::channel::Channel;
-use super::source::{Source, after, count, find_any_case, first_number, step};
+use super::source::{Source, after, count, field_width, find_any_case, first_number, step};
 use crate::error::InputError;
 use crate::ground::Unit;
 
 const MARK: &str = "points of accel data";
-/// Width of a field, Fortran F10.x.
+/// Width of a field, Fortran F10.x, where the line before the data ends without a format.
 const FIELD: usize = 10;
 
 pub(super) fn parse(source: &Source) -> Result<Vec<Channel>, InputError> {
@@ -48,7 +48,8 @@ fn channel(source: &Source, index: usize, label: String) -> Result<(Channel, usi
         let allowed = "`<number> POINTS OF ACCEL DATA EQUALLY SPACED AT <seconds> SEC. (UNITS: CM/SEC/SEC)`";
         return Err(source.fault_line(index, allowed));
     };
-    let (samples, next) = source.block(index + 1, points, Some(FIELD))?;
+    let width = field_width(line, ". (").unwrap_or(FIELD);
+    let (samples, next) = source.block(index + 1, points, Some(width))?;
     Ok((Channel { label, step_s, unit: Some(unit), samples }, next))
 }
 

@@ -9,12 +9,10 @@ use crate::ground::Unit;
 const TEXT_LINES: usize = 16;
 const HEADER_NUMBERS: usize = 100;
 const FIELD: usize = 8;
-/// Samples of the uncorrected record, and of corrected acceleration, velocity and displacement.
-const RAW_POINTS: usize = 30;
-const CORRECTED_POINTS: usize = 33;
-/// Step of the uncorrected and of the corrected record, s.
-const RAW_STEP: usize = 64;
-const CORRECTED_STEP: usize = 65;
+/// Numbers of the header: samples of acceleration, velocity and displacement; what gives mm/s² in volume 1; the step, s.
+const POINTS: std::ops::Range<usize> = 33..36;
+const RAW_FACTOR: usize = 47;
+const STEP: usize = 65;
 /// Relative difference allowed between the step of the numbers and that of the text, which is rounded to 1 ms.
 const STEP_TOLERANCE: f64 = 0.1;
 
@@ -30,43 +28,62 @@ pub(super) fn parse(source: &Source) -> Result<Vec<Channel>, InputError> {
 }
 
 fn component(source: &Source, start: usize) -> Result<(Channel, usize), InputError> {
-    let is_raw = find_any_case(source.line(start), "uncorrected accelerogram").is_some();
-    if !is_raw && find_any_case(source.line(start), "corrected accelerogram").is_none() {
-        return Err(source.fault_line(start, "`Corrected accelerogram` or `Uncorrected accelerogram`"));
-    }
+    let is_raw = is_raw(source, start)?;
     let (header, data) = source.block(start + TEXT_LINES, HEADER_NUMBERS, Some(FIELD))?;
-    let step_s = read_step(source, start, header[if is_raw { RAW_STEP } else { CORRECTED_STEP }])?;
-    let counts = if is_raw {
-        &header[RAW_POINTS..=RAW_POINTS]
-    } else {
-        &header[CORRECTED_POINTS..CORRECTED_POINTS + 3]
-    };
-    let mut next = data;
-    let mut samples = Vec::new();
-    for (quantity, &points) in counts.iter().enumerate() {
-        if quantity > 0 && points == 0.0 {
-            continue;
-        }
-        let Some(points) = count(Some(points)) else {
-            let found = format!("{points} points in the numbers of the header");
-            return Err(source.fault(start + TEXT_LINES + 3, found, "a whole number of at least 2"));
-        };
-        let (values, end) = source.block(next, points, Some(FIELD))?;
-        next = end;
-        if quantity == 0 {
-            samples = values;
-        }
+    let step_s = read_step(source, start, header[STEP])?;
+    let factor = if is_raw { header[RAW_FACTOR] } else { 1.0 };
+    if factor <= 0.0 {
+        let found = format!("a factor of {factor} to mm/s/s");
+        return Err(source.fault(start + TEXT_LINES + 4, found, "a positive factor"));
     }
+    let (samples, next) = quantities(source, start, data, &header[POINTS])?;
+    let samples = samples.iter().map(|a| a * factor).collect();
     let label = label(source, start);
     Ok((Channel { label, step_s, unit: Some(Unit::MillimetrePerSecond2), samples }, next))
 }
 
-/// The step of the numbers, once it agrees with `… data at 0.020 sec intervals` where the text says so.
+/// Whether a component is of volume 1.
+fn is_raw(source: &Source, start: usize) -> Result<bool, InputError> {
+    let is = |word: &str| find_any_case(source.line(start), word).is_some();
+    match (is("uncorrected accelerogram"), is("corrected accelerogram")) {
+        (false, false) => {
+            Err(source.fault_line(start, "`Corrected accelerogram` or `Uncorrected accelerogram`"))
+        }
+        (is_raw, _) => Ok(is_raw),
+    }
+}
+
+/// Acceleration, and the line after velocity and displacement, of which there may be none.
+fn quantities(
+    source: &Source,
+    start: usize,
+    data: usize,
+    points: &[f64],
+) -> Result<(Vec<f64>, usize), InputError> {
+    let acceleration = count(points.first().copied());
+    let Some(acceleration) = acceleration else {
+        return Err(
+            source.fault_line(start + TEXT_LINES + 3, "a number of samples of at least 2 as fourth number")
+        );
+    };
+    let (samples, mut next) = source.block(data, acceleration, Some(FIELD))?;
+    for &points in points.iter().skip(1).filter(|&&points| points != 0.0) {
+        let Some(points) = count(Some(points)) else {
+            return Err(source.fault_line(start + TEXT_LINES + 3, "whole numbers of samples"));
+        };
+        (_, next) = source.block(next, points, Some(FIELD))?;
+    }
+    Ok((samples, next))
+}
+
+/// The step of the numbers, once it agrees with `… data at 0.020 sec intervals` or `… at intervals of 0.005 s` of the text.
 fn read_step(source: &Source, start: usize, stated: f64) -> Result<f64, InputError> {
-    let mut lines =
-        (start..start + TEXT_LINES).filter(|&i| find_any_case(source.line(i), "sec interval").is_some());
-    let text = lines.next().and_then(|i| first_number(after(source.line(i), " at ")?));
-    let text = step(text);
+    let mut lines = (start..start + TEXT_LINES)
+        .map(|i| source.line(i))
+        .filter(|l| find_any_case(l, "interval").is_some());
+    let words =
+        |line: &'_ str| after(line, "intervals of").or_else(|| after(line, " at ")).and_then(first_number);
+    let text = step(lines.next().and_then(words));
     match (step(Some(stated)), text) {
         (Some(step_s), Some(text)) if (step_s - text).abs() > STEP_TOLERANCE * text => {
             let found = format!("a step of {text} s in the text of the header");

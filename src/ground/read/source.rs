@@ -169,3 +169,10 @@ pub(super) fn count(value: Option<f64>) -> Option<usize> {
 pub(super) fn step(value: Option<f64>) -> Option<f64> {
     value.filter(|s| (1e-6..=10.0).contains(s))
 }
+
+/// Width of the fields that a Fortran format such as `(8f10.6)` after `mark` tells.
+pub(super) fn field_width(line: &str, mark: &str) -> Option<usize> {
+    let format = after(line, mark)?;
+    let width = format.split(|c: char| c.is_ascii_alphabetic()).nth(1)?;
+    width.split(['.', ')']).next()?.trim().parse().ok().filter(|w| (1..=40).contains(w))
+}

@@ -1,0 +1,232 @@
+//! Walls, records and states drawn at random from a seed, and the single block that most closed forms are about.
+
+use mrbd::ground::Accelerogram;
+use mrbd::model::{
+    Contact, Effect, G_M_S2, ImpactLaw, Joint, Pivot, Restitution, State, Touching, Vector, Wall,
+    WallParameters,
+};
+use mrbd::simulate::Shaking;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// The draw `index` of a test; depends on nothing but its two numbers.
+pub fn rng(test: u64, index: u64) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(test);
+    rng.set_stream(index);
+    rng
+}
+
+/// Uniform in the logarithm.
+pub fn log_uniform(rng: &mut ChaCha8Rng, from: f64, to: f64) -> f64 {
+    rng.random_range(from.ln()..to.ln()).exp()
+}
+
+/// A number of either sign.
+pub fn around_zero(rng: &mut ChaCha8Rng, bound: f64) -> f64 {
+    rng.random_range(-bound..bound)
+}
+
+/// A wall without top masses, spring or effects, whose impacts are plastic and all count.
+pub fn bare_wall(thickness_m: f64, height_m: f64, crack_height_m: Option<f64>) -> WallParameters {
+    WallParameters {
+        thickness_m,
+        height_m,
+        crack_height_m,
+        length_m: 1.0,
+        mass_kg: 1800.0 * thickness_m * height_m,
+        lower_width_m: thickness_m,
+        upper_width_m: thickness_m,
+        diaphragm_mass_kg: 0.0,
+        carriage_mass_kg: 0.0,
+        stiffness_n_per_m: 0.0,
+        eccentricity_m: 0.0,
+        restitution: Restitution { capture_velocity_rad_s: 1e-6, ..Restitution::default() },
+        collapse_rotation_ratio: WallParameters::DEFAULT_COLLAPSE_RATIO,
+        initial_rotation_rad: [0.0, 0.0],
+        effects: Vec::new(),
+    }
+}
+
+/// A single block with frequency parameter p (p² = 3g/4R), slenderness α and θ'⁺ = `velocity_ratio` θ'⁻ at impacts.
+pub fn block(p_rad_s: f64, alpha_rad: f64, velocity_ratio: f64) -> WallParameters {
+    let r_m = 3.0 * G_M_S2 / (4.0 * p_rad_s * p_rad_s);
+    let mut wall = bare_wall(2.0 * r_m * alpha_rad.sin(), 2.0 * r_m * alpha_rad.cos(), None);
+    let plastic = 1.0 - 1.5 * alpha_rad.sin().powi(2);
+    wall.restitution.coefficients[5] = velocity_ratio / plastic;
+    wall.restitution.capture_velocity_rad_s = 0.0;
+    wall
+}
+
+/// The table wall of the paper's Table 1 with the coefficients of its Table 2.
+pub fn table_wall(law: ImpactLaw) -> WallParameters {
+    WallParameters {
+        length_m: 1.5,
+        mass_kg: 3614.0,
+        lower_width_m: 0.271,
+        upper_width_m: 0.281,
+        diaphragm_mass_kg: 179.0,
+        carriage_mass_kg: 663.0,
+        stiffness_n_per_m: 37e3,
+        restitution: Restitution {
+            coefficients: [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94],
+            law,
+            ..Restitution::default()
+        },
+        ..bare_wall(0.291, 3.984, Some(2.191))
+    }
+}
+
+/// A cracked wall of any shape a builder or a test might think of, with plastic impacts.
+pub fn any_wall(rng: &mut ChaCha8Rng) -> WallParameters {
+    let thickness_m = rng.random_range(0.1..1.0);
+    let height_m = thickness_m * log_uniform(rng, 1.0, 60.0);
+    let mut wall = bare_wall(thickness_m, height_m, Some(height_m * rng.random_range(0.02..0.98)));
+    wall.lower_width_m *= rng.random_range(0.5..1.0);
+    wall.upper_width_m *= rng.random_range(0.5..1.0);
+    wall.mass_kg *= log_uniform(rng, 0.3, 3.0);
+    wall.diaphragm_mass_kg = some(rng, |rng| wall.mass_kg * rng.random_range(0.0..0.5));
+    wall.carriage_mass_kg = some(rng, |rng| wall.mass_kg * rng.random_range(0.0..0.5));
+    // From a spring that carries nothing to one a hundred times stiffer than the wall's weight over its height.
+    let weight_n_per_m = wall.mass_kg * G_M_S2 / height_m;
+    wall.stiffness_n_per_m = some(rng, |rng| weight_n_per_m * log_uniform(rng, 0.1, 100.0));
+    wall.eccentricity_m = some(rng, |rng| around_zero(rng, 0.5 * thickness_m));
+    wall
+}
+
+/// A value two times out of three, else zero.
+fn some(rng: &mut ChaCha8Rng, mut draw: impl FnMut(&mut ChaCha8Rng) -> f64) -> f64 {
+    if rng.random_bool(2.0 / 3.0) { draw(rng) } else { 0.0 }
+}
+
+/// Each further effect in one wall out of two, of a size that matters to the wall.
+pub fn any_effects(rng: &mut ChaCha8Rng, wall: &WallParameters) -> Vec<Effect> {
+    let weight_n = wall.mass_kg * G_M_S2;
+    let (b, h) = (wall.thickness_m, wall.height_m);
+    let time_s = (h / G_M_S2).sqrt();
+    let all = [
+        Effect::CarriageMass { mass_kg: wall.mass_kg * rng.random_range(0.0..0.3) },
+        Effect::ViscousDamping { coefficient_n_s_per_m: weight_n / h * time_s * rng.random_range(0.0..0.5) },
+        // Softening stays below half of what the wall's weight holds within its thickness.
+        Effect::CubicStiffness { coefficient_n_per_m3: weight_n / h / (b * b) * rng.random_range(-0.5..5.0) },
+        Effect::JointDamping {
+            joint: Joint::Ground,
+            coefficient_n_m_s_per_rad: weight_n * h * time_s * rng.random_range(0.0..0.05),
+        },
+        Effect::JointDamping {
+            joint: Joint::Crack,
+            coefficient_n_m_s_per_rad: weight_n * h * time_s * rng.random_range(0.0..0.05),
+        },
+    ];
+    all.into_iter().filter(|_| rng.random_bool(0.5)).collect()
+}
+
+/// Coefficients and law of impacts, with no coefficient above `most`.
+pub fn any_restitution(rng: &mut ChaCha8Rng, most: f64) -> Restitution {
+    Restitution {
+        coefficients: [(); 8].map(|()| rng.random_range(0.6..most)),
+        law: if rng.random_bool(0.5) { ImpactLaw::Whole } else { ImpactLaw::Contact },
+        capture_velocity_rad_s: log_uniform(rng, 1e-6, 1e-2),
+    }
+}
+
+/// A ground motion of a few seconds: a handful of pulses of random frequency, phase and arrival.
+pub fn any_record(rng: &mut ChaCha8Rng, peak_m_s2: f64) -> Accelerogram {
+    let step_s = [0.005, 0.01, 0.02][rng.random_range(0..3)];
+    let duration_s: f64 = rng.random_range(2.0..6.0);
+    let wavelets: Vec<[f64; 5]> = (0..rng.random_range(1..6))
+        .map(|_| {
+            let arrival_s = rng.random_range(0.0..duration_s);
+            let length_s = rng.random_range(0.1..1.5);
+            let omega = std::f64::consts::TAU * log_uniform(rng, 0.3, 8.0);
+            [arrival_s, length_s, omega, rng.random_range(0.0..6.3), rng.random_range(0.2..1.0)]
+        })
+        .collect();
+    let at = |t: f64| -> f64 {
+        let of = |[arrival, length, omega, phase, size]: &[f64; 5]| {
+            size * (-((t - arrival) / length).powi(2)).exp() * (omega * (t - arrival) + phase).cos()
+        };
+        wavelets.iter().map(of).sum()
+    };
+    let samples: Vec<f64> = (0..(duration_s / step_s) as usize).map(|k| at(k as f64 * step_s)).collect();
+    let largest = samples.iter().fold(0.0_f64, |most, a| most.max(a.abs()));
+    Accelerogram::new(step_s, samples).expect("a record").scaled(peak_m_s2 / largest)
+}
+
+/// Shaking that moves the wall: from just above the acceleration that uplifts a block of its shape to many times it.
+pub fn any_shaking(rng: &mut ChaCha8Rng, wall: &WallParameters, vertical: bool) -> Shaking {
+    let uplift = G_M_S2 * wall.lower_width_m / wall.height_m;
+    let peak = uplift * log_uniform(rng, 1.2, 6.0);
+    let horizontal = any_record(rng, peak);
+    let vertical = vertical.then(|| {
+        let samples = any_record(rng, 0.5 * peak.min(G_M_S2)).acceleration_m_s2().to_vec();
+        Accelerogram::new(horizontal.step_s(), samples).expect("a record")
+    });
+    Shaking { horizontal: Some(horizontal), vertical, tail_s: 2.0 }
+}
+
+/// A checked wall.
+pub fn made(parameters: &WallParameters) -> Wall {
+    Wall::new(parameters.clone()).expect("a wall that can exist")
+}
+
+/// Rotations and velocities that a contact state allows, up to its angles of collapse.
+pub fn any_state(rng: &mut ChaCha8Rng, wall: &Wall, contact: Contact) -> State {
+    let [a1, a2] = wall.alpha_i_rad();
+    let (s1, s2) = (contact.ground.sign(), contact.crack.sign());
+    let theta_1 = s1 * a1 * rng.random_range(0.0..1.5);
+    let gap = s2 * a2 * rng.random_range(0.0..1.5);
+    let omega_1 = s1.abs() * around_zero(rng, 2.0);
+    let gap_rate = s2.abs() * around_zero(rng, 2.0);
+    State { theta: [theta_1, theta_1 + gap], omega: [omega_1, omega_1 + gap_rate] }
+}
+
+/// A ground acceleration up to two g either way.
+pub fn any_ground(rng: &mut ChaCha8Rng) -> Vector {
+    Vector { x: around_zero(rng, 20.0), y: around_zero(rng, 20.0) }
+}
+
+/// A moment of impact: pattern before, joints that touch, and a state in which the open ones among them close.
+///
+/// Each joint moves at 1 rad/s or slower, down to `slowest`.
+pub fn any_impact(rng: &mut ChaCha8Rng, wall: &Wall, slowest: f64) -> (Contact, Touching, State) {
+    let sign = |rng: &mut ChaCha8Rng| if rng.random_bool(0.5) { Pivot::Right } else { Pivot::Left };
+    let [a1, a2] = wall.alpha_i_rad();
+    let (ground, crack) = (sign(rng), sign(rng));
+    let (lean, gap) = (a1 * rng.random_range(0.0..1.5), a2 * rng.random_range(0.0..1.5));
+    // Velocities over many decades and either sign, so that either joint may be the slow one.
+    let speed = |rng: &mut ChaCha8Rng| log_uniform(rng, slowest, 1.0);
+    let free = |rng: &mut ChaCha8Rng| speed(rng) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
+    let (s1, s2) = (ground.sign(), crack.sign());
+    let touching = |ground: bool, crack: bool| Touching { ground, crack };
+    let both = Contact { ground, crack };
+    match rng.random_range(0..5) {
+        // Patterns 1 and 2: the ground closes, the crack stays open.
+        0 => {
+            let rate = -s1 * speed(rng);
+            let omega = [rate, rate + free(rng)];
+            (both, touching(true, false), State { theta: [0.0, s2 * gap], omega })
+        }
+        // Patterns 1 and 2: the crack closes above a leaning lower body.
+        1 => {
+            let rate = free(rng);
+            let omega = [rate, rate - s2 * speed(rng)];
+            (both, touching(false, true), State { theta: [s1 * lean; 2], omega })
+        }
+        // Pattern 3: the wall comes down as one.
+        2 => {
+            let contact = Contact { ground, crack: Pivot::Closed };
+            (contact, touching(true, true), State { theta: [0.0; 2], omega: [-s1 * speed(rng); 2] })
+        }
+        // Pattern 4: the upper body comes down on a lower one that stands.
+        3 => {
+            let contact = Contact { ground: Pivot::Closed, crack };
+            (contact, touching(true, true), State { theta: [0.0; 2], omega: [0.0, -s2 * speed(rng)] })
+        }
+        // Patterns 1 and 2: both joints close at one instant.
+        _ => {
+            let rate = -s1 * speed(rng);
+            let omega = [rate, rate - s2 * speed(rng)];
+            (both, touching(true, true), State { theta: [0.0; 2], omega })
+        }
+    }
+}
