@@ -6,9 +6,10 @@ SHARED_SUITE := ../shared/records/natural7/suite.toml
 CHOSEN_SUITE := $(or $(SUITE),$(wildcard inputs/records/emilia7/suite.toml),$(wildcard $(SHARED_SUITE)))
 
 include make/records.mk
+include make/examples.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep test test-browser bench lint docs clean
+.PHONY: help sweep check test test-browser bench lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -23,6 +24,10 @@ else
 	@echo "The page of the results:"
 	@cargo run --release --locked --quiet --bin mrbd -- report outputs/sweep --site inputs/site_mirandola.toml
 endif
+
+check: ## run a smaller sweep and compare its medians with the accepted ones
+	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null
+	cargo run --release --locked --bin mrbd -- check outputs/check --baseline tests/baselines/emilia7.csv
 
 test: ## all tests
 	cargo test --release --locked

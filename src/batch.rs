@@ -1,9 +1,8 @@
 //! Many runs: spread over threads, handed on in order, none lost.
 //!
 //! Threads take runs as they come free, but results leave in the order of the plan, so nothing that is written
-//! depends on the number of threads. Only a block of results is held at a time, and no histories.
+//! depends on the number of threads. No histories are held.
 
-use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
@@ -13,10 +12,6 @@ use crate::error::{Error, InputError, Result};
 use crate::model::Wall;
 use crate::plan::{Plan, Run};
 use crate::simulate::{Accuracy, Outcome, Response, Shaking};
-
-/// Runs handed on at once: a few seconds of work, so that threads seldom wait for the end of a block,
-/// and a few megabytes of results.
-const BLOCK: u64 = 4096;
 
 /// A run and what came of it.
 #[derive(Debug, Clone)]
@@ -53,67 +48,57 @@ pub struct Tally {
 }
 
 impl Tally {
-    fn count(&mut self, finished: &Finished) {
-        match finished.outcome() {
-            "stood" => self.stood += 1,
-            "collapsed" => self.collapsed += 1,
-            _ => self.failed += 1,
+    /// All of them.
+    pub fn runs(self) -> u64 {
+        self.stood + self.collapsed + self.failed
+    }
+
+    /// Counts these runs too.
+    pub fn count(&mut self, runs: &[Finished]) {
+        for finished in runs {
+            match finished.outcome() {
+                "stood" => self.stood += 1,
+                "collapsed" => self.collapsed += 1,
+                _ => self.failed += 1,
+            }
         }
     }
 }
 
-/// Runs the runs at `positions` of a plan on `threads` threads and hands them on in blocks, in order.
-///
-/// `simulate` runs one wall; it is a parameter so that a batch can be tested without the cost.
-/// `keep` receives every run, failed and collapsed ones too.
+/// So many threads to run on.
 ///
 /// # Errors
-/// Whatever `keep` meets; an input error if the threads cannot be had.
-pub fn run_batch<S, K>(
-    plan: &Plan,
-    positions: Range<u64>,
-    threads: usize,
-    simulate: &S,
-    mut keep: K,
-    progress: &ProgressBar,
-) -> Result<Tally>
-where
-    S: Fn(&Wall, &Shaking, Accuracy) -> Response + Sync,
-    K: FnMut(Vec<Finished>) -> Result<()>,
-{
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
+/// An input error if they cannot be had.
+pub fn threads(count: usize) -> Result<rayon::ThreadPool> {
+    let refuse = |e: rayon::ThreadPoolBuildError| {
         InputError::option("--threads", e.to_string(), "a number of threads the system grants")
-    })?;
-    let mut tally = Tally::default();
-    let mut start = positions.start;
-    while start < positions.end {
-        let end = positions.end.min(start + BLOCK);
-        let block = pool.install(|| run_block(plan, start..end, simulate, progress))?;
-        block.iter().for_each(|finished| tally.count(finished));
-        keep(block)?;
-        start = end;
-    }
-    Ok(tally)
+    };
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(count).build().map_err(refuse)?)
 }
 
-fn run_block<S>(
+/// Runs the runs at `positions` of a plan on the threads of the current pool: one result a position, in order,
+/// failed and collapsed ones too.
+///
+/// `simulate` runs one wall; it is a parameter so that a batch can be tested without the cost.
+///
+/// # Errors
+/// [`Error::Plan`] if the plan is broken.
+pub fn run_all<S>(
     plan: &Plan,
-    positions: Range<u64>,
+    positions: Vec<u64>,
     simulate: &S,
     progress: &ProgressBar,
 ) -> Result<Vec<Finished>>
 where
     S: Fn(&Wall, &Shaking, Accuracy) -> Response + Sync,
 {
-    positions
-        .into_par_iter()
-        .map(|position| {
-            let run = plan.run(position).map_err(|e| Error::Plan { position, message: e.to_string() })?;
-            let finished = run_one(run, simulate);
-            progress.inc(1);
-            Ok(finished)
-        })
-        .collect()
+    let one = |position| {
+        let run = plan.run(position).map_err(|e| Error::Plan { position, message: e.to_string() })?;
+        let finished = run_one(run, simulate);
+        progress.inc(1);
+        Ok(finished)
+    };
+    positions.into_par_iter().map(one).collect()
 }
 
 /// Runs one run; a panic of the simulator is a failure of this run, not of the study.

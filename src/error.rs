@@ -44,6 +44,38 @@ pub enum Error {
         /// Why it cannot be run.
         message: String,
     },
+    /// The user or the system asked to stop; everything that was finished is stored.
+    #[error("stopped; {done} of {missing} runs were done, and stored; to go on: {again}")]
+    Stopped {
+        /// Runs that were done.
+        done: u64,
+        /// Runs that were to be done.
+        missing: u64,
+        /// The command that goes on.
+        again: String,
+    },
+    /// Medians are not what was accepted.
+    #[error("{figures} figures moved from {}; `--accept --because REASON` makes the new ones the baseline", baseline.display())]
+    Moved {
+        /// Figures beyond their tolerance.
+        figures: usize,
+        /// The accepted medians.
+        baseline: PathBuf,
+    },
+    /// A run that was done again gave other bits than are stored.
+    #[error(
+        "run {position} of the study: {column} is stored as {stored:?} and came out as {now:?}: another version of the program, or other arithmetic"
+    )]
+    Differs {
+        /// Position in the plan, from 0.
+        position: u64,
+        /// What differs.
+        column: &'static str,
+        /// As stored; none where it does not exist.
+        stored: Option<f64>,
+        /// As it came out.
+        now: Option<f64>,
+    },
     /// A run could not be finished; this is a defect of the program to report.
     #[error("the run failed at {time_s} s: {reason}")]
     Run {

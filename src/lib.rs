@@ -44,9 +44,11 @@
 //! | [`sampling`] | a survey | façades of a Monte Carlo campaign, drawn one by one |
 //! | [`plan`] | a pipeline | a list of runs, computed one by one: façades, walls, records, ids |
 //! | [`batch`] | a plan | finished runs in order, on all threads |
+//! | [`campaign`] | a plan and what is done of it | what is missing, in any parts, after any interruption |
 //! | [`store`] | responses | files that appear whole or not at all |
 //! | [`aggregate`] | those files alone | medians and quantiles over the records |
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
+//! | [`check`] | medians and accepted medians | what moved, beyond a tolerance that says where it comes from |
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
 //! | [`report`] | result folders, runs | pages and pictures |
 //! | [`cli`] | the command line | the above, and messages for people |
@@ -54,6 +56,8 @@
 pub mod aggregate;
 pub mod batch;
 pub mod calibrate;
+pub mod campaign;
+pub mod check;
 pub mod cli;
 pub mod comparison;
 pub mod error;

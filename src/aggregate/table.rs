@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::medians::{Median, Medians};
 use crate::error::Result;
-use crate::store::{Column, ParquetFile, Read};
+use crate::store::{Column, Read, write_table};
 
 macro_rules! text {
     (|$m:ident| $value:expr) => {
@@ -42,9 +42,7 @@ const COLUMNS: &[Column<Median>] = &[
 /// # Errors
 /// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
 pub fn write_medians(path: &Path, medians: &Medians) -> Result<()> {
-    let mut file = ParquetFile::create(path, COLUMNS, &[])?;
-    file.write(medians.rows())?;
-    file.finish()
+    write_table(path, COLUMNS, &[], medians.rows())
 }
 
 /// Writes the medians as CSV.

@@ -8,6 +8,7 @@ use super::output;
 use crate::aggregate::{Medians, aggregate, print_medians, write_medians};
 use crate::error::Result;
 use crate::findings::{report, write_findings};
+use crate::store::OutputFolder;
 
 /// Reads the runs of a study, writes medians.parquet and findings.csv beside them, prints tables and findings.
 #[derive(Debug, Args)]
@@ -46,7 +47,18 @@ pub(super) fn aggregate_and_print(folder: &Path) -> Result<()> {
 
 fn aggregate_into(folder: &Path) -> Result<Medians> {
     let medians = aggregate(folder)?;
+    tell_missing(folder, &medians)?;
     write_medians(&folder.join("medians.parquet"), &medians)?;
     write_findings(&folder.join("findings.csv"), &medians)?;
     Ok(medians)
+}
+
+/// Medians of an unfinished study are of the runs there are.
+fn tell_missing(folder: &Path, medians: &Medians) -> Result<()> {
+    let all = OutputFolder::look(folder)?.manifest().runs;
+    let runs: u64 = medians.variants.iter().map(|variant| variant.runs).sum();
+    if runs < all {
+        eprintln!("mrbd: the study is unfinished: medians of {runs} of {all} runs");
+    }
+    Ok(())
 }

@@ -4,13 +4,19 @@
 
 mod aggregate;
 mod calibrate;
+mod check;
 mod compare_models;
 mod fragility;
+mod merge;
 mod output;
 mod records;
+mod replay;
 mod report;
 mod run;
 mod simulate;
+mod slurm;
+mod status;
+mod stop;
 
 use clap::{Parser, Subcommand};
 
@@ -27,7 +33,12 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::RunCommand),
+    Merge(merge::MergeCommand),
+    Status(status::StatusCommand),
+    Replay(replay::ReplayCommand),
+    Slurm(slurm::SlurmCommand),
     Aggregate(aggregate::AggregateCommand),
+    Check(check::CheckCommand),
     Fragility(fragility::FragilityCommand),
     Calibrate(calibrate::CalibrateArgs),
     Records(records::RecordsArgs),
@@ -43,7 +54,12 @@ impl Cli {
     pub fn execute(self) -> Result<()> {
         match self.command {
             Command::Run(command) => command.execute(),
+            Command::Merge(command) => command.execute(),
+            Command::Status(command) => command.execute(),
+            Command::Replay(command) => command.execute(),
+            Command::Slurm(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
+            Command::Check(command) => command.execute(),
             Command::Fragility(command) => command.execute(),
             Command::Calibrate(args) => calibrate::execute(&args),
             Command::Records(args) => records::execute(&args),

@@ -7,17 +7,15 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::output;
+use super::{output, stop};
 use crate::batch::{self, Finished, Tally};
+use crate::campaign::{BLOCK_RUNS, Block, Layout, Shard, Standing, Work, run_missing};
 use crate::error::{Error, InputError, Result};
 use crate::input::pipeline::Pipeline;
 use crate::overturning;
 use crate::plan::Plan;
 use crate::simulate::simulate;
-use crate::store::{COLUMNS, Manifest, OutputFolder, RunSink, Stage, print_csv};
-
-/// The whole study is one part.
-const ONLY_SHARD: u32 = 1;
+use crate::store::{COLUMNS, Earlier, Manifest, OutputFolder, Stage, print_csv};
 
 /// Failed runs that are told one by one; all are counted, and stored with their reasons.
 const FAILURES_TOLD: usize = 10;
@@ -40,8 +38,19 @@ pub struct RunCommand {
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
     /// Replace the results of an earlier study in the folder.
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["resume", "shard"])]
     force: bool,
+    /// Go on with a study that was stopped: do only what is missing or damaged.
+    #[arg(long)]
+    resume: bool,
+    /// Do part I of N and leave the rest to other processes, on any machines that share the folder; what is finished
+    /// is not done again. `auto` reads I and N from SLURM_ARRAY_TASK_ID and _COUNT, or JOB_COMPLETION_INDEX and
+    /// JOB_COMPLETIONS. `mrbd merge DIR` puts the parts together.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<String>,
+    /// Runs stored at once: a stop by force loses those at work, a few of these blocks.
+    #[arg(long, value_name = "N", default_value_t = NonZero::new(BLOCK_RUNS).unwrap_or(NonZero::<u64>::MIN))]
+    block_runs: NonZero<u64>,
 }
 
 impl RunCommand {
@@ -65,16 +74,44 @@ impl RunCommand {
         if self.dry_run {
             return output::to_stdout(|out| print_plan(&plan, out));
         }
+        let shard = self.shard()?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("outputs").join(&pipeline.name));
-        let manifest = Manifest::of(&plan, &pipeline, self.suite.as_deref().unwrap_or(&pipeline.suite))?;
-        let folder = OutputFolder::prepare(&out, &manifest, &pipeline.text, self.force)?;
-        self.run(&plan, &folder)?;
-        super::aggregate::aggregate_and_print(&out)
+        let suite = self.suite.as_deref().unwrap_or(&pipeline.suite);
+        let manifest = Manifest::of(&plan, &pipeline, suite, self.block_runs.get())?;
+        let folder = OutputFolder::prepare(&out, &manifest, &pipeline.text, self.earlier())?;
+        self.run(&plan, &folder, shard.unwrap_or(Shard::WHOLE))?;
+        if shard.is_none() {
+            return super::merge::merge_and_print(&folder);
+        }
+        eprintln!("mrbd: `mrbd merge {}` puts the parts together when all are done", out.display());
+        Ok(())
+    }
+
+    fn shard(&self) -> Result<Option<Shard>> {
+        match self.shard.as_deref() {
+            None => Ok(None),
+            Some("auto") => Shard::of_scheduler(|name| std::env::var(name).ok()).map(Some),
+            Some(text) => text.parse().map(Some),
+        }
+    }
+
+    fn earlier(&self) -> Earlier {
+        match (&self.shard, self.resume, self.force) {
+            (Some(_), _, _) => Earlier::Share,
+            (None, true, _) => Earlier::Resume,
+            (None, false, true) => Earlier::Replace,
+            (None, false, false) => Earlier::Refuse,
+        }
     }
 
     /// An overturning spectrum: a study of one wall under pulses, without survey and suite.
     fn overturning(&self, study: &overturning::Study) -> Result<()> {
-        let refused = [("--suite", self.suite.is_some()), ("--dry-run", self.dry_run)];
+        let refused = [
+            ("--suite", self.suite.is_some()),
+            ("--dry-run", self.dry_run),
+            ("--shard", self.shard.is_some()),
+            ("--resume", self.resume),
+        ];
         if let Some((option, _)) = refused.into_iter().find(|(_, given)| *given) {
             let allowed = "left out: an overturning spectrum has pulses for records and a grid for a plan";
             return Err(InputError::option(option, "given", allowed).into());
@@ -92,28 +129,55 @@ impl RunCommand {
         output::print(&overturning::picture(&spectrum))
     }
 
-    fn run(&self, plan: &Plan, folder: &OutputFolder) -> Result<()> {
+    fn run(&self, plan: &Plan, folder: &OutputFolder, shard: Shard) -> Result<()> {
         let threads = self.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-        eprintln!(
-            "mrbd: {} runs of {:?} under suite {:?} on {threads} thread(s) into {}",
-            plan.len(),
-            plan.name(),
-            plan.motions().suite.name,
-            folder.path().display()
-        );
+        let layout = Layout::of(folder.manifest());
+        let standing = Standing::of(folder, &layout)?;
+        tell_standing(plan, folder, &standing, &layout);
+        let todo = |block: &Block| shard.has(block.index) && !standing.has(block);
+        let missing = layout.iter().filter(todo).map(|block| block.runs.end - block.runs.start).sum();
+        eprintln!("mrbd: {missing} runs to do on {threads} thread(s)");
+        let stop = stop::on_signals()?;
         let start = Instant::now();
-        let progress = batch::progress_bar(plan.len());
-        let mut sink = RunSink::new(folder, ONLY_SHARD);
+        let progress = batch::progress_bar(missing);
         let mut failures = 0;
-        let keep = |block: Vec<Finished>| {
-            progress.suspend(|| tell_failures(&block, &mut failures));
-            sink.keep(&block)
-        };
-        let tally = batch::run_batch(plan, 0..plan.len(), threads, &simulate, keep, &progress)?;
-        sink.finish()?;
+        let watch = |runs: &[Finished]| progress.suspend(|| tell_failures(runs, &mut failures));
+        let work =
+            Work { plan, folder, shard, threads, simulate: &simulate, stop: &stop, progress: &progress };
+        let tally = run_missing(&work, &standing, watch)?;
         progress.finish_and_clear();
         report(tally, start.elapsed().as_secs_f64());
-        Ok(())
+        match tally.runs() == missing {
+            true => Ok(()),
+            false => Err(Error::Stopped { done: tally.runs(), missing, again: self.again(folder.path()) }),
+        }
+    }
+
+    /// The command that goes on where this one was stopped.
+    fn again(&self, out: &Path) -> String {
+        let mut command = format!("mrbd run {} --out {}", self.pipeline.display(), out.display());
+        if let Some(suite) = &self.suite {
+            command += &format!(" --suite {}", suite.display());
+        }
+        if self.block_runs.get() != BLOCK_RUNS {
+            command += &format!(" --block-runs {}", self.block_runs);
+        }
+        match &self.shard {
+            Some(shard) => command + " --shard " + shard,
+            None => command + " --resume",
+        }
+    }
+}
+
+fn tell_standing(plan: &Plan, folder: &OutputFolder, standing: &Standing, layout: &Layout) {
+    let (suite, path) = (&plan.motions().suite.name, folder.path().display());
+    eprintln!("mrbd: {} runs of {:?} under suite {suite:?} into {path}", plan.len(), plan.name());
+    for damaged in &standing.damaged {
+        eprintln!("mrbd: {} is damaged; its runs are done again", damaged.display());
+    }
+    match standing.runs(layout) {
+        0 => {}
+        done => eprintln!("mrbd: {done} of them are done already"),
     }
 }
 
@@ -132,7 +196,7 @@ fn tell_failures(block: &[Finished], told: &mut usize) {
 }
 
 fn report(tally: Tally, seconds: f64) {
-    let runs = tally.stood + tally.collapsed + tally.failed;
+    let runs = tally.runs();
     eprintln!(
         "mrbd: {runs} runs in {seconds:.1} s, {:.0} a second: {} stood, {} collapsed, {} failed",
         runs as f64 / seconds.max(f64::MIN_POSITIVE),

@@ -184,7 +184,7 @@ fn history_step_s(args: &SimulateArgs, shaking: &Shaking) -> Result<f64> {
 }
 
 /// The results under the names that scripts rely on.
-fn as_json(wall: &Wall, response: &Response) -> Value {
+pub(super) fn as_json(wall: &Wall, response: &Response) -> Value {
     let [theta1, theta2] = response.theta_max_rad;
     let [over_alpha1, over_alpha2] = response.theta_max_over_alpha_i();
     let collapse_time_s = match response.outcome {
@@ -222,7 +222,8 @@ fn as_json(wall: &Wall, response: &Response) -> Value {
     })
 }
 
-fn summary(wall: &Wall, response: &Response) -> String {
+/// The results for people, a few lines.
+pub(super) fn summary(wall: &Wall, response: &Response) -> String {
     let mut lines = vec![match &response.outcome {
         Outcome::Stood => format!("The wall stood until {:.3} s.", response.end_time_s),
         Outcome::Collapsed { time_s } => format!("The wall collapsed at {time_s:.3} s."),

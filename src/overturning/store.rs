@@ -5,7 +5,7 @@ use std::path::Path;
 use super::spectrum::{Boundary, Spectrum, Trial};
 use super::study::Study;
 use crate::error::{InputError, Result};
-use crate::store::{Column, ParquetFile, Read};
+use crate::store::{Column, Read, write_table};
 
 static TRIALS: [Column<Trial>; 7] = [
     Column::input(
@@ -86,10 +86,6 @@ pub fn store(folder: &Path, study: &Study, spectrum: &Spectrum) -> Result<()> {
         ("pulse".to_owned(), study.pulse.name().to_owned()),
         ("assumptions".to_owned(), format!("{study:?}")),
     ];
-    let mut trials = ParquetFile::create(&folder.join("trials.parquet"), &TRIALS, &metadata)?;
-    trials.write(&spectrum.trials)?;
-    trials.finish()?;
-    let mut boundaries = ParquetFile::create(&folder.join("boundaries.parquet"), &BOUNDARIES, &metadata)?;
-    boundaries.write(&spectrum.boundaries)?;
-    boundaries.finish()
+    write_table(&folder.join("trials.parquet"), &TRIALS, &metadata, &spectrum.trials)?;
+    write_table(&folder.join("boundaries.parquet"), &BOUNDARIES, &metadata, &spectrum.boundaries)
 }

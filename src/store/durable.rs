@@ -8,15 +8,18 @@ use tempfile::NamedTempFile;
 
 use crate::error::{Error, Result};
 
-/// A temporary file beside `path`, to be filled and then [`put_in_place`].
+/// How the names of files begin that are not finished; readers of folders leave names with a dot out.
+pub(super) const UNFINISHED: &str = ".unfinished-";
+
+/// A temporary file in `folder`, to be filled and then [`put_in_place`] there.
 ///
 /// # Errors
 /// [`Error::Io`] if the folder cannot be written.
-pub(super) fn beside(path: &Path) -> Result<NamedTempFile> {
+pub(super) fn unfinished_in(folder: &Path) -> Result<NamedTempFile> {
     tempfile::Builder::new()
-        .prefix(".unfinished-")
-        .tempfile_in(folder_of(path))
-        .map_err(|e| Error::io("write", path, e))
+        .prefix(UNFINISHED)
+        .tempfile_in(folder)
+        .map_err(|e| Error::io("write into", folder, e))
 }
 
 /// Brings a filled temporary file to the disk and gives it its name.
@@ -38,7 +41,7 @@ pub(super) fn put_in_place(mut file: NamedTempFile, path: &Path) -> Result<()> {
 /// # Errors
 /// [`Error::Io`] if the folder cannot be written.
 pub fn write_durably(path: &Path, contents: &[u8]) -> Result<()> {
-    let mut file = beside(path)?;
+    let mut file = unfinished_in(folder_of(path))?;
     file.write_all(contents).map_err(|e| Error::io("write", path, e))?;
     put_in_place(file, path)
 }
@@ -55,7 +58,7 @@ fn readable_by_all(_file: &File) -> std::io::Result<()> {
     Ok(())
 }
 
-fn folder_of(path: &Path) -> &Path {
+pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -80,6 +83,6 @@ mod tests {
     fn rejects_a_folder_that_is_not_there() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let error = write_durably(&folder.path().join("none/a.txt"), b"x").expect_err("no folder");
-        assert!(error.to_string().contains("cannot write"), "{error}");
+        assert!(error.to_string().contains("cannot write into"), "{error}");
     }
 }

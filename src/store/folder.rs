@@ -1,47 +1,91 @@
-//! The output folder of a study: what it may hold before, and where things go.
+//! The output folder of a study: what it may hold before, and who may write into it.
 //!
 //! ```text
-//! manifest.json                          provenance, written first
-//! plan.toml                              the pipeline as it was read
-//! runs/record=<name>/part-<shard>.parquet
+//! manifest.json    provenance, written first
+//! plan.toml        the pipeline as it was read
+//! lock             held by the processes that write
 //! ```
+//!
+//! and the runs, see `parts.rs`.
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use super::column::Column;
-use super::durable::write_durably;
+use super::durable::{UNFINISHED, write_durably};
 use super::manifest::Manifest;
-use super::parquet_file::ParquetFile;
-use super::schema::COLUMNS;
-use crate::batch::Finished;
+use super::manifest_differences::differences;
 use crate::error::{Error, InputError, Result};
+
+/// What to do with results that are in the folder already.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Earlier {
+    /// Refuse the folder.
+    Refuse,
+    /// Throw them away.
+    Replace,
+    /// Go on with them, if they are of the same plan; another process may be at work on another part of it.
+    Share,
+    /// Go on with them, if they are of the same plan, alone.
+    Resume,
+}
 
 /// A folder that was found fit to take the results of one plan, and holds its manifest.
 #[derive(Debug)]
 pub struct OutputFolder {
     path: PathBuf,
-    metadata: Vec<(String, String)>,
+    manifest: Manifest,
+    /// Let go when the folder is dropped or the process ends, however it ends.
+    _lock: Option<File>,
 }
 
 impl OutputFolder {
-    /// Makes the folder ready: it must be writable, and empty or hold an earlier study that `replace` allows to be
-    /// thrown away. Nothing is written unless all that holds; then the manifest and the pipeline's text are.
+    /// Makes the folder ready: it must be writable, and empty or hold an earlier study that `earlier` allows.
+    /// Nothing is written unless all that holds; then the manifest and the pipeline's text are.
     ///
     /// # Errors
-    /// Input errors for a folder that cannot be written or holds something else; [`Error::Io`] if the disk refuses.
-    pub fn prepare(path: &Path, manifest: &Manifest, pipeline_text: &str, replace: bool) -> Result<Self> {
+    /// Input errors for a folder that cannot be written, is being written or holds something else;
+    /// [`Error::Io`] if the disk refuses.
+    pub fn prepare(path: &Path, manifest: &Manifest, pipeline_text: &str, earlier: Earlier) -> Result<Self> {
         make_writable(path)?;
-        let manifest_path = path.join("manifest.json");
-        match Manifest::read(&manifest_path)? {
-            Some(_) if replace => clear(path)?,
-            Some(earlier) => check_earlier(path, &earlier, manifest)?,
-            None => check_empty(path)?,
+        let there = Manifest::read(&path.join("manifest.json"))?;
+        match (&there, earlier) {
+            (None, _) => check_empty(path)?,
+            (Some(there), Earlier::Refuse) => return Err(refuse(path, there, manifest).into()),
+            (Some(there), Earlier::Share | Earlier::Resume) => check_same(path, there, manifest)?,
+            (Some(_), Earlier::Replace) => {}
         }
-        manifest.write(&manifest_path)?;
-        write_durably(&path.join("plan.toml"), pipeline_text.as_bytes())?;
-        Ok(Self { path: path.to_path_buf(), metadata: manifest.file_metadata() })
+        let lock = lock(path, earlier == Earlier::Share)?;
+        if there.is_none() || earlier == Earlier::Replace {
+            clear(path)?;
+            manifest.write(&path.join("manifest.json"))?;
+        }
+        let copy = path.join("plan.toml");
+        // It lacks after a kill between the two as well.
+        if there.is_none() || earlier == Earlier::Replace || !copy.is_file() {
+            write_durably(&copy, pipeline_text.as_bytes())?;
+        }
+        Ok(Self { path: path.to_path_buf(), manifest: manifest.clone(), _lock: lock })
+    }
+
+    /// Opens the folder of a study to look at it; a study at work may change meanwhile.
+    ///
+    /// # Errors
+    /// An input error for a folder without a manifest.
+    pub fn look(path: &Path) -> Result<Self> {
+        match Manifest::read(&path.join("manifest.json"))? {
+            Some(manifest) => Ok(Self { path: path.to_path_buf(), manifest, _lock: None }),
+            None => Err(InputError::file(path, "no manifest.json", "the output folder of `mrbd run`").into()),
+        }
+    }
+
+    /// Opens the folder of a study to change it, alone.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::look`], and an input error if another process is at work in it.
+    pub fn take(path: &Path) -> Result<Self> {
+        let folder = Self::look(path)?;
+        Ok(Self { _lock: lock(path, false)?, ..folder })
     }
 
     /// The folder.
@@ -49,15 +93,25 @@ impl OutputFolder {
         &self.path
     }
 
-    /// Begins the file of a record's runs; `shard` tells the parts of a divided study apart.
-    ///
-    /// # Errors
-    /// [`Error::Io`] or [`Error::Table`] if it cannot be begun.
-    pub fn begin_part(&self, record: &str, shard: u32) -> Result<ParquetFile<Finished>> {
-        let folder = self.path.join("runs").join(format!("record={}", as_folder_name(record)));
-        fs::create_dir_all(&folder).map_err(|e| Error::io("make the folder", &folder, e))?;
-        let columns: &'static [Column<Finished>] = COLUMNS;
-        ParquetFile::create(&folder.join(format!("part-{shard}.parquet")), columns, &self.metadata)
+    /// Where its results come from.
+    pub fn manifest(&self) -> &Manifest {
+        &self.manifest
+    }
+}
+
+/// Keeps processes that would get in each other's way apart; `shared` ones do not.
+fn lock(path: &Path, shared: bool) -> Result<Option<File>> {
+    let name = path.join("lock");
+    let file = File::options().create(true).append(true).open(&name);
+    let file = file.map_err(|e| Error::io("write", &name, e))?;
+    match if shared { file.try_lock_shared() } else { file.try_lock() } {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => {
+            let found = format!("{}, in which another process is at work", path.display());
+            Err(InputError::option("--out", found, "a folder of one's own, or --shard in all of them").into())
+        }
+        // Some shared file systems know no locks; there it is on the user, as everything else works the same.
+        Err(TryLockError::Error(_)) => Ok(None),
     }
 }
 
@@ -72,13 +126,24 @@ fn make_writable(path: &Path) -> Result<()> {
     Ok(())
 }
 
-fn check_earlier(path: &Path, earlier: &Manifest, now: &Manifest) -> Result<()> {
+fn refuse(path: &Path, there: &Manifest, now: &Manifest) -> InputError {
     let folder = path.display();
-    let found = match earlier.plan_sha256 == now.plan_sha256 {
+    let found = match there.plan_sha256 == now.plan_sha256 {
         true => format!("{folder}, which holds results of this plan already"),
-        false => format!("{folder}, which holds another plan ({:?}, {} runs)", earlier.plan, earlier.runs),
+        false => format!("{folder}, which holds another plan ({:?}, {} runs)", there.plan, there.runs),
     };
-    let allowed = "an empty folder, `--force` to replace those results, or `mrbd aggregate` to read them";
+    let allowed = "an empty folder, `--resume` to go on with this plan, `--force` to replace what is there, \
+                   or `mrbd aggregate` to read it";
+    InputError::option("--out", found, allowed)
+}
+
+fn check_same(path: &Path, there: &Manifest, now: &Manifest) -> Result<()> {
+    let differences = differences(there, now);
+    if differences.is_empty() {
+        return Ok(());
+    }
+    let found = format!("{}, which holds another plan: {}", path.display(), differences.join("; "));
+    let allowed = "the folder of the same plan, inputs and version; `--force` replaces what is there";
     Err(InputError::option("--out", found, allowed).into())
 }
 
@@ -88,60 +153,34 @@ fn clear(path: &Path) -> Result<()> {
         Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io("remove earlier results", path, e)),
         _ => Ok(()),
     };
-    let runs = path.join("runs");
-    removed(&runs, fs::remove_dir_all(&runs))?;
-    let derived = ["medians.parquet", "findings.csv"].map(|name| path.join(name));
+    let folders = ["runs", "blocks"].map(|name| path.join(name));
+    folders.iter().try_for_each(|folder| removed(folder, fs::remove_dir_all(folder)))?;
+    let derived = ["checksums.json", "medians.parquet", "findings.csv"].map(|name| path.join(name));
     derived.iter().try_for_each(|file| removed(file, fs::remove_file(file)))
 }
 
 fn check_empty(path: &Path) -> Result<()> {
-    let entries = fs::read_dir(path).map_err(|e| Error::io("read", path, e))?;
-    match entries.into_iter().next() {
-        None => Ok(()),
-        Some(_) => {
-            let found = format!("{}, which holds other files", path.display());
-            Err(InputError::option("--out", found, "an empty folder, or one of the same plan").into())
+    for entry in fs::read_dir(path).map_err(|e| Error::io("read", path, e))? {
+        let name = entry.map_err(|e| Error::io("read", path, e))?.file_name();
+        let name = name.to_string_lossy();
+        // Left by a process that was stopped before it wrote the manifest, or being written by another shard.
+        let ours = name == "lock" || name.starts_with(UNFINISHED) || name.starts_with(".tmp");
+        if !ours {
+            let found = format!("{}, which holds other files ({name})", path.display());
+            return Err(InputError::option("--out", found, "an empty folder, or one of the same plan").into());
         }
     }
+    Ok(())
 }
 
 /// A record's name as part of a folder's name, as Hive and its readers write it: odd bytes as %XX.
-fn as_folder_name(name: &str) -> String {
+pub(super) fn as_folder_name(name: &str) -> String {
     name.bytes()
         .map(|byte| match byte {
             b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'.' | b'_' | b'-' => char::from(byte).to_string(),
             _ => format!("%{byte:02X}"),
         })
         .collect()
-}
-
-/// The Parquet files of a study's runs, sorted by path.
-///
-/// # Errors
-/// An input error for a folder without any.
-pub fn run_files(path: &Path) -> Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for folder in entries(&path.join("runs"))?.into_iter().filter(|entry| entry.is_dir()) {
-        files.extend(
-            entries(&folder)?.into_iter().filter(|file| file.extension().is_some_and(|e| e == "parquet")),
-        );
-    }
-    files.sort();
-    if files.is_empty() {
-        let allowed = "the output folder of `mrbd run`, with runs/record=*/part-*.parquet";
-        return Err(InputError::file(path, "no results", allowed).into());
-    }
-    Ok(files)
-}
-
-fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
-    match fs::read_dir(folder) {
-        Err(e) if e.kind() == ErrorKind::NotFound => Ok(Vec::new()),
-        Err(e) => Err(Error::io("read", folder, e)),
-        Ok(list) => list
-            .map(|entry| entry.map(|entry| entry.path()).map_err(|e| Error::io("read", folder, e)))
-            .collect(),
-    }
 }
 
 #[cfg(test)]
@@ -152,12 +191,5 @@ mod tests {
     fn regress_folder_names_escape_what_hive_escapes() {
         assert_eq!(as_folder_name("20030501_0027_AI.049-EW"), "20030501_0027_AI.049-EW");
         assert_eq!(as_folder_name("a b/c=ü"), "a%20b%2Fc%3D%C3%BC");
-    }
-
-    #[test]
-    fn rejects_a_folder_without_results() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let error = run_files(folder.path()).expect_err("no results");
-        assert_eq!(error.exit_code(), 2);
     }
 }

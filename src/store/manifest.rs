@@ -3,9 +3,7 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
-
+use super::checksum::file_sha256;
 use super::durable::write_durably;
 use super::schema::SCHEMA_VERSION;
 use crate::error::{Error, InputError, Result};
@@ -13,6 +11,7 @@ use crate::ground::SuiteRecord;
 use crate::input::pipeline::{Pipeline, Variant};
 use crate::model::G_M_S2;
 use crate::plan::{Plan, RecordHash};
+use serde::{Deserialize, Serialize};
 
 /// Provenance of an output folder: tool, plan, inputs, assumptions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,6 +26,8 @@ pub struct Manifest {
     pub plan_sha256: String,
     /// Number of runs.
     pub runs: u64,
+    /// Runs stored at once: how the plan is cut into blocks.
+    pub block_runs: u64,
     /// Seed of random draws; none where nothing is drawn.
     pub seed: Option<u64>,
     /// The records.
@@ -79,11 +80,11 @@ pub struct FileNote {
 }
 
 impl Manifest {
-    /// The manifest of a plan, begun now; `suite_path` is the suite file that was read.
+    /// The manifest of a plan stored in blocks of `block_runs`, begun now; `suite_path` is the suite file that was read.
     ///
     /// # Errors
     /// Input errors if an input file is gone; [`Error::Plan`] if the plan is broken.
-    pub fn of(plan: &Plan, pipeline: &Pipeline, suite_path: &Path) -> Result<Self> {
+    pub fn of(plan: &Plan, pipeline: &Pipeline, suite_path: &Path, block_runs: u64) -> Result<Self> {
         let plan_sha256 = plan.sha256().map_err(|e| Error::Plan { position: 0, message: e.to_string() })?;
         let files = [
             ("pipeline", pipeline.path.as_path()),
@@ -98,6 +99,7 @@ impl Manifest {
             plan: plan.name().to_owned(),
             plan_sha256,
             runs: plan.len(),
+            block_runs,
             seed: None,
             suite: SuiteNote::of(plan),
             inputs: files.into_iter().map(|(role, path)| FileNote::of(role, path)).collect::<Result<_>>()?,
@@ -171,13 +173,4 @@ impl FileNote {
     fn of(role: &str, path: &Path) -> Result<Self> {
         Ok(Self { role: role.to_owned(), path: path.display().to_string(), sha256: file_sha256(path)? })
     }
-}
-
-/// SHA-256 of a file's contents, 64 hexadecimal digits.
-///
-/// # Errors
-/// An input error if the file cannot be read.
-pub fn file_sha256(path: &Path) -> Result<String> {
-    let bytes = std::fs::read(path).map_err(|e| InputError::file(path, e.to_string(), "a readable file"))?;
-    Ok(Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect())
 }

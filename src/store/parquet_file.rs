@@ -12,6 +12,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::schema::types::ColumnPath;
 use tempfile::NamedTempFile;
 
+use super::checksum::sha256;
 use super::column::{Column, Encoding, Read};
 use super::durable;
 use crate::error::{Error, Result};
@@ -24,24 +25,29 @@ const ZSTD_LEVEL: i32 = 3;
 
 /// A Parquet file being written; it takes its name only when it is finished.
 pub struct ParquetFile<R: 'static> {
-    path: PathBuf,
+    /// The file or, before it has a name, its folder: for messages.
+    place: PathBuf,
     columns: &'static [Column<R>],
     schema: SchemaRef,
     writer: ArrowWriter<NamedTempFile>,
 }
 
 impl<R> ParquetFile<R> {
-    /// Begins a file of these columns; `metadata` are keys and values about the whole file.
+    /// Begins a file of these columns in a folder; `metadata` are keys and values about the whole file.
     ///
     /// # Errors
     /// [`Error::Io`] or [`Error::Table`] if the file cannot be begun.
-    pub fn create(path: &Path, columns: &'static [Column<R>], metadata: &[(String, String)]) -> Result<Self> {
+    pub fn create_in(
+        folder: &Path,
+        columns: &'static [Column<R>],
+        metadata: &[(String, String)],
+    ) -> Result<Self> {
         let schema = Arc::new(Schema::new(columns.iter().map(Column::field).collect::<Vec<_>>()));
-        let properties = properties(columns, metadata).map_err(|e| Error::table(path, e))?;
-        let file = durable::beside(path)?;
+        let properties = properties(columns, metadata).map_err(|e| Error::table(folder, e))?;
+        let file = durable::unfinished_in(folder)?;
         let writer = ArrowWriter::try_new(file, Arc::clone(&schema), Some(properties))
-            .map_err(|e| Error::table(path, e))?;
-        Ok(Self { path: path.to_path_buf(), columns, schema, writer })
+            .map_err(|e| Error::table(folder, e))?;
+        Ok(Self { place: folder.to_path_buf(), columns, schema, writer })
     }
 
     /// Adds rows.
@@ -51,20 +57,43 @@ impl<R> ParquetFile<R> {
     pub fn write(&mut self, rows: &[R]) -> Result<()> {
         let arrays = self.columns.iter().map(|column| column.array(rows)).collect();
         let batch = RecordBatch::try_new(Arc::clone(&self.schema), arrays);
-        batch
-            .map_err(|e| Error::table(&self.path, e))
-            .and_then(|batch| self.writer.write(&batch).map_err(|e| Error::table(&self.path, e)))
+        self.write_batch(&batch.map_err(|e| Error::table(&self.place, e))?)
     }
 
-    /// Ends the file, brings it to the disk and gives it its name.
+    /// Adds rows that were read from another file of the same columns.
+    ///
+    /// # Errors
+    /// [`Error::Table`] if they cannot be written, or are of other columns.
+    pub fn write_batch(&mut self, rows: &RecordBatch) -> Result<()> {
+        self.writer.write(rows).map_err(|e| Error::table(&self.place, e))
+    }
+
+    /// Ends the file, brings it to the disk and gives it the name that `name` makes of its SHA-256, which is returned.
     ///
     /// # Errors
     /// [`Error::Io`] or [`Error::Table`] if the disk refuses.
-    pub fn finish(self) -> Result<()> {
+    pub fn finish_as(self, name: impl FnOnce(&str) -> PathBuf) -> Result<String> {
         // This writes the last row group and the footer too.
-        let file = self.writer.into_inner().map_err(|e| Error::table(&self.path, e))?;
-        durable::put_in_place(file, &self.path)
+        let file = self.writer.into_inner().map_err(|e| Error::table(&self.place, e))?;
+        let sha256 = file.reopen().and_then(sha256).map_err(|e| Error::io("read back", &self.place, e))?;
+        durable::put_in_place(file, &name(&sha256))?;
+        Ok(sha256)
     }
+}
+
+/// Writes a table as one file, there whole or as it was before; `metadata` as for [`ParquetFile::create_in`].
+///
+/// # Errors
+/// [`Error::Io`] or [`Error::Table`] if the disk refuses.
+pub fn write_table<R>(
+    path: &Path,
+    columns: &'static [Column<R>],
+    metadata: &[(String, String)],
+    rows: &[R],
+) -> Result<()> {
+    let mut file = ParquetFile::create_in(durable::folder_of(path), columns, metadata)?;
+    file.write(rows)?;
+    file.finish_as(|_| path.to_path_buf()).map(|_| ())
 }
 
 fn properties<R>(

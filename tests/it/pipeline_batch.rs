@@ -2,30 +2,19 @@
 
 use std::path::Path;
 
-use indicatif::ProgressBar;
 use mrbd::aggregate::{Case, LEVELS, Measure, Medians, Middle, aggregate};
-use mrbd::batch::{Finished, Tally, run_batch};
+use mrbd::batch::Tally;
+use mrbd::campaign::Shard;
 use mrbd::input::pipeline::Parameter;
 use mrbd::input::survey::Configuration;
 use mrbd::model::{ImpactLaw, Wall};
 use mrbd::plan::{Level, Plan};
 use mrbd::simulate::{Accuracy, Outcome, Response, Shaking};
-use mrbd::store::{COLUMNS, Manifest, OutputFolder, RunSink, run_files};
+use mrbd::store::{COLUMNS, Earlier, run_files};
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder};
 
-use crate::pipeline_support::{SMALL, pipeline, plan, response, stand_in};
-
-/// A manifest without the files it would hash.
-fn manifest(plan: &Plan) -> Manifest {
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let mut pipeline = pipeline(SMALL);
-    for path in [&mut pipeline.path, &mut pipeline.survey, &mut pipeline.coefficients, &mut pipeline.suite] {
-        *path = folder.path().join("input");
-        std::fs::write(&*path, "some input").expect("written");
-    }
-    let suite = pipeline.suite.clone();
-    Manifest::of(plan, &pipeline, &suite).expect("a manifest")
-}
+use crate::campaign::{do_missing, merge, prepare};
+use crate::pipeline_support::{SMALL, plan, response, stand_in};
 
 fn run(plan: &Plan, folder: &Path, threads: usize) -> Tally {
     run_with(plan, folder, threads, &stand_in)
@@ -35,12 +24,9 @@ fn run_with<S>(plan: &Plan, folder: &Path, threads: usize, simulate: &S) -> Tall
 where
     S: Fn(&Wall, &Shaking, Accuracy) -> Response + Sync,
 {
-    let folder = OutputFolder::prepare(folder, &manifest(plan), SMALL, false).expect("an empty folder");
-    let mut sink = RunSink::new(&folder, 1);
-    let keep = |block: Vec<Finished>| sink.keep(&block);
-    let tally =
-        run_batch(plan, 0..plan.len(), threads, simulate, keep, &ProgressBar::hidden()).expect("a batch");
-    sink.finish().expect("files on disk");
+    let folder = prepare(folder, plan, Earlier::Refuse).expect("an empty folder");
+    let tally = do_missing(plan, &folder, (Shard::WHOLE, threads), simulate).expect("a batch");
+    merge(&folder).expect("files on disk");
     tally
 }
 
@@ -203,9 +189,7 @@ fn regress_medians_keep_the_order_and_the_assumptions_of_the_plan() {
 
 #[test]
 fn rejects_folders_that_hold_something_else() {
-    let prepare = |folder: &Path, plan: &Plan, replace| {
-        OutputFolder::prepare(folder, &manifest(plan), SMALL, replace).map(|_| ())
-    };
+    let prepare = |folder: &Path, plan: &Plan, earlier| prepare(folder, plan, earlier).map(|_| ());
     let refused = |result: mrbd::Result<()>, why: &str| {
         let error = result.expect_err("must be refused");
         assert!(error.to_string().contains(why), "{error}");
@@ -213,16 +197,16 @@ fn rejects_folders_that_hold_something_else() {
     };
     let folder = tempfile::tempdir().expect("a temporary folder");
     let (one, two) = (plan(SMALL, 1), plan(SMALL, 2));
-    prepare(folder.path(), &one, false).expect("an empty folder");
-    refused(prepare(folder.path(), &one, false), "holds results of this plan already");
-    refused(prepare(folder.path(), &two, false), "holds another plan");
+    prepare(folder.path(), &one, Earlier::Refuse).expect("an empty folder");
+    refused(prepare(folder.path(), &one, Earlier::Refuse), "holds results of this plan already");
+    refused(prepare(folder.path(), &two, Earlier::Refuse), "holds another plan");
     run(&one, &folder.path().join("x"), 1);
-    prepare(&folder.path().join("x"), &two, true).expect("an earlier study, replaced");
+    prepare(&folder.path().join("x"), &two, Earlier::Replace).expect("an earlier study, replaced");
     assert!(run_files(&folder.path().join("x")).is_err(), "nothing of the earlier study is left");
 
     let foreign = tempfile::tempdir().expect("a temporary folder");
     std::fs::write(foreign.path().join("thesis.txt"), "years of work").expect("written");
-    refused(prepare(foreign.path(), &one, true), "holds other files");
+    refused(prepare(foreign.path(), &one, Earlier::Replace), "holds other files");
     assert_eq!(std::fs::read_dir(foreign.path()).expect("readable").count(), 1, "nothing was written");
-    refused(prepare(&foreign.path().join("thesis.txt/out"), &one, false), "cannot be written");
+    refused(prepare(&foreign.path().join("thesis.txt/out"), &one, Earlier::Refuse), "cannot be written");
 }

@@ -132,7 +132,7 @@ fn rejects_folders_without_results_and_damaged_ones() {
     fs::write(&part, &whole[..whole.len() / 2]).expect("damaged");
     refused("outputs/small", "found");
     fs::remove_dir_all(&runs).expect("removed");
-    refused("outputs/small", "no results");
+    refused("outputs/small", "part-1.parquet");
     fs::write(folder.path().join("outputs/small/manifest.json"), "{}").expect("damaged");
     refused("outputs/small", "manifest.json");
 }

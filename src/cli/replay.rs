@@ -1,0 +1,158 @@
+//! `mrbd replay`: one run of a study again, by itself, with its history.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::{output, simulate};
+use crate::aggregate::stored_numbers;
+use crate::batch::{Finished, run_one};
+use crate::error::{Error, InputError, Result};
+use crate::input::pipeline::Pipeline;
+use crate::plan::{Plan, Run};
+use crate::simulate::{Accuracy, FREE_RELEASE_STEP_S, History, Shaking, simulate_observed};
+use crate::store::{COLUMNS, Manifest, OutputFolder, Read, file_sha256, write_history};
+
+/// Results that are compared with what is stored, bit by bit: each depends on the whole run.
+const COMPARED: [&str; 4] = ["theta1_max_rad", "theta2_max_rad", "end_time_s", "energy_residual"];
+
+/// Runs one run of a study again from the plan in its folder, prints it and compares it with what is stored.
+///
+/// Examples:
+///   mrbd replay outputs/sweep 1234 --history run_1234.csv
+///   mrbd replay outputs/sweep 6a5179caaf0f4f2b --json
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub struct ReplayCommand {
+    /// Output folder of `mrbd run`.
+    folder: PathBuf,
+    /// Position of the run in the plan (column `run`), or its id.
+    run: String,
+    /// Write the rotations at every sample to a .csv or .parquet file.
+    #[arg(long, value_name = "FILE")]
+    history: Option<PathBuf>,
+    /// Print the results as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+impl ReplayCommand {
+    /// Runs the command.
+    ///
+    /// # Errors
+    /// Input errors for a folder without a study, inputs that changed since, or a run the study has not;
+    /// [`Error::Differs`] if other bits come out than are stored; [`Error::Run`] if the run fails.
+    pub fn execute(self) -> Result<()> {
+        let folder = OutputFolder::look(&self.folder)?;
+        let plan = plan_of(&folder)?;
+        let run = self.find(&plan)?;
+        let position = run.position;
+        let finished = self.rerun(run)?;
+        match &finished.response {
+            Some(response) if self.json => {
+                output::print(&format!("{:#}", simulate::as_json(&finished.run.wall, response)))?;
+            }
+            Some(response) => output::print(&simulate::summary(&finished.run.wall, response))?,
+            None => {}
+        }
+        match finished.failure {
+            Some(reason) => {
+                let time_s = finished.response.map_or(0.0, |response| response.end_time_s);
+                Err(Error::Run { time_s, reason })
+            }
+            None => compare(folder.path(), position, &finished),
+        }
+    }
+
+    fn find(&self, plan: &Plan) -> Result<Run> {
+        let broken =
+            |position, e: crate::plan::ImpossibleFacade| Error::Plan { position, message: e.to_string() };
+        let run = |position| plan.run(position).map_err(|e| broken(position, e));
+        // An id has 16 digits, more than any position.
+        if let (true, Ok(position)) = (self.run.len() < 16, self.run.parse::<u64>())
+            && position < plan.len()
+        {
+            return run(position);
+        }
+        for position in 0..plan.len() {
+            let run = run(position)?;
+            if run.id == self.run {
+                return Ok(run);
+            }
+        }
+        let allowed = format!("a position from 0 to {}, or an id of the study", plan.len() - 1);
+        Err(InputError::option("RUN", format!("{:?}", self.run), allowed).into())
+    }
+
+    fn rerun(&self, run: Run) -> Result<Finished> {
+        let Some(path) = &self.history else { return Ok(run_one(run, &crate::simulate::simulate)) };
+        let writer = write_history(path)?;
+        let step_s = run.shaking().horizontal.map_or(FREE_RELEASE_STEP_S, |motion| motion.step_s());
+        let history = std::cell::RefCell::new(History::new(step_s));
+        let observed = |wall: &crate::model::Wall, shaking: &Shaking, accuracy: Accuracy| {
+            simulate_observed(wall, shaking, accuracy, &mut *history.borrow_mut())
+        };
+        let finished = run_one(run, &observed);
+        writer.finish(&history.into_inner())?;
+        Ok(finished)
+    }
+}
+
+/// The plan of a study, from the copy of its pipeline and the inputs that the manifest names.
+fn plan_of(folder: &OutputFolder) -> Result<Plan> {
+    let manifest = folder.manifest();
+    let path = folder.path().join("plan.toml");
+    let text = std::fs::read_to_string(&path)
+        .map_err(|e| InputError::file(&path, e.to_string(), "the pipeline of the study"))?;
+    let mut pipeline = Pipeline::parse(&path, text)?;
+    pipeline.survey = unchanged(manifest, "survey")?;
+    pipeline.coefficients = unchanged(manifest, "coefficients")?;
+    pipeline.suite = unchanged(manifest, "suite")?;
+    let plan = Plan::load(&pipeline, None)?;
+    let sha256 = plan.sha256().map_err(|e| Error::Plan { position: 0, message: e.to_string() })?;
+    match sha256 == manifest.plan_sha256 {
+        true => Ok(plan),
+        false => {
+            let found = format!("the plan {sha256} of records that changed");
+            Err(InputError::file(&pipeline.suite, found, manifest.plan_sha256.clone()).into())
+        }
+    }
+}
+
+/// Where an input lies, if it is still what the study read.
+fn unchanged(manifest: &Manifest, role: &str) -> Result<PathBuf> {
+    let Some(note) = manifest.inputs.iter().find(|note| note.role == role) else {
+        return Err(
+            InputError::option("DIR", format!("a manifest without {role}"), "one of `mrbd run`").into()
+        );
+    };
+    let path = PathBuf::from(&note.path);
+    let found = file_sha256(&path)?;
+    match found == note.sha256 {
+        true => Ok(path),
+        false => {
+            let allowed = format!("the {role} the study read, SHA-256 {}", note.sha256);
+            Err(InputError::file(&path, format!("a file that changed, SHA-256 {found}"), allowed).into())
+        }
+    }
+}
+
+/// Says whether the run gave the bits that are stored; a run that is not stored yet has none.
+fn compare(folder: &Path, position: u64, finished: &Finished) -> Result<()> {
+    let Some(stored) = stored_numbers(folder, position, COMPARED)? else {
+        eprintln!("mrbd: run {position} ({}) is not stored yet", finished.run.id);
+        return Ok(());
+    };
+    for (name, stored) in COMPARED.into_iter().zip(stored) {
+        let column = COLUMNS.iter().find(|column| column.name == name);
+        let now = column.and_then(|column| match column.read {
+            Read::Number(read) => read(finished),
+            _ => None,
+        });
+        if now.map(f64::to_bits) != stored.map(f64::to_bits) {
+            return Err(Error::Differs { position, column: name, stored, now });
+        }
+    }
+    eprintln!("mrbd: run {position} ({}): the same bits as stored", finished.run.id);
+    Ok(())
+}

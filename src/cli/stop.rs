@@ -1,0 +1,28 @@
+//! Stopping on request: Ctrl-C, and the signals a scheduler sends before it ends a job.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+
+use crate::error::{Error, Result};
+
+/// Exit code of a process that was asked to stop twice, as shells count an interrupt: 128 + 2.
+const AT_ONCE: i32 = 130;
+
+/// A flag that is set when the process is asked to stop; asked again, it ends at once.
+///
+/// # Errors
+/// [`Error::Io`] if the system has no such signals.
+pub(super) fn on_signals() -> Result<Arc<AtomicBool>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        // In this order: the first signal finds the flag unset, sets it, and the second ends the process.
+        flag::register_conditional_shutdown(signal, AT_ONCE, Arc::clone(&stop))
+            .and_then(|_| flag::register(signal, Arc::clone(&stop)))
+            .map_err(|e| Error::io("watch for signals", Path::new("process"), e))?;
+    }
+    Ok(stop)
+}
