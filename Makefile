@@ -1,9 +1,7 @@
 # The main jobs. Everything they need beside the Rust toolchain and Debian's build tools is built here.
 
-SUITE ?=
-SHARED_SUITE := ../shared/records/natural7/suite.toml
-# The suite the sweep runs on: SUITE=FILE, else the records beside the repository, where there are any.
-CHOSEN_SUITE := $(or $(SUITE),$(wildcard inputs/records/emilia7/suite.toml),$(wildcard $(SHARED_SUITE)))
+# The suite of accelerograms the sweep runs on; any other by SUITE=FILE.
+SUITE ?= inputs/records/emilia7/suite.toml
 
 include make/records.mk
 include make/examples.mk
@@ -14,16 +12,10 @@ include make/examples.mk
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
 
-sweep: ## run the parametric sweep of the paper, aggregate it and print the medians and the checked conclusions
-ifeq ($(CHOSEN_SUITE),)
-	@echo "make sweep: no suite of accelerograms: run 'make sweep SUITE=path/to/suite.toml'" >&2
-	@echo "(a suite lists records with file, step, unit and scale; see inputs/records/README.md)" >&2
-	@exit 2
-else
-	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(CHOSEN_SUITE) --out outputs/sweep --force
+sweep: ## run the parametric sweep of the paper, print medians and checked conclusions, make its page
+	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(SUITE) --out outputs/sweep --force
 	@echo "The page of the results:"
 	@cargo run --release --locked --quiet --bin mrbd -- report outputs/sweep --site inputs/site_mirandola.toml
-endif
 
 check: ## run a smaller sweep and compare its medians with the accepted ones
 	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null

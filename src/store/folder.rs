@@ -48,21 +48,24 @@ impl OutputFolder {
     /// [`Error::Io`] if the disk refuses.
     pub fn prepare(path: &Path, manifest: &Manifest, pipeline_text: &str, earlier: Earlier) -> Result<Self> {
         make_writable(path)?;
-        let there = Manifest::read(&path.join("manifest.json"))?;
+        let name = path.join("manifest.json");
+        // What is to be replaced need not be understood: another version may have written it.
+        let replaces = earlier == Earlier::Replace && Manifest::is_any_version(&name)?;
+        let there = if replaces { None } else { Manifest::read(&name)? };
         match (&there, earlier) {
-            (None, _) => check_empty(path)?,
+            _ if replaces => {}
             (Some(there), Earlier::Refuse) => return Err(refuse(path, there, manifest).into()),
             (Some(there), Earlier::Share | Earlier::Resume) => check_same(path, there, manifest)?,
-            (Some(_), Earlier::Replace) => {}
+            _ => check_empty(path)?,
         }
         let lock = lock(path, earlier == Earlier::Share)?;
-        if there.is_none() || earlier == Earlier::Replace {
+        if there.is_none() {
             clear(path)?;
             manifest.write(&path.join("manifest.json"))?;
         }
         let copy = path.join("plan.toml");
         // It lacks after a kill between the two as well.
-        if there.is_none() || earlier == Earlier::Replace || !copy.is_file() {
+        if there.is_none() || !copy.is_file() {
             write_durably(&copy, pipeline_text.as_bytes())?;
         }
         Ok(Self { path: path.to_path_buf(), manifest: manifest.clone(), _lock: lock })

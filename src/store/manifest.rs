@@ -109,6 +109,22 @@ impl Manifest {
         })
     }
 
+    /// Whether a file is a manifest of this tool, of whatever version; not where there is none.
+    ///
+    /// # Errors
+    /// An input error for a file that is something else.
+    pub fn is_any_version(path: &Path) -> Result<bool> {
+        let bytes = match std::fs::read(path) {
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(false),
+            read => read.map_err(|e| Error::io("read", path, e))?,
+        };
+        let manifest = serde_json::from_slice::<serde_json::Value>(&bytes).unwrap_or_default();
+        if manifest["plan_sha256"].is_string() && manifest["tool_version"].is_string() {
+            return Ok(true);
+        }
+        Err(InputError::file(path, "no manifest of a study", "the manifest of a study").into())
+    }
+
     /// Reads a manifest; none where there is none.
     ///
     /// # Errors

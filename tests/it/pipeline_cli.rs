@@ -84,6 +84,26 @@ fn regress_a_study_runs_from_pipeline_to_findings() {
 }
 
 #[test]
+fn regress_force_replaces_results_of_another_version_and_nothing_else() {
+    let folder = study(SMALL);
+    let told = stdout(&mrbd(folder.path(), &["run", "study.toml"]));
+    let manifest = folder.path().join("outputs/small/manifest.json");
+    let older =
+        fs::read_to_string(&manifest).expect("a manifest").replace("\"schema_version\"", "\"schema\"");
+    fs::write(&manifest, older).expect("written");
+    let refused = mrbd(folder.path(), &["run", "study.toml"]);
+    assert_eq!(refused.status.code(), Some(2), "what is not understood is not overwritten unasked");
+    assert_eq!(stdout(&mrbd(folder.path(), &["run", "study.toml", "--force"])), told);
+
+    fs::write(&manifest, "{\"name\": \"somebody else's\"}").expect("written");
+    let refused = mrbd(folder.path(), &["run", "study.toml", "--force"]);
+    let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert_eq!(refused.status.code(), Some(2), "{message}");
+    assert!(message.contains("manifest.json"), "{message}");
+    assert!(folder.path().join("outputs/small/medians.parquet").is_file(), "nothing is removed");
+}
+
+#[test]
 fn regress_a_dry_run_lists_every_run_and_writes_nothing() {
     let folder = study(SMALL);
     let before = fs::read_dir(folder.path()).expect("readable").count();
