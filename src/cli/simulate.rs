@@ -15,7 +15,8 @@ use crate::store::write_history;
 
 /// Simulate one wall under one record, or its free release.
 ///
-/// Without --record the wall is released from the rotations of [initial] and moves freely for --tail seconds.
+/// Without --record the wall is released from the rotations of [initial] and
+/// moves freely for --tail seconds.
 ///
 /// Examples:
 ///   mrbd simulate inputs/walls/table_wall.toml --record gilroy.AT2
