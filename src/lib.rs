@@ -50,6 +50,9 @@
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
 //! | [`check`] | medians and accepted medians | what moved, beyond a tolerance that says where it comes from |
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
+//! | [`calibrate`] | shaking-table tests | coefficients of impact, and what the tests can tell of them |
+//! | [`comparison`] | one wall as three models | which rotates most under the same records (Fig. 9) |
+//! | [`overturning`] | a wall and a shape of pulse | the amplitudes and frequencies that overturn it |
 //! | [`report`] | result folders, runs | pages and pictures |
 //! | [`cli`] | the command line | the above, and messages for people |
 
