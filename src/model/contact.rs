@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::rocking::State;
+
 /// One of the two joints of the wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -154,6 +156,13 @@ impl Contact {
     /// The state of a wall with these rotations: open where an angle is not zero.
     pub fn of_rotations(theta: [f64; 2]) -> Self {
         Contact { ground: Pivot::of_angle(theta[0]), crack: Pivot::of_angle(theta[1] - theta[0]) }
+    }
+
+    /// The state of a wall with these rotations; where an angle is zero, the joint opens as its velocity says.
+    pub fn of_state(state: &State) -> Self {
+        let [now, soon] = [state.theta, state.omega].map(Self::of_rotations);
+        let later = |now: Pivot, soon: Pivot| if now.is_closed() { soon } else { now };
+        Contact { ground: later(now.ground, soon.ground), crack: later(now.crack, soon.crack) }
     }
 }
 

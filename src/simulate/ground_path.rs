@@ -1,17 +1,19 @@
 //! The ground acceleration as the wall sees it: linear pieces, falling to zero within a step after the last sample.
 
+use std::sync::Arc;
+
 use super::Shaking;
 use crate::model::Vector;
 
 /// Step of a free release, which has no record: its history is written at this step, s.
 pub const FREE_RELEASE_STEP_S: f64 = 0.005;
 
-/// Piecewise linear ground acceleration.
+/// Piecewise linear ground acceleration; cheap to clone, for the samples are shared.
 #[derive(Debug, Clone)]
 pub(crate) struct GroundPath {
     step_s: f64,
     /// Samples, one zero appended; empty for a free release.
-    samples: Vec<Vector>,
+    samples: Arc<[Vector]>,
     end_s: f64,
 }
 
@@ -35,7 +37,8 @@ impl Piece {
 impl GroundPath {
     pub fn new(shaking: &Shaking) -> Self {
         let Some(horizontal) = &shaking.horizontal else {
-            return Self { step_s: FREE_RELEASE_STEP_S, samples: Vec::new(), end_s: shaking.tail_s };
+            let samples = Arc::new([]);
+            return Self { step_s: FREE_RELEASE_STEP_S, samples, end_s: shaking.tail_s };
         };
         let x = horizontal.acceleration_m_s2();
         let y = shaking.vertical.as_ref().map_or(&[][..], |v| v.acceleration_m_s2());
@@ -53,6 +56,29 @@ impl GroundPath {
     /// End of the run, s.
     pub fn end_s(&self) -> f64 {
         self.end_s
+    }
+
+    /// The same path up to another end of the run.
+    #[must_use]
+    pub fn until(&self, end_s: f64) -> Self {
+        Self { end_s, ..self.clone() }
+    }
+
+    /// The piece that a time lies in, and the offset in it, s.
+    pub fn place(&self, time_s: f64) -> (usize, f64) {
+        let last = self.samples.len().max(1) - 1;
+        let mut k = ((time_s / self.step_s) as usize).min(last);
+        // The quotient may round up to the next piece.
+        if self.start_s(k) > time_s {
+            k -= 1;
+        }
+        (k, time_s - self.start_s(k))
+    }
+
+    /// Ground acceleration at a time, m/s²; zero after the end.
+    pub fn at(&self, time_s: f64) -> Vector {
+        let (k, offset_s) = self.place(time_s);
+        self.piece(k).map_or(Vector::default(), |piece| piece.at(offset_s))
     }
 
     /// Start of the `k`-th piece, s.

@@ -34,6 +34,7 @@ pub struct HistoryRow {
 /// Rotations and patterns at every sample, from the start to the end of the run or the collapse.
 #[derive(Debug, Clone)]
 pub struct History {
+    start_s: f64,
     step_s: f64,
     /// The rows, one a sample.
     pub rows: Vec<HistoryRow>,
@@ -45,7 +46,12 @@ const NEAR_END: f64 = 1e-6;
 impl History {
     /// An empty history at a step in seconds.
     pub fn new(step_s: f64) -> Self {
-        Self { step_s, rows: Vec::new() }
+        Self::starting(0.0, step_s)
+    }
+
+    /// An empty history of a window, its first row at a time, s.
+    pub fn starting(start_s: f64, step_s: f64) -> Self {
+        Self { start_s, step_s, rows: Vec::new() }
     }
 
     /// Time between rows, s.
@@ -54,7 +60,7 @@ impl History {
     }
 
     fn next_s(&self) -> f64 {
-        self.rows.len() as f64 * self.step_s
+        self.start_s + self.rows.len() as f64 * self.step_s
     }
 
     fn push(&mut self, theta_rad: Pair, contact: Contact) {

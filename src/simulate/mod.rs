@@ -6,11 +6,13 @@ mod history;
 mod response;
 mod rest;
 mod run;
+mod simulator;
 mod tally;
 
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
 pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
+pub use simulator::{Simulator, Start};
 
 use crate::ground::Accelerogram;
 use crate::model::Wall;
@@ -51,5 +53,5 @@ pub fn simulate_observed(
     accuracy: Accuracy,
     observer: &mut impl Observer,
 ) -> Response {
-    run::Run::new(wall, shaking, accuracy, observer).go()
+    Simulator::new(wall, shaking, accuracy).run(observer)
 }

@@ -5,17 +5,12 @@ use super::ground_path::{GroundPath, Piece};
 use super::history::Observer;
 use super::response::{Outcome, Peak, Response};
 use super::rest::RestLimits;
+use super::simulator::{Placed, Simulator};
 use super::tally::Tally;
-use super::{Accuracy, Shaking};
 use crate::model::{
-    Aftermath, Contact, Joint, MechanicsError, Pair, RockingWall, State, Touching, Vector, Wall, opening,
+    Aftermath, Contact, Joint, MechanicsError, Pair, RockingWall, State, Touching, Vector, opening,
 };
-use crate::solver::{Controller, DormandPrince, ErrorScale, Point, Quintic, Rate, STAGES, Step};
-
-/// Error of a step allowed, as a share of the error of a run, because impacts magnify what is there before them. With
-/// it, well-conditioned runs at tolerances of 1e-4 to 1e-8 end within a tenth of their tolerance (`convergence` in the
-/// tests); on most walls the record's own step is shorter than this asks for, so it costs little.
-const STEP_SHARE: f64 = 1e-3;
+use crate::solver::{Controller, DormandPrince, Point, Quintic, Rate, STAGES, Step};
 
 /// An opening is placed this share of a sample step after the instant its corner force vanishes, so that the joint
 /// does accelerate apart; it moves nothing by more than roundings.
@@ -59,30 +54,27 @@ enum Stop {
 }
 
 impl<'a, O: Observer> Run<'a, O> {
-    pub fn new(wall: &Wall, shaking: &Shaking, accuracy: Accuracy, observer: &'a mut O) -> Self {
-        let rocking = RockingWall::new(wall);
-        let ground = GroundPath::new(shaking);
-        let scale = ErrorScale { position: wall.alpha_i_rad(), time_s: rocking.response_time_s() };
-        let controller = Controller::new(scale, STEP_SHARE * accuracy.tolerance, ground.step_s());
+    /// A run that starts as it is placed and ends where its ground path does.
+    pub fn new(simulator: &Simulator, placed: &Placed, ground: GroundPath, observer: &'a mut O) -> Self {
         Self {
-            rest: RestLimits::new(&rocking),
-            collapse_rad: wall.collapse_rotation_rad(),
-            controller,
-            tally: Tally::new(rocking.joints().count()),
+            rest: simulator.rest.clone(),
+            collapse_rad: simulator.wall.wall().collapse_rotation_rad(),
+            controller: simulator.controller,
+            tally: Tally::new(simulator.wall.joints().count()),
             observer,
-            contact: Contact::REST,
-            now: Point { position: wall.parameters().initial_rotation_rad, ..Point::default() },
+            contact: placed.contact,
+            now: Point { position: placed.state.theta, velocity: placed.state.omega, ..Point::default() },
             quadrature_rate: [0.0; 2],
             corner_force: None,
             top_velocity_m_s: 0.0,
             stalled: 0,
-            wall: rocking,
+            wall: simulator.wall.clone(),
             ground,
         }
     }
 
-    pub fn go(mut self) -> Response {
-        let outcome = match self.start().and_then(|()| self.all_pieces()) {
+    pub fn go(mut self, start_s: f64) -> Response {
+        let outcome = match self.start(start_s).and_then(|()| self.all_pieces(start_s)) {
             Ok(()) => Outcome::Stood,
             Err(Stop::Collapsed { time_s }) => Outcome::Collapsed { time_s },
             Err(Stop::Failed { time_s, reason }) => Outcome::Failed { time_s, reason },
@@ -94,18 +86,29 @@ impl<'a, O: Observer> Run<'a, O> {
         State { theta: self.now.position, omega: self.now.velocity }
     }
 
-    fn start(&mut self) -> Result<(), Stop> {
-        let ground = self.ground.piece(0).map_or(Vector::default(), |piece| piece.at(0.0));
-        let released = Contact::of_rotations(self.now.position);
+    fn start(&mut self, start_s: f64) -> Result<(), Stop> {
+        let ground = self.ground.at(start_s);
+        let released = self.contact;
         self.tally.energy.initial_j = self.wall.energy_j(released, &self.state());
         self.tally.energy.passed_through_j = self.tally.energy.initial_j.abs();
-        self.tally.rotations(0.0, &Quintic::new(&self.now, &self.now, 0.0));
-        self.tally.top(self.wall.top_displacement_m(released, self.now.position), 0.0);
+        self.tally.rotations(start_s, &Quintic::new(&self.now, &self.now, 0.0));
+        self.tally.top(self.wall.top_displacement_m(released, self.now.position), start_s);
         if (0..2).any(|i| self.now.position[i].abs() >= self.collapse_rad[i]) {
-            self.contact = released;
-            return Err(Stop::Collapsed { time_s: 0.0 });
+            return Err(Stop::Collapsed { time_s: start_s });
         }
-        self.enter(released, ground, 0.0)
+        if self.closes_at_once() {
+            return self.strike(Touching::closed_in(released), ground, start_s);
+        }
+        self.enter(released, ground, start_s)
+    }
+
+    /// Whether an open joint without a gap does not separate: only where a start was given so.
+    fn closes_at_once(&self) -> bool {
+        self.wall.joints().any(|joint| {
+            let side = self.contact.at(joint).sign();
+            let [gap, rate] = [self.now.position, self.now.velocity].map(|pair| side * opening(joint, pair));
+            side != 0.0 && gap == 0.0 && rate <= 0.0
+        })
     }
 
     /// Goes on in the contact state that carries the joint forces, opening joints where it must.
@@ -125,10 +128,9 @@ impl<'a, O: Observer> Run<'a, O> {
         Ok(())
     }
 
-    fn all_pieces(&mut self) -> Result<(), Stop> {
-        let mut k = 0;
+    fn all_pieces(&mut self, start_s: f64) -> Result<(), Stop> {
+        let (mut k, mut offset_s) = self.ground.place(start_s);
         while let Some(piece) = self.ground.piece(k) {
-            let mut offset_s = 0.0;
             while offset_s < piece.length_s {
                 offset_s = match self.contact {
                     Contact::REST => self.stand(&piece, offset_s)?,
@@ -136,6 +138,7 @@ impl<'a, O: Observer> Run<'a, O> {
                 };
             }
             k += 1;
+            offset_s = 0.0;
             if self.contact == Contact::REST {
                 k = self.stand_through(k);
             }
@@ -373,7 +376,7 @@ impl<'a, O: Observer> Run<'a, O> {
         reached && sign * opening(joint, self.now.velocity) <= 0.0
     }
 
-    fn response(mut self, outcome: Outcome) -> Response {
+    pub fn response(mut self, outcome: Outcome) -> Response {
         let end_time_s = match outcome {
             Outcome::Stood => self.ground.end_s(),
             Outcome::Collapsed { time_s } | Outcome::Failed { time_s, .. } => time_s,

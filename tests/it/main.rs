@@ -42,3 +42,4 @@ mod symmetry;
 mod traps;
 mod verification;
 mod walls;
+mod windows;

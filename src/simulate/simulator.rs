@@ -1,0 +1,128 @@
+//! A wall and a shaking made ready once, for the whole run or for many windows of it.
+
+use super::ground_path::GroundPath;
+use super::history::Observer;
+use super::response::{Outcome, Response};
+use super::rest::RestLimits;
+use super::run::Run;
+use super::{Accuracy, Shaking};
+use crate::model::{Contact, Pivot, RockingWall, State, Wall};
+use crate::solver::{Controller, ErrorScale};
+
+/// Error of a step allowed, as a share of the error of a run, because impacts magnify what is there before them. With
+/// it, well-conditioned runs at tolerances of 1e-4 to 1e-8 end within a tenth of their tolerance (`convergence` in the
+/// tests); on most walls the record's own step is shorter than this asks for, so it costs little.
+const STEP_SHARE: f64 = 1e-3;
+
+/// From where a window of a run starts.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Start {
+    /// Time in the record, s, 0 or more.
+    pub time_s: f64,
+    /// Rotations (rad) and angular velocities (rad/s) of the bodies; any values, such as measured ones.
+    pub state: State,
+    /// Contact state; none: the one that the rotations, and where they are zero the velocities, tell
+    /// ([`Contact::of_state`]).
+    ///
+    /// A state that does not fit is moved onto it: in pattern 3 both bodies take their mean, in pattern 4 the lower
+    /// body stands, and a joint open on the other side is about to open or strikes at once.
+    pub contact: Option<Contact>,
+    /// Plastic displacement of a yielding spring at the top, m; a wall without one has no use for it.
+    pub plastic_displacement_m: f64,
+}
+
+/// A wall and a shaking made ready: their equations, limits and samples are worked out once, and a window costs little
+/// more than its steps. Windows do not depend on one another.
+#[derive(Debug, Clone)]
+pub struct Simulator {
+    pub(super) wall: RockingWall,
+    pub(super) rest: RestLimits,
+    pub(super) controller: Controller,
+    ground: GroundPath,
+}
+
+/// A start moved onto its contact state.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Placed {
+    pub contact: Contact,
+    pub state: State,
+}
+
+impl Simulator {
+    /// Makes a wall and a shaking ready.
+    pub fn new(wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Self {
+        Self::over(wall, GroundPath::new(shaking), accuracy)
+    }
+
+    /// Another wall under the same shaking, whose samples are shared and not copied.
+    #[must_use]
+    pub fn with_wall(&self, wall: &Wall, accuracy: Accuracy) -> Self {
+        Self::over(wall, self.ground.clone(), accuracy)
+    }
+
+    fn over(wall: &Wall, ground: GroundPath, accuracy: Accuracy) -> Self {
+        let rocking = RockingWall::new(wall);
+        let scale = ErrorScale { position: wall.alpha_i_rad(), time_s: rocking.response_time_s() };
+        let controller = Controller::new(scale, STEP_SHARE * accuracy.tolerance, ground.step_s());
+        Self { rest: RestLimits::new(&rocking), controller, wall: rocking, ground }
+    }
+
+    /// The wall, ready to move.
+    pub fn wall(&self) -> &RockingWall {
+        &self.wall
+    }
+
+    /// End of the whole run: that of the record and of the free motion after it, s.
+    pub fn end_s(&self) -> f64 {
+        self.ground.end_s()
+    }
+
+    /// The whole run, from the wall's initial rotations at rest.
+    pub fn run(&self, observer: &mut impl Observer) -> Response {
+        let theta = self.wall.wall().parameters().initial_rotation_rad;
+        let start = Start { time_s: 0.0, state: State { theta, omega: [0.0; 2] }, ..Start::default() };
+        self.run_from(&start, self.end_s(), observer)
+    }
+
+    /// A window of a run: from a given start to `end_s`, or to a collapse. A window after the record is free motion.
+    ///
+    /// A start that is no time from 0 on with finite rotations and velocities gives a run that failed.
+    pub fn run_from(&self, start: &Start, end_s: f64, observer: &mut impl Observer) -> Response {
+        let placed = self.placed(start);
+        let run = Run::new(self, &placed, self.ground.until(end_s), observer);
+        let State { theta, omega } = start.state;
+        if theta.iter().chain(&omega).all(|x| x.is_finite())
+            && start.time_s.is_finite()
+            && start.time_s >= 0.0
+        {
+            return run.go(start.time_s);
+        }
+        let reason = format!("no time and state to start from: {start:?}");
+        run.response(Outcome::Failed { time_s: start.time_s, reason })
+    }
+
+    /// Moves a start onto its contact state.
+    fn placed(&self, start: &Start) -> Placed {
+        let mut contact = start.contact.unwrap_or_else(|| Contact::of_state(&start.state));
+        if !self.wall.wall().is_cracked() {
+            contact.crack = Pivot::Closed;
+        }
+        let onto = |[lower, upper]: [f64; 2]| match contact.pattern_number() {
+            None => [0.0, 0.0],
+            Some(3) if lower != upper => [0.5 * (lower + upper); 2],
+            Some(4) => [0.0, upper],
+            _ => [lower, upper],
+        };
+        let mut state = State { theta: onto(start.state.theta), omega: onto(start.state.omega) };
+        let [theta1, theta2] = &mut state.theta;
+        if contact.ground.sign() * *theta1 < 0.0 {
+            // The mean of pattern 3 turns as one.
+            *theta2 = if contact.crack.is_closed() { 0.0 } else { *theta2 };
+            *theta1 = 0.0;
+        }
+        if contact.crack.sign() * (*theta2 - *theta1) < 0.0 {
+            *theta2 = *theta1;
+        }
+        Placed { contact, state }
+    }
+}
