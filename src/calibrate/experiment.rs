@@ -21,6 +21,8 @@ pub struct Experiment {
     pub tests: Vec<Test>,
     /// The settings.
     pub settings: CalibrateTable,
+    /// What was read, each file with its role.
+    pub files: Vec<(String, PathBuf)>,
     /// SHA-256 of everything that decides the result.
     pub request: String,
 }
@@ -38,8 +40,9 @@ impl Experiment {
         let tests =
             file.tests.iter().map(|table| Test::load(folder, table, &nominal)).collect::<Result<Vec<_>>>()?;
         let settings = CalibrateTable { seed: seed.unwrap_or(file.calibrate.seed), ..file.calibrate.clone() };
-        let request = request(path, &file, &settings)?;
-        Ok(Self { path: path.to_path_buf(), space, tests, settings, request })
+        let files = files(path, &file);
+        let request = request(&files, &settings)?;
+        Ok(Self { path: path.to_path_buf(), space, tests, settings, files, request })
     }
 
     /// Numbers of the tests that the search sees.
@@ -53,20 +56,27 @@ impl Experiment {
     }
 }
 
+/// Every file an experiment reads.
+fn files(path: &Path, file: &ExperimentFile) -> Vec<(String, PathBuf)> {
+    let beside = |name: &Path| path.parent().unwrap_or(Path::new("")).join(name);
+    let mut files =
+        vec![("experiment".to_owned(), path.to_path_buf()), ("wall".to_owned(), beside(&file.wall))];
+    files.extend(file.calibrate.coefficients.iter().map(|name| ("coefficients".to_owned(), beside(name))));
+    for test in &file.tests {
+        files.push((format!("record of {}", test.name), beside(&test.record)));
+        files.push((format!("measured in {}", test.name), beside(&test.measured)));
+    }
+    files
+}
+
 /// Identifies the inputs: program, settings, and the bytes of every file.
-fn request(path: &Path, file: &ExperimentFile, settings: &CalibrateTable) -> Result<String> {
-    let folder = path.parent().unwrap_or(Path::new(""));
+fn request(files: &[(String, PathBuf)], settings: &CalibrateTable) -> Result<String> {
     let mut hash = Sha256::new();
     hash.update(env!("CARGO_PKG_VERSION"));
     hash.update(format!("{settings:?}"));
-    let mut names = vec![path.to_path_buf(), folder.join(&file.wall)];
-    names.extend(settings.coefficients.iter().map(|name| folder.join(name)));
-    for test in &file.tests {
-        names.extend([folder.join(&test.record), folder.join(&test.measured)]);
-    }
-    for name in names {
-        let readable = |e: std::io::Error| InputError::file(&name, e.to_string(), "a readable file");
-        hash.update(std::fs::read(&name).map_err(readable)?);
+    for (_, name) in files {
+        let readable = |e: std::io::Error| InputError::file(name, e.to_string(), "a readable file");
+        hash.update(std::fs::read(name).map_err(readable)?);
     }
     Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
 }

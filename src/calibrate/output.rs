@@ -1,22 +1,37 @@
-//! The output folder: `calibration.json`, `candidates.parquet`, `wall.calibrated.toml`, and the journal while it runs.
+//! The output folder of a calibration.
+//!
+//! ```text
+//! manifest.json            `kind`: `calibration`; program, seed, files that were read; written first
+//! calibration.json         everything found
+//! candidates.parquet       every simulation
+//! generations.parquet      how every search converged
+//! wall.calibrated.toml     the wall with the vector for all tests, for `mrbd simulate`
+//! journal.tsv              simulations so far, while the calibration runs
+//! ```
 
 use std::path::{Path, PathBuf};
 
 use super::archive::Archive;
+use super::candidates::write_candidates;
 use super::experiment::Experiment;
 use super::flow::method_names;
+use super::generations::write_generations;
+use super::manifest::write_manifest;
 use super::result::Calibration;
-use super::table::write_candidates;
 use crate::error::{Error, InputError, Result};
 use crate::store::write_durably;
 
 /// Where things go in the output folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputNames {
+    /// Kind and provenance.
+    pub manifest: PathBuf,
     /// Everything found.
     pub calibration: PathBuf,
     /// Every simulation.
     pub candidates: PathBuf,
+    /// How every search converged.
+    pub generations: PathBuf,
     /// The wall with the joint vector, for `mrbd simulate`.
     pub wall: PathBuf,
     /// Simulations of a calibration that is running or was stopped.
@@ -27,8 +42,10 @@ impl OutputNames {
     /// The names in a folder.
     pub fn new(folder: &Path) -> Self {
         Self {
+            manifest: folder.join("manifest.json"),
             calibration: folder.join("calibration.json"),
             candidates: folder.join("candidates.parquet"),
+            generations: folder.join("generations.parquet"),
             wall: folder.join("wall.calibrated.toml"),
             journal: folder.join("journal.tsv"),
         }
@@ -38,7 +55,7 @@ impl OutputNames {
     ///
     /// # Errors
     /// Input errors for a folder that cannot be written, or holds results or other files.
-    pub fn prepare(folder: &Path, resume: bool) -> Result<Self> {
+    pub fn prepare(folder: &Path, experiment: &Experiment, resume: bool) -> Result<Self> {
         let refuse = |found: String, allowed: &str| InputError::option("--out", found, allowed);
         std::fs::create_dir_all(folder)
             .map_err(|e| refuse(format!("{}: {e}", folder.display()), "a folder that can be written"))?;
@@ -49,9 +66,16 @@ impl OutputNames {
             let found = format!("{}, which holds a stopped calibration", folder.display());
             return Err(refuse(found, "an empty folder, or --resume to go on with it").into());
         }
-        if !stopped && entries.count() > 0 {
+        // Alone it was left by a stop before the first simulation.
+        let other = |entry: std::io::Result<std::fs::DirEntry>| {
+            entry.is_ok_and(|entry| entry.path() != names.manifest)
+        };
+        if !stopped && entries.into_iter().any(other) {
             let found = format!("{}, which holds other files", folder.display());
             return Err(refuse(found, "an empty folder").into());
+        }
+        if !stopped {
+            write_manifest(&names.manifest, experiment)?;
         }
         Ok(names)
     }
@@ -69,6 +93,7 @@ pub fn write_results(
 ) -> Result<()> {
     let rows = archive.rows(&method_names(experiment));
     write_candidates(&names.candidates, &rows, &experiment.space.parameters, &experiment.tests)?;
+    write_generations(&names.generations, &calibration.methods)?;
     write_durably(&names.wall, wall_text(experiment, calibration).as_bytes())?;
     let json = serde_json::to_string_pretty(calibration)
         .map_err(|e| Error::io("write the results", &names.calibration, e.into()))?;

@@ -69,6 +69,8 @@ pub struct MethodResult {
     pub simulations: usize,
     /// Generations after the first.
     pub generations: usize,
+    /// Vectors simulated up to the end of each generation.
+    pub vectors: Vec<usize>,
     /// Lowest cost after each generation.
     pub best_costs: Vec<f64>,
     /// Sum of costs after each generation; null while a vector of the population has no finite cost (Fig. 6).

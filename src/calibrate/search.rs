@@ -53,6 +53,8 @@ pub struct Found {
     pub population: Vec<Member>,
     /// Candidates evaluated.
     pub evaluations: usize,
+    /// Candidates evaluated up to the end of each generation.
+    pub vectors: Vec<usize>,
     /// Lowest cost after each generation, the first generation included.
     pub best_costs: Vec<f64>,
     /// Sum of the population's costs after each generation; the paper's Fig. 6.
@@ -61,14 +63,16 @@ pub struct Found {
 
 impl Found {
     pub(super) fn start(population: Vec<Member>) -> Self {
-        let mut found =
-            Self { evaluations: population.len(), population, best_costs: Vec::new(), cost_sums: Vec::new() };
+        let evaluations = population.len();
+        let [best_costs, cost_sums] = [Vec::new(), Vec::new()];
+        let mut found = Self { population, evaluations, vectors: Vec::new(), best_costs, cost_sums };
         found.note();
         found
     }
 
     /// Notes the state after a generation.
     pub(super) fn note(&mut self) {
+        self.vectors.push(self.evaluations);
         self.best_costs.push(self.best().cost);
         self.cost_sums.push(self.population.iter().map(|member| member.cost).sum());
     }

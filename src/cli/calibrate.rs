@@ -58,7 +58,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<()> {
         InputError::option("--threads", e.to_string(), "a number of threads the system grants")
     })?;
     let Some(out) = args.out.as_ref().filter(|_| !args.evaluate) else { return evaluate(&experiment) };
-    let names = OutputNames::prepare(out, args.resume)?;
+    let names = OutputNames::prepare(out, &experiment, args.resume)?;
     let progress = ProgressBar::new_spinner().with_style(style());
     let archive = Archive::open(&names.journal, &experiment.request, args.resume, progress)?;
     let calibration = pool.install(|| calibrate(&experiment, &archive))?;

@@ -11,6 +11,11 @@ pub trait Observer {
     fn stood(&mut self, from_s: f64, to_s: f64);
     /// The run ended.
     fn ended(&mut self, time_s: f64, contact: Contact, theta: Pair);
+    /// Whether the rest of the run is not worth its time; asked at every sample of the record. What such a run gives is
+    /// that of its part.
+    fn seen_enough(&self) -> bool {
+        false
+    }
 }
 
 /// Watches nothing.

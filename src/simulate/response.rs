@@ -14,7 +14,7 @@ pub struct Peak {
 /// How a run ended.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outcome {
-    /// The wall stood until the end.
+    /// The wall stood until the end, or until its observer had seen enough.
     Stood,
     /// A body passed its collapse rotation.
     Collapsed {

@@ -51,6 +51,8 @@ pub(super) struct Run<'a, O> {
 enum Stop {
     Collapsed { time_s: f64 },
     Failed { time_s: f64, reason: String },
+    /// Its observer has seen enough.
+    SeenEnough,
 }
 
 impl<'a, O: Observer> Run<'a, O> {
@@ -75,7 +77,7 @@ impl<'a, O: Observer> Run<'a, O> {
 
     pub fn go(mut self, start_s: f64) -> Response {
         let outcome = match self.start(start_s).and_then(|()| self.all_pieces(start_s)) {
-            Ok(()) => Outcome::Stood,
+            Ok(()) | Err(Stop::SeenEnough) => Outcome::Stood,
             Err(Stop::Collapsed { time_s }) => Outcome::Collapsed { time_s },
             Err(Stop::Failed { time_s, reason }) => Outcome::Failed { time_s, reason },
         };
@@ -139,6 +141,9 @@ impl<'a, O: Observer> Run<'a, O> {
             }
             k += 1;
             offset_s = 0.0;
+            if self.observer.seen_enough() {
+                return Err(Stop::SeenEnough);
+            }
             if self.contact == Contact::REST {
                 k = self.stand_through(k);
             }

@@ -92,6 +92,10 @@ fn regress_the_calibrated_wall_runs_and_the_table_is_csv() {
     let run = mrbd(&["simulate", text(&wall), "--record", text(&record), "--json"]);
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
     assert!(!out.join("journal.tsv").exists(), "the journal of a finished calibration is removed");
+    let manifest = std::fs::read(out.join("manifest.json")).expect("manifest.json");
+    let manifest: Value = serde_json::from_slice(&manifest).expect("JSON");
+    assert_eq!(manifest["kind"], mrbd::calibrate::KIND);
+    assert!(out.join("generations.parquet").exists());
     // Every method counts its simulations: 2 tests of 21 vectors, a first generation and at most four more.
     let json = json(&out);
     let similarity =

@@ -1,0 +1,48 @@
+//! `manifest.json`: what kind of results a folder holds and where they come from, written before the first simulation.
+
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use serde::Serialize;
+
+use super::experiment::Experiment;
+use crate::error::Result;
+use crate::store::{FileNote, file_sha256, write_durably};
+
+/// Kind of results, by which a report tells the folder of a calibration from that of a study.
+pub const KIND: &str = "calibration";
+
+/// Version of the files' keys and columns.
+const SCHEMA_VERSION: u32 = 1;
+
+#[derive(Serialize)]
+struct Manifest {
+    kind: &'static str,
+    tool_version: &'static str,
+    schema_version: u32,
+    request_sha256: String,
+    seed: u64,
+    inputs: Vec<FileNote>,
+    started_unix_s: u64,
+}
+
+/// Writes the manifest of a calibration.
+///
+/// # Errors
+/// An input error for a file that cannot be read; [`crate::Error::Io`] if the disk refuses.
+pub(super) fn write_manifest(path: &Path, experiment: &Experiment) -> Result<()> {
+    let note = |(role, file): &(String, std::path::PathBuf)| -> Result<FileNote> {
+        Ok(FileNote { role: role.clone(), path: file.display().to_string(), sha256: file_sha256(file)? })
+    };
+    let manifest = Manifest {
+        kind: KIND,
+        tool_version: env!("CARGO_PKG_VERSION"),
+        schema_version: SCHEMA_VERSION,
+        request_sha256: experiment.request.clone(),
+        seed: experiment.settings.seed,
+        inputs: experiment.files.iter().map(note).collect::<Result<_>>()?,
+        started_unix_s: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+    };
+    let text = format!("{:#}\n", serde_json::json!(manifest));
+    write_durably(path, text.as_bytes())
+}
