@@ -54,6 +54,7 @@
 //! | [`comparison`] | one wall as three models | which rotates most under the same records (Fig. 9) |
 //! | [`overturning`] | a wall and a shape of pulse | the amplitudes and frequencies that overturn it |
 //! | [`report`] | result folders, runs | pages and pictures |
+//! | [`starter`] | nothing | a wall, a pipeline and an experiment to begin with |
 //! | [`cli`] | the command line | the above, and messages for people |
 
 pub mod aggregate;
@@ -75,6 +76,8 @@ pub mod report;
 pub mod sampling;
 pub mod simulate;
 pub mod solver;
+pub mod starter;
 pub mod store;
+mod suggestion;
 
 pub use error::{Error, InputError, Result};

@@ -10,6 +10,7 @@ use crate::input::coefficients::CoefficientSets;
 use crate::input::experiment::{CalibrateTable, ExperimentFile, ParameterTable};
 use crate::input::{toml_file, wall_from_table};
 use crate::model::{ImpactLaw, Wall, WallParameters};
+use crate::suggestion::with_suggestion;
 
 /// Bounds of C_1 … C_8 where the user gives none.
 const TABLE_2: &str = include_str!("../../inputs/coefficients.toml");
@@ -257,7 +258,7 @@ impl Resolver<'_> {
         let (name, target, nominal) = self.resolve(name).ok_or_else(|| {
             let allowed = "C_1 to C_8, restitution, corner_widths, or a number that stands in the wall file, \
                            such as diaphragm.stiffness_n_per_m or effects.0.coefficient_n_s_per_m";
-            self.fault(i, "key", format!("{name:?}"), allowed)
+            self.fault(i, "key", format!("{name:?}"), &self.suggested(allowed, name))
         })?;
         let prior_sd = self.prior_sd(&target).map(|relative| relative * nominal.abs());
         let default = match (&target, prior_sd) {
@@ -309,10 +310,21 @@ impl Resolver<'_> {
             // Absent from the file but with a default, such as an eccentricity of zero, is known exactly.
             if !known {
                 let allowed = "a number that stands in the wall file, restitution or corner_widths";
+                let allowed = self.suggested(allowed, key);
                 return Err(InputError::key(self.path, format!("prior.{key}"), "no such key", allowed));
             }
         }
         Ok(())
+    }
+
+    /// What is allowed, with the key of the wall file that was likely meant, dotted if what was found is.
+    fn suggested(&self, allowed: &str, found: &str) -> String {
+        let inner = |(table, value): (&String, &Value)| -> Vec<String> {
+            let keys = value.as_table().into_iter().flat_map(Table::keys);
+            keys.map(|key| if found.contains('.') { format!("{table}.{key}") } else { key.clone() }).collect()
+        };
+        let known: Vec<String> = self.table.iter().flat_map(inner).collect();
+        with_suggestion(allowed.to_owned(), found, known.iter().map(String::as_str))
     }
 
     fn fault(&self, i: usize, field: &str, found: impl Into<String>, allowed: &str) -> InputError {

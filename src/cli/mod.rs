@@ -6,7 +6,9 @@ mod aggregate;
 mod calibrate;
 mod check;
 mod compare_models;
+mod completions;
 mod fragility;
+mod init;
 mod merge;
 mod output;
 mod records;
@@ -23,8 +25,13 @@ use clap::{Parser, Subcommand};
 use crate::error::Result;
 
 /// Multi-rocking-body dynamics of unreinforced masonry walls that may fall out of their plane.
+///
+/// Begin with:
+///   mrbd init first && cd first
+///   mrbd simulate wall.toml --record records/generated_4_600ya.csv --scale 3.5 --plot run.html
+///   mrbd run pipeline.toml && mrbd report outputs/first
 #[derive(Debug, Parser)]
-#[command(name = "mrbd", version, arg_required_else_help = true)]
+#[command(name = "mrbd", version, arg_required_else_help = true, verbatim_doc_comment)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -32,6 +39,7 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Init(init::InitCommand),
     Run(run::RunCommand),
     Merge(merge::MergeCommand),
     Status(status::StatusCommand),
@@ -44,6 +52,7 @@ enum Command {
     Records(records::RecordsArgs),
     Report(report::ReportCommand),
     Simulate(simulate::SimulateArgs),
+    Completions(completions::CompletionsCommand),
 }
 
 impl Cli {
@@ -53,6 +62,7 @@ impl Cli {
     /// Whatever the command meets; [`crate::Error::exit_code`] says how the process should end.
     pub fn execute(self) -> Result<()> {
         match self.command {
+            Command::Init(command) => command.execute(),
             Command::Run(command) => command.execute(),
             Command::Merge(command) => command.execute(),
             Command::Status(command) => command.execute(),
@@ -65,6 +75,7 @@ impl Cli {
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),
+            Command::Completions(command) => command.execute(),
         }
     }
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::*;
 
 use crate::error::{Error, InputError, Result};
+use crate::suggestion::with_suggestion;
 
 /// A column as it stands in the table; an empty cell or a null is none.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,7 +153,9 @@ fn find(path: &Path, names: &[String], known: &[&str]) -> Result<Vec<usize>> {
             }
             (None, _) => {
                 let found = format!("no column {name:?}");
-                Err(InputError::file(path, found, format!("one of {}", known.join(", "))).into())
+                let allowed =
+                    with_suggestion(format!("one of {}", known.join(", ")), name, known.iter().copied());
+                Err(InputError::file(path, found, allowed).into())
             }
         }
     };

@@ -167,7 +167,15 @@ impl ExperimentFile {
     /// # Errors
     /// Input errors that name the file, the key, what was found and what is allowed.
     pub fn load(path: &Path) -> Result<Self> {
-        let file: Self = toml_file::load(path)?;
+        Self::parse(path, &toml_file::read(path)?)
+    }
+
+    /// Checks the text of an experiment file that came from `path`.
+    ///
+    /// # Errors
+    /// As [`ExperimentFile::load`].
+    pub fn parse(path: &Path, text: &str) -> Result<Self> {
+        let file: Self = toml_file::parse(path, text)?;
         file.check(path)?;
         Ok(file)
     }

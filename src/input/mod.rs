@@ -8,5 +8,5 @@ pub mod survey;
 pub(crate) mod toml_file;
 mod wall_file;
 
-pub use wall_file::load_wall;
 pub(crate) use wall_file::wall_from_table;
+pub use wall_file::{load_wall, parse_wall};

@@ -5,6 +5,7 @@ use std::path::Path;
 use serde::de::DeserializeOwned;
 
 use crate::error::{Error, InputError, Place, Result};
+use crate::suggestion::with_suggestion;
 
 /// Reads a TOML file into `T`.
 ///
@@ -46,13 +47,23 @@ fn fault(path: &Path, text: &str, key: &str, error: &toml::de::Error) -> Error {
     // serde words its messages "<found>, expected <allowed>".
     let message = error.message().trim();
     let (found, allowed) = match message.split_once(", expected ") {
-        Some((found, allowed)) => (found.to_owned(), allowed.to_owned()),
+        Some((found, allowed)) => (found.to_owned(), suggested(found, allowed)),
         None if message.starts_with("missing field") => {
             (message.to_owned(), "this key must be given".to_owned())
         }
         None => (message.to_owned(), "valid TOML".to_owned()),
     };
     InputError { origin: path.display().to_string(), place, found, allowed }.into()
+}
+
+/// What serde allows, with the key or value that was likely meant: serde quotes names in backticks.
+fn suggested(found: &str, allowed: &str) -> String {
+    let quoted = |text: &'_ str| text.split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>();
+    let known = quoted(allowed);
+    match (found.starts_with("unknown "), quoted(found).first()) {
+        (true, Some(found)) => with_suggestion(allowed.to_owned(), found, known.iter().map(String::as_str)),
+        _ => allowed.to_owned(),
+    }
 }
 
 #[cfg(test)]
@@ -93,6 +104,9 @@ mod tests {
             unknown.contains("a.toml:3") && unknown.contains("hieght") && unknown.contains("`height_m`"),
             "{unknown}"
         );
+        assert!(unknown.ends_with("did you mean `height_m`?"), "{unknown}");
+        let stranger = message("[inner]\ncolour = 1\n");
+        assert!(!stranger.contains("did you mean"), "{stranger}");
         let missing = message("[inner]\n");
         assert!(missing.contains("inner") && missing.contains("missing field `height_m`"), "{missing}");
         let broken = message("[inner\n");

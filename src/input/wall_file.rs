@@ -82,7 +82,15 @@ struct Initial {
 /// # Errors
 /// Input errors that name the file, the key, what was found and what is allowed.
 pub fn load_wall(path: &Path) -> Result<Wall> {
-    let file: WallFile = toml_file::load(path)?;
+    parse_wall(path, &toml_file::read(path)?)
+}
+
+/// Checks the text of a wall file that came from `path`.
+///
+/// # Errors
+/// As [`load_wall`].
+pub fn parse_wall(path: &Path, text: &str) -> Result<Wall> {
+    let file: WallFile = toml_file::parse(path, text)?;
     Ok(wall(path, file)?)
 }
 

@@ -15,6 +15,7 @@ mod cli_records;
 mod cli_simulate;
 mod convergence;
 mod energy;
+mod first_steps;
 mod fragility;
 mod grazing_contact;
 mod ground_formats;
