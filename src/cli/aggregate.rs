@@ -10,7 +10,7 @@ use crate::error::Result;
 use crate::findings::{report, write_findings};
 use crate::store::OutputFolder;
 
-/// Reads the runs of a study, writes medians.parquet and findings.csv beside them, prints tables and findings.
+/// Read the runs of a study, write medians.parquet and findings.csv beside them, print tables and findings.
 #[derive(Debug, Args)]
 pub struct AggregateCommand {
     /// Output folder of `mrbd run`.

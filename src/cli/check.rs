@@ -10,7 +10,7 @@ use crate::aggregate::aggregate;
 use crate::check::{Baseline, Change, compare};
 use crate::error::{Error, InputError, Result};
 
-/// Compares the medians of a study with a baseline and fails with a table of what moved.
+/// Compare the medians of a study with a baseline and fail with a table of what moved.
 #[derive(Debug, Args)]
 pub struct CheckCommand {
     /// Output folder of `mrbd run`.

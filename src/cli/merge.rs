@@ -8,7 +8,7 @@ use crate::campaign::{Layout, Standing, compact};
 use crate::error::Result;
 use crate::store::OutputFolder;
 
-/// Puts the parts of a study that was run with --shard together; the same files as of an undivided study come out.
+/// Put the parts of a study that was run with --shard together; the same files as of an undivided study come out.
 #[derive(Debug, Args)]
 pub struct MergeCommand {
     /// Output folder of `mrbd run`.

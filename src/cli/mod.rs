@@ -7,6 +7,7 @@ mod calibrate;
 mod check;
 mod compare_models;
 mod completions;
+mod examples;
 mod fragility;
 mod init;
 mod merge;
@@ -40,16 +41,23 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Init(init::InitCommand),
+    #[command(after_help = examples::RUN)]
     Run(run::RunCommand),
+    #[command(after_help = examples::MERGE)]
     Merge(merge::MergeCommand),
+    #[command(after_help = examples::STATUS)]
     Status(status::StatusCommand),
     Replay(replay::ReplayCommand),
+    #[command(after_help = examples::SLURM)]
     Slurm(slurm::SlurmCommand),
+    #[command(after_help = examples::AGGREGATE)]
     Aggregate(aggregate::AggregateCommand),
+    #[command(after_help = examples::CHECK)]
     Check(check::CheckCommand),
     Fragility(fragility::FragilityCommand),
     Calibrate(calibrate::CalibrateArgs),
     Records(records::RecordsArgs),
+    #[command(after_help = examples::REPORT)]
     Report(report::ReportCommand),
     Simulate(simulate::SimulateArgs),
     Completions(completions::CompletionsCommand),
@@ -77,5 +85,51 @@ impl Cli {
             Command::Simulate(args) => simulate::execute(&args),
             Command::Completions(command) => command.execute(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    /// All commands that do something, those under `records` too.
+    fn leaves(command: &clap::Command, all: &mut Vec<clap::Command>) {
+        if command.get_subcommands().next().is_none() && command.get_name() != "help" {
+            all.push(command.clone());
+        }
+        command.get_subcommands().for_each(|inner| leaves(inner, all));
+    }
+
+    /// Arguments of the commands in an example: up to a comment, a pipe or a redirection.
+    fn commands(line: &str) -> impl Iterator<Item = Vec<&str>> {
+        let line = line.split(" # ").next().unwrap_or(line);
+        line.split(" && ")
+            .map(|part| part.split_whitespace().take_while(|word| !["|", ">"].contains(word)).collect())
+    }
+
+    #[test]
+    fn regress_every_command_has_examples_that_parse() {
+        let mut all = Vec::new();
+        leaves(&Cli::command(), &mut all);
+        assert!(all.len() >= 20, "{} commands", all.len());
+        for command in all {
+            // Wide enough that no example is wrapped.
+            let mut command = command.term_width(500);
+            let help = command.render_long_help().to_string();
+            let examples = help.split_once("Examples:").unwrap_or_else(|| panic!("{}", command.get_name())).1;
+            let lines: Vec<&str> = examples.lines().filter(|line| line.starts_with("  mrbd ")).collect();
+            assert!(!lines.is_empty(), "{} has no example", command.get_name());
+            for words in lines.iter().flat_map(|line| commands(line)).filter(|words| words[0] == "mrbd") {
+                let parsed = Cli::try_parse_from(&words);
+                assert!(parsed.is_ok(), "{words:?}: {}", parsed.expect_err("an error"));
+            }
+        }
+    }
+
+    #[test]
+    fn regress_the_command_line_is_consistent() {
+        Cli::command().debug_assert();
     }
 }

@@ -16,7 +16,7 @@ use crate::store::{COLUMNS, Manifest, OutputFolder, Read, file_sha256, write_his
 /// Results that are compared with what is stored, bit by bit: each depends on the whole run.
 const COMPARED: [&str; 4] = ["theta1_max_rad", "theta2_max_rad", "end_time_s", "energy_residual"];
 
-/// Runs one run of a study again from the plan in its folder, prints it and compares it with what is stored.
+/// Run one run of a study again from the plan in its folder, print it and compare it with what is stored.
 ///
 /// Examples:
 ///   mrbd replay outputs/sweep 1234 --history run_1234.csv

@@ -7,7 +7,7 @@ use clap::Args;
 use crate::error::Result;
 use crate::ground::Site;
 
-/// Makes one HTML page of a folder of results: figures, conclusions, assumptions, provenance.
+/// Make one HTML page of a folder of results: figures, conclusions, assumptions, provenance.
 ///
 /// The page is DIR/report.html; it needs no network and nothing but itself, its links lead to the files beside it.
 #[derive(Debug, Args)]

@@ -20,7 +20,7 @@ use crate::store::{COLUMNS, Earlier, Manifest, OutputFolder, Stage, print_csv};
 /// Failed runs that are told one by one; all are counted, and stored with their reasons.
 const FAILURES_TOLD: usize = 10;
 
-/// Runs a study: plans it, runs it on all threads, stores every run, prints medians and findings.
+/// Run a study: plan it, run it on all threads, store every run, print medians and findings.
 #[derive(Debug, Args)]
 pub struct RunCommand {
     /// Pipeline file (TOML) that says what to run.

@@ -11,7 +11,7 @@ use crate::campaign::{Layout, Standing};
 use crate::error::Result;
 use crate::store::{Manifest, OutputFolder};
 
-/// Tells how far a study is and what failed and why, checks every file, and prints lines that read it.
+/// Tell how far a study is and what failed and why, check every file, and print lines that read it.
 #[derive(Debug, Args)]
 pub struct StatusCommand {
     /// Output folder of `mrbd run`.

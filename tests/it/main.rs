@@ -24,6 +24,7 @@ mod ground_intensity;
 mod ground_mutations;
 mod ground_samples;
 mod ground_suite;
+mod guide;
 mod impacts;
 mod limits;
 mod matrix_form;
