@@ -49,8 +49,13 @@ pub(super) struct Run<'a, O> {
 
 /// Why a run ended before its time.
 enum Stop {
-    Collapsed { time_s: f64 },
-    Failed { time_s: f64, reason: String },
+    Collapsed {
+        time_s: f64,
+    },
+    Failed {
+        time_s: f64,
+        reason: String,
+    },
     /// Its observer has seen enough.
     SeenEnough,
 }
