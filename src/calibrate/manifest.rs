@@ -1,13 +1,13 @@
 //! `manifest.json`: what kind of results a folder holds and where they come from, written before the first simulation.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 
 use super::experiment::Experiment;
 use crate::error::Result;
-use crate::store::{FileNote, file_sha256, write_durably};
+use crate::store::{FileNote, write_durably};
 
 /// Kind of results, by which a report tells the folder of a calibration from that of a study.
 pub const KIND: &str = "calibration";
@@ -31,9 +31,8 @@ struct Manifest {
 /// # Errors
 /// An input error for a file that cannot be read; [`crate::Error::Io`] if the disk refuses.
 pub(super) fn write_manifest(path: &Path, experiment: &Experiment) -> Result<()> {
-    let note = |(role, file): &(String, std::path::PathBuf)| -> Result<FileNote> {
-        Ok(FileNote { role: role.clone(), path: file.display().to_string(), sha256: file_sha256(file)? })
-    };
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let note = |(role, file): &(String, PathBuf)| Ok(FileNote::of(role, file)?.seen_from(folder));
     let manifest = Manifest {
         kind: KIND,
         tool_version: env!("CARGO_PKG_VERSION"),

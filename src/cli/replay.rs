@@ -18,6 +18,8 @@ const COMPARED: [&str; 4] = ["theta1_max_rad", "theta2_max_rad", "end_time_s", "
 
 /// Run one run of a study again from the plan in its folder, print it and compare it with what is stored.
 ///
+/// The survey, coefficients and records are looked for where they were, and as far from the folder as they were.
+///
 /// Examples:
 ///   mrbd replay outputs/sweep 1234 --history run_1234.csv
 ///   mrbd replay outputs/sweep 6a5179caaf0f4f2b --json
@@ -105,36 +107,54 @@ fn plan_of(folder: &OutputFolder) -> Result<Plan> {
     let text = std::fs::read_to_string(&path)
         .map_err(|e| InputError::file(&path, e.to_string(), "the pipeline of the study"))?;
     let mut pipeline = Pipeline::parse(&path, text)?;
-    pipeline.survey = unchanged(manifest, "survey")?;
-    pipeline.coefficients = unchanged(manifest, "coefficients")?;
-    pipeline.suite = unchanged(manifest, "suite")?;
+    pipeline.survey = find_input(folder, "survey")?;
+    pipeline.coefficients = find_input(folder, "coefficients")?;
+    pipeline.suite = find_input(folder, "suite")?;
     let plan = Plan::load(&pipeline, None)?;
     let sha256 = plan.sha256().map_err(|e| Error::Plan { position: 0, message: e.to_string() })?;
-    match sha256 == manifest.plan_sha256 {
-        true => Ok(plan),
-        false => {
-            let found = format!("the plan {sha256} of records that changed");
-            Err(InputError::file(&pipeline.suite, found, manifest.plan_sha256.clone()).into())
-        }
+    if sha256 == manifest.plan_sha256 {
+        return Ok(plan);
     }
+    let version = env!("CARGO_PKG_VERSION");
+    let (found, allowed) = match changed_records(manifest, &plan) {
+        names if names.is_empty() => {
+            let allowed = format!("the plan {} of version {}", manifest.plan_sha256, manifest.tool_version);
+            (format!("the plan {sha256} by version {version}"), allowed)
+        }
+        names => {
+            (format!("records that changed: {}", names.join(", ")), "the records of the study".to_owned())
+        }
+    };
+    Err(InputError::file(&pipeline.suite, found, allowed).into())
 }
 
-/// Where an input lies, if it is still what the study read.
-fn unchanged(manifest: &Manifest, role: &str) -> Result<PathBuf> {
-    let Some(note) = manifest.inputs.iter().find(|note| note.role == role) else {
-        return Err(
-            InputError::option("DIR", format!("a manifest without {role}"), "one of `mrbd run`").into()
-        );
+/// Names of the records whose samples are not those of the study.
+fn changed_records(manifest: &Manifest, plan: &Plan) -> Vec<String> {
+    let notes = manifest.suite.records.iter().zip(&plan.motions().hashes);
+    let changed =
+        notes.filter(|(note, hash)| note.sha256 != hash.horizontal || note.vertical_sha256 != hash.vertical);
+    changed.map(|(note, _)| note.name.clone()).collect()
+}
+
+/// Where an input lies that is still what the study read: where it was, or as far from the folder as it was.
+fn find_input(folder: &OutputFolder, role: &str) -> Result<PathBuf> {
+    let Some(note) = folder.manifest().inputs.iter().find(|note| note.role == role) else {
+        let found = format!("a manifest without {role}");
+        return Err(InputError::option("DIR", found, "one of `mrbd run`").into());
     };
-    let path = PathBuf::from(&note.path);
-    let found = file_sha256(&path)?;
-    match found == note.sha256 {
-        true => Ok(path),
-        false => {
-            let allowed = format!("the {role} the study read, SHA-256 {}", note.sha256);
-            Err(InputError::file(&path, format!("a file that changed, SHA-256 {found}"), allowed).into())
-        }
+    let beside = note.path_from_folder.as_ref().map(|path| folder.path().join(path));
+    let mut faults = Vec::new();
+    for path in [Some(PathBuf::from(&note.path)), beside].into_iter().flatten() {
+        let fault = match (path.is_file(), file_sha256(&path)) {
+            (true, Ok(found)) if found == note.sha256 => return Ok(path),
+            (true, Ok(found)) => format!("{} has changed (SHA-256 {found})", path.display()),
+            (true, Err(e)) => e.to_string(),
+            (false, _) => format!("there is no {}", path.display()),
+        };
+        faults.push(fault);
     }
+    let allowed = format!("in one of these places the {role} that the study read, SHA-256 {}", note.sha256);
+    Err(InputError::file(folder.path(), faults.join(" and "), allowed).into())
 }
 
 /// Says whether the run gave the bits that are stored; a run that is not stored yet has none.

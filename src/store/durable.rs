@@ -1,7 +1,7 @@
 //! Files that are whole or absent, whatever stops the program.
 
 use std::fs::File;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use tempfile::NamedTempFile;
@@ -28,12 +28,20 @@ pub(super) fn unfinished_in(folder: &Path) -> Result<NamedTempFile> {
 /// [`Error::Io`] if the disk refuses.
 pub(super) fn put_in_place(mut file: NamedTempFile, path: &Path) -> Result<()> {
     let failed = |e| Error::io("write", path, e);
-    file.flush().map_err(failed)?;
-    readable_by_all(file.as_file()).map_err(failed)?;
-    file.as_file().sync_all().map_err(failed)?;
+    bring_to_disk(&mut file).map_err(failed)?;
     file.persist(path).map_err(|e| failed(e.error))?;
-    // The name lives in the folder: without this the file can be on disk and its name not.
-    File::open(folder_of(path)).and_then(|folder| folder.sync_all()).map_err(failed)
+    bring_name_to_disk(path).map_err(failed)
+}
+
+fn bring_to_disk(file: &mut NamedTempFile) -> std::io::Result<()> {
+    file.flush()?;
+    readable_by_all(file.as_file())?;
+    file.as_file().sync_all()
+}
+
+/// The name lives in the folder: without this the file can be on disk and its name not.
+fn bring_name_to_disk(path: &Path) -> std::io::Result<()> {
+    File::open(folder_of(path)).and_then(|folder| folder.sync_all())
 }
 
 /// Writes `contents` to `path`: the file is there whole, or as it was before.
@@ -44,6 +52,21 @@ pub fn write_durably(path: &Path, contents: &[u8]) -> Result<()> {
     let mut file = unfinished_in(folder_of(path))?;
     file.write_all(contents).map_err(|e| Error::io("write", path, e))?;
     put_in_place(file, path)
+}
+
+/// Writes `contents` to `path` unless another process did first; whether this one wrote.
+///
+/// # Errors
+/// As [`write_durably`].
+pub(super) fn write_durably_if_absent(path: &Path, contents: &[u8]) -> Result<bool> {
+    let failed = |e| Error::io("write", path, e);
+    let mut file = unfinished_in(folder_of(path))?;
+    file.write_all(contents).and_then(|()| bring_to_disk(&mut file)).map_err(failed)?;
+    match file.persist_noclobber(path) {
+        Ok(_) => bring_name_to_disk(path).map_err(failed).map(|()| true),
+        Err(e) if e.error.kind() == ErrorKind::AlreadyExists => Ok(false),
+        Err(e) => Err(failed(e.error)),
+    }
 }
 
 /// Temporary files are private; results are not.

@@ -48,24 +48,17 @@ impl OutputFolder {
     /// [`Error::Io`] if the disk refuses.
     pub fn prepare(path: &Path, manifest: &Manifest, pipeline_text: &str, earlier: Earlier) -> Result<Self> {
         make_writable(path)?;
-        let name = path.join("manifest.json");
-        // What is to be replaced need not be understood: another version may have written it.
-        let replaces = earlier == Earlier::Replace && Manifest::is_any_version(&name)?;
-        let there = if replaces { None } else { Manifest::read(&name)? };
-        match (&there, earlier) {
-            _ if replaces => {}
-            (Some(there), Earlier::Refuse) => return Err(refuse(path, there, manifest).into()),
-            (Some(there), Earlier::Share | Earlier::Resume) => check_same(path, there, manifest)?,
-            _ => check_empty(path)?,
-        }
+        fit(path, manifest, earlier)?;
         let lock = lock(path, earlier == Earlier::Share)?;
-        if there.is_none() {
-            clear(path)?;
-            manifest.write(&path.join("manifest.json"))?;
+        // Again, since another process may have begun here meanwhile; the first look kept the lock out of a folder of
+        // something else.
+        let is_begun = fit(path, manifest, earlier)?;
+        if !is_begun {
+            begin(path, manifest, earlier)?;
         }
         let copy = path.join("plan.toml");
         // It lacks after a kill between the two as well.
-        if there.is_none() || !copy.is_file() {
+        if !is_begun || !copy.is_file() {
             write_durably(&copy, pipeline_text.as_bytes())?;
         }
         Ok(Self { path: path.to_path_buf(), manifest: manifest.clone(), _lock: lock })
@@ -99,6 +92,40 @@ impl OutputFolder {
     /// Where its results come from.
     pub fn manifest(&self) -> &Manifest {
         &self.manifest
+    }
+}
+
+/// Whether the study was begun in the folder and is to be gone on with; refused unless that, or its begin, is allowed.
+fn fit(path: &Path, manifest: &Manifest, earlier: Earlier) -> Result<bool> {
+    let name = path.join("manifest.json");
+    // What is to be replaced need not be understood: another version may have written it.
+    if earlier == Earlier::Replace && Manifest::is_any_version(&name)? {
+        return Ok(false);
+    }
+    // Listed before the manifest is looked for: another shard writes that one first.
+    let other_file = other_file(path)?;
+    match (Manifest::read(&name)?, other_file) {
+        (Some(there), _) if earlier == Earlier::Refuse => Err(refuse(path, &there, manifest).into()),
+        (Some(there), _) => check_same(path, &there, manifest).map(|()| true),
+        (None, None) => Ok(false),
+        (None, Some(name)) => {
+            let found = format!("{}, which holds other files ({name})", path.display());
+            Err(InputError::option("--out", found, "an empty folder, or one of the same plan").into())
+        }
+    }
+}
+
+/// Removes what is to be replaced and writes the manifest. Of shards that begin at once the first one writes it.
+fn begin(path: &Path, manifest: &Manifest, earlier: Earlier) -> Result<()> {
+    let name = path.join("manifest.json");
+    match earlier {
+        Earlier::Replace => {
+            clear(path)?;
+            manifest.write(&name)
+        }
+        Earlier::Refuse | Earlier::Resume => manifest.write(&name),
+        Earlier::Share if manifest.write_if_absent(&name)? => Ok(()),
+        Earlier::Share => fit(path, manifest, earlier).map(|_| ()),
     }
 }
 
@@ -162,18 +189,18 @@ fn clear(path: &Path) -> Result<()> {
     derived.iter().try_for_each(|file| removed(file, fs::remove_file(file)))
 }
 
-fn check_empty(path: &Path) -> Result<()> {
+/// The name of a file that a study does not begin with, if there is one.
+fn other_file(path: &Path) -> Result<Option<String>> {
     for entry in fs::read_dir(path).map_err(|e| Error::io("read", path, e))? {
         let name = entry.map_err(|e| Error::io("read", path, e))?.file_name();
         let name = name.to_string_lossy();
         // Left by a process that was stopped before it wrote the manifest, or being written by another shard.
         let ours = name == "lock" || name.starts_with(UNFINISHED) || name.starts_with(".tmp");
         if !ours {
-            let found = format!("{}, which holds other files ({name})", path.display());
-            return Err(InputError::option("--out", found, "an empty folder, or one of the same plan").into());
+            return Ok(Some(name.into_owned()));
         }
     }
-    Ok(())
+    Ok(None)
 }
 
 /// A record's name as part of a folder's name, as Hive and its readers write it: odd bytes as %XX.

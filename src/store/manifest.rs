@@ -1,10 +1,10 @@
 //! Where a study's results come from, written before the first result.
 
-use std::path::Path;
+use std::path::{Component, Path, PathBuf, absolute};
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::checksum::file_sha256;
-use super::durable::write_durably;
+use super::durable::{folder_of, write_durably, write_durably_if_absent};
 use super::schema::SCHEMA_VERSION;
 use crate::error::{Error, InputError, Result};
 use crate::ground::SuiteRecord;
@@ -73,8 +73,11 @@ pub struct RecordNote {
 pub struct FileNote {
     /// What it is.
     pub role: String,
-    /// Where it was.
+    /// Where it was, from the root.
     pub path: String,
+    /// Where it was, from the output folder: found again where both were moved together.
+    #[serde(default)]
+    pub path_from_folder: Option<String>,
     /// SHA-256 of its contents.
     pub sha256: String,
 }
@@ -145,9 +148,21 @@ impl Manifest {
     /// # Errors
     /// [`Error::Io`] if the disk refuses.
     pub fn write(&self, path: &Path) -> Result<()> {
-        let mut text = format!("{:#}", serde_json::json!(self));
-        text.push('\n');
-        write_durably(path, text.as_bytes())
+        write_durably(path, self.text(path).as_bytes())
+    }
+
+    /// Writes it unless another process did first; whether this one wrote.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the disk refuses.
+    pub(super) fn write_if_absent(&self, path: &Path) -> Result<bool> {
+        write_durably_if_absent(path, self.text(path).as_bytes())
+    }
+
+    fn text(&self, path: &Path) -> String {
+        let folder = folder_of(path);
+        let inputs = self.inputs.iter().map(|note| note.clone().seen_from(folder)).collect();
+        format!("{:#}\n", serde_json::json!(Manifest { inputs, ..self.clone() }))
     }
 
     /// What every Parquet file of the study says about itself: no times, so that equal studies give equal bytes.
@@ -186,7 +201,33 @@ impl SuiteNote {
 }
 
 impl FileNote {
-    fn of(role: &str, path: &Path) -> Result<Self> {
-        Ok(Self { role: role.to_owned(), path: path.display().to_string(), sha256: file_sha256(path)? })
+    /// The note of a file that plays a role.
+    ///
+    /// # Errors
+    /// An input error if the file cannot be read.
+    pub(crate) fn of(role: &str, path: &Path) -> Result<Self> {
+        let from_root = absolute(path).map_err(|e| Error::io("find", path, e))?;
+        Ok(Self {
+            role: role.to_owned(),
+            path: from_root.display().to_string(),
+            path_from_folder: None,
+            sha256: file_sha256(path)?,
+        })
     }
+
+    /// With the way to the file from the folder of the results.
+    pub(crate) fn seen_from(self, folder: &Path) -> Self {
+        Self { path_from_folder: path_from(folder, &self.path), ..self }
+    }
+}
+
+/// The way from a folder to a file; none where one of them is not there, or they have no root in common.
+fn path_from(folder: &Path, file: &str) -> Option<String> {
+    // Without links: `..` leads up the real way.
+    let (folder, file) = (folder.canonicalize().ok()?, Path::new(file).canonicalize().ok()?);
+    let (from, to): (Vec<_>, Vec<_>) = (folder.components().collect(), file.components().collect());
+    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    let up = from[common..].iter().map(|_| Component::ParentDir);
+    let way: PathBuf = up.chain(to[common..].iter().copied()).collect();
+    (common > 0).then(|| way.display().to_string())
 }

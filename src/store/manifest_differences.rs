@@ -24,7 +24,10 @@ pub(super) fn differences(there: &Manifest, now: &Manifest) -> Vec<String> {
 fn deciding(manifest: &Manifest) -> Value {
     let mut same = Manifest { started_unix_s: 0, ..manifest.clone() };
     same.inputs.retain(|input| input.role != "pipeline");
-    same.inputs.iter_mut().for_each(|input| input.path.clear());
+    for input in &mut same.inputs {
+        input.path.clear();
+        input.path_from_folder = None;
+    }
     serde_json::json!(same)
 }
 
