@@ -144,13 +144,17 @@ impl RunCommand {
         let watch = |runs: &[Finished]| progress.suspend(|| tell_failures(runs, &mut failures));
         let work =
             Work { plan, folder, shard, threads, simulate: &simulate, stop: &stop, progress: &progress };
-        let tally = run_missing(&work, &standing, watch)?;
+        let tally = run_missing(&work, &standing, watch).inspect_err(|_| self.tell_again(folder.path()))?;
         progress.finish_and_clear();
         report(tally, start.elapsed().as_secs_f64());
         match tally.runs() == missing {
             true => Ok(()),
             false => Err(Error::Stopped { done: tally.runs(), missing, again: self.again(folder.path()) }),
         }
+    }
+
+    fn tell_again(&self, out: &Path) {
+        eprintln!("mrbd: what was finished is stored; to go on when the fault is gone: {}", self.again(out));
     }
 
     /// The command that goes on where this one was stopped.

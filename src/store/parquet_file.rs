@@ -7,6 +7,7 @@ use arrow::array::RecordBatch;
 use arrow::datatypes::{Schema, SchemaRef};
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, Encoding as Bytes, ZstdLevel};
+use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::schema::types::ColumnPath;
@@ -46,14 +47,14 @@ impl<R> ParquetFile<R> {
         let properties = properties(columns, metadata).map_err(|e| Error::table(folder, e))?;
         let file = durable::unfinished_in(folder)?;
         let writer = ArrowWriter::try_new(file, Arc::clone(&schema), Some(properties))
-            .map_err(|e| Error::table(folder, e))?;
+            .map_err(|e| refused(folder, e))?;
         Ok(Self { place: folder.to_path_buf(), columns, schema, writer })
     }
 
     /// Adds rows.
     ///
     /// # Errors
-    /// [`Error::Table`] if they cannot be written.
+    /// [`Error::Io`] or [`Error::Table`] if they cannot be written.
     pub fn write(&mut self, rows: &[R]) -> Result<()> {
         let arrays = self.columns.iter().map(|column| column.array(rows)).collect();
         let batch = RecordBatch::try_new(Arc::clone(&self.schema), arrays);
@@ -63,9 +64,9 @@ impl<R> ParquetFile<R> {
     /// Adds rows that were read from another file of the same columns.
     ///
     /// # Errors
-    /// [`Error::Table`] if they cannot be written, or are of other columns.
+    /// [`Error::Io`] or [`Error::Table`] if they cannot be written, or are of other columns.
     pub fn write_batch(&mut self, rows: &RecordBatch) -> Result<()> {
-        self.writer.write(rows).map_err(|e| Error::table(&self.place, e))
+        self.writer.write(rows).map_err(|e| refused(&self.place, e))
     }
 
     /// Ends the file, brings it to the disk and gives it the name that `name` makes of its SHA-256, which is returned.
@@ -74,7 +75,7 @@ impl<R> ParquetFile<R> {
     /// [`Error::Io`] or [`Error::Table`] if the disk refuses.
     pub fn finish_as(self, name: impl FnOnce(&str) -> PathBuf) -> Result<String> {
         // This writes the last row group and the footer too.
-        let file = self.writer.into_inner().map_err(|e| Error::table(&self.place, e))?;
+        let file = self.writer.into_inner().map_err(|e| refused(&self.place, e))?;
         let sha256 = file.reopen().and_then(sha256).map_err(|e| Error::io("read back", &self.place, e))?;
         durable::put_in_place(file, &name(&sha256))?;
         Ok(sha256)
@@ -94,6 +95,17 @@ pub fn write_table<R>(
     let mut file = ParquetFile::create_in(durable::folder_of(path), columns, metadata)?;
     file.write(rows)?;
     file.finish_as(|_| path.to_path_buf()).map(|_| ())
+}
+
+/// What the library said; where it passes on what the disk said, that.
+fn refused(place: &Path, error: ParquetError) -> Error {
+    match error {
+        ParquetError::External(source) => match source.downcast::<std::io::Error>() {
+            Ok(source) => Error::io("write into", place, *source),
+            Err(source) => Error::table(place, source),
+        },
+        error => Error::table(place, error),
+    }
 }
 
 fn properties<R>(

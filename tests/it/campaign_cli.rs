@@ -16,7 +16,7 @@ use crate::pipeline_support::SMALL;
 /// Options of all of these: blocks so small that there are many stops between them.
 const RUN: [&str; 6] = ["run", "study.toml", "--out", "out", "--block-runs", "4"];
 
-fn arguments<'a>(more: &[&'a str]) -> Vec<&'a str> {
+pub fn arguments<'a>(more: &[&'a str]) -> Vec<&'a str> {
     RUN.into_iter().chain(more.iter().copied()).collect()
 }
 
@@ -27,7 +27,7 @@ fn start(folder: &Path, more: &[&str]) -> Child {
 }
 
 /// What an undisturbed study holds.
-fn undisturbed(folder: &tempfile::TempDir) -> BTreeMap<PathBuf, String> {
+pub fn undisturbed(folder: &tempfile::TempDir) -> BTreeMap<PathBuf, String> {
     stdout(&mrbd(folder.path(), &arguments(&["--threads", "1"])));
     let contents = contents(&folder.path().join("out"));
     fs::remove_dir_all(folder.path().join("out")).expect("removed");
@@ -117,7 +117,7 @@ fn regress_a_full_disk_is_an_error_that_leaves_what_is_there_valid() {
         let output = output.expect("a shell");
         let message = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{limit}: {message}");
-        assert!(message.contains("too large"), "{limit}: {message}");
+        assert!(message.contains("too large") && message.contains("to go on when"), "{limit}: {message}");
         let after = contents(&folder.path().join("out"));
         assert!(before.iter().all(|(path, sha256)| after.get(path) == Some(sha256)), "{limit}");
         stdout(&mrbd(folder.path(), &["aggregate", "out", "--csv"]));

@@ -17,6 +17,8 @@ mod convergence;
 mod energy;
 mod first_steps;
 mod fragility;
+#[cfg(target_os = "linux")]
+mod full_disk;
 mod grazing_contact;
 mod ground_formats;
 mod ground_generated;
@@ -36,10 +38,13 @@ mod pipeline_findings;
 mod pipeline_plan;
 mod pipeline_support;
 mod published;
-mod replay_slurm;
+mod replay;
 mod report_browser;
 mod report_pages;
 mod shared;
+mod slurm;
+#[cfg(target_os = "linux")]
+mod slurm_cluster;
 mod symmetry;
 mod traps;
 mod verification;
