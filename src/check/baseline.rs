@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::tolerance::{middle, tighter, told, tolerances};
+use super::tolerance::{middle, reruns, told, tolerances};
 use crate::aggregate::{Measure, Medians};
 use crate::error::{Error, InputError, Result};
 use crate::store::write_durably;
@@ -68,16 +68,17 @@ impl Baseline {
     ///
     /// # Errors
     /// An input error for a study without a variant that differs by a tighter tolerance alone: the tolerances of the
-    /// baseline come from it.
+    /// baseline come from such variants.
     pub fn of(medians: &Medians, folder: &Path) -> Result<Self> {
-        let (Some(base), Some(tight)) = (medians.variants.first(), tighter(&medians.variants)) else {
+        let reruns = reruns(&medians.variants);
+        let (Some(base), false) = (medians.variants.first(), reruns.is_empty()) else {
             let allowed = "a study whose pipeline has a variant that sets a tighter `tolerance` alone";
             return Err(InputError::file(folder, "no such variant", allowed).into());
         };
         let rows = medians.rows().iter();
         let rows = rows.filter(|row| row.case.variant == base.name && Measure::BODIES.contains(&row.measure));
         let entries = rows.map(|row| {
-            let (tolerance, collapsed_tolerance) = tolerances(medians, &tight.name, row);
+            let (tolerance, collapsed_tolerance) = tolerances(medians, &reruns, row);
             Entry {
                 variant: row.case.variant.clone(),
                 configuration: row.case.configuration.name().to_owned(),
@@ -94,7 +95,7 @@ impl Baseline {
             }
         });
         let entries = entries.collect();
-        Ok(Self { accepted: Vec::new(), tolerance_source: told(tight), entries })
+        Ok(Self { accepted: Vec::new(), tolerance_source: told(&reruns), entries })
     }
 
     /// Reads a baseline file.
