@@ -5,6 +5,7 @@ SUITE ?= inputs/records/emilia7/suite.toml
 
 include make/records.mk
 include make/examples.mk
+include make/slurm.mk
 
 .DEFAULT_GOAL := help
 .PHONY: help sweep check test test-browser bench lint docs clean
@@ -38,8 +39,8 @@ lint: ## formatting and lints, warnings denied
 	cargo fmt --check
 	cargo clippy --release --locked --all-targets -- -D warnings
 
-docs: ## the library's documentation
-	cargo doc --no-deps --locked
+docs: ## the library's documentation, warnings denied
+	RUSTDOCFLAGS="--deny warnings" cargo doc --release --no-deps --locked
 
 clean:
 	cargo clean

@@ -80,7 +80,7 @@ impl Staged<'_> {
         Ok(found)
     }
 
-    /// Searches [`RESTARTS`] times with the whole budget each, the first time in a cloud about a vector, then about the
+    /// Searches `RESTARTS` times with the whole budget each, the first time in a cloud about a vector, then about the
     /// middle of the bounds; the best counts.
     ///
     /// # Errors

@@ -86,7 +86,7 @@ fn split_stripes(sample: &Sample) -> Sample {
     if sample.clusters().is_empty() { sample.split() } else { sample.clone() }
 }
 
-/// The median's and β's values with each cluster (or row) left out, by kind of cluster: ([ln θ], [β]).
+/// The median's and β's values with each cluster (or row) left out, by kind of cluster: (ln θ, β).
 pub fn left_out(method: Method, sample: &Sample) -> [Vec<Vec<Option<f64>>>; 2] {
     let sample = &split_stripes(sample);
     let fits: Vec<Vec<Option<Fitted>>> = match sample.clusters() {
