@@ -73,7 +73,10 @@ fn regress_a_study_on_a_full_disk_or_one_that_cannot_be_written_is_whole_and_goe
     disk.change("size=4k");
     let refused = mrbd(at, &arguments(&[]));
     let told = message(&refused);
-    assert!(refused.status.code() == Some(1) && told.contains("cannot write: No space left on device"), "{told}");
+    assert!(
+        refused.status.code() == Some(1) && told.contains("cannot write: No space left on device"),
+        "{told}"
+    );
     disk.change("size=16m");
     stdout(&mrbd(at, &arguments(&["--shard", "1/3"])));
     // Room for some blocks, and for none.

@@ -21,7 +21,7 @@ use time_limit::seconds;
 /// How much earlier than asked for Slurm may warn, s: it looks at time limits every half minute (manual of sbatch).
 const WARNS_EARLIER_BY_S: u64 = 60;
 
-/// Writes array.sh, merge.sh and submit.sh for Slurm, and prints the command that submits them.
+/// Write array.sh, merge.sh and submit.sh for Slurm, and print the command that submits them.
 ///
 /// Every task does one shard. Warned by Slurm before its time limit it stores what it has, stops and queues again for
 /// the rest. Requeued by Slurm, after a preemption or the loss of a node, it goes on where it was. The merge starts
