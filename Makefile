@@ -8,7 +8,7 @@ include make/examples.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep check test test-browser bench lint docs clean
+.PHONY: help sweep check test test-browser bench blind lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -34,6 +34,13 @@ endif
 
 bench: ## time and work of one run, beside its arithmetic
 	cargo bench --locked
+
+# Cases of a set and its name: tune on one, freeze, report on another.
+CASES ?= 40
+SET ?= tune
+
+blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: CASES=40 SET=tune
+	cargo test --release --locked --quiet --test blind -- --cases $(CASES) --set $(SET)
 
 lint: ## formatting and lints, warnings denied
 	cargo fmt --check

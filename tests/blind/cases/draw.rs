@@ -1,0 +1,186 @@
+//! From a set and a number to a case.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use sha2::{Digest, Sha256};
+
+use super::hidden::{Hidden, Scale, hidden};
+use super::kind::{Freedom, Kind};
+use super::own_wall::UNKNOWN_TO_THE_LIBRARY;
+use super::walls::WallNumbers;
+
+/// Which simulator makes the measurements.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Simulator {
+    /// The library's own.
+    Own,
+    /// The one with compliant corners.
+    Compliant,
+}
+
+/// What is said to be known of the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Prior {
+    /// k_d to 2 %, masses to 1 %.
+    Known,
+    /// k_d to 30 %.
+    StiffnessFree,
+    /// k_d to 30 %, C_l to 10 %.
+    StiffnessAndImpactsFree,
+}
+
+/// A case, before its ground motions are scaled and anything is simulated.
+#[derive(Debug, Clone)]
+pub struct Case {
+    pub set: String,
+    pub number: u64,
+    pub kind: Kind,
+    pub simulator: Simulator,
+    pub prior: Prior,
+    /// White noise on the measured rotations, rad.
+    pub noise_rad: f64,
+    /// Size of the effect over its nominal one.
+    pub size: f64,
+    /// The wall as the experiment describes it.
+    pub described: WallNumbers,
+    /// The wall as it is, without the hidden effects.
+    pub actual: WallNumbers,
+    /// What the description lacks.
+    pub hidden: Vec<Hidden>,
+    pub fit_tests: usize,
+    pub hold_out_tests: usize,
+    /// Largest rotation the tests are scaled for, rad.
+    pub target_rad: f64,
+}
+
+/// Standard deviations of white noise, rad.
+pub const NOISES_RAD: [f64; 4] = [1e-5, 3e-5, 1e-4, 3e-4];
+/// Sizes of an effect over its nominal one.
+pub const SIZES: [f64; 3] = [0.5, 1.0, 2.0];
+
+/// A generator of random numbers for one purpose of one case.
+pub fn generator(set: &str, number: u64, purpose: u64) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed(set));
+    rng.set_stream(16 * number + purpose);
+    rng
+}
+
+/// The seed of a set, from its name.
+pub fn seed(set: &str) -> u64 {
+    let hash = Sha256::digest(format!("blind cases: {set}"));
+    u64::from_le_bytes(std::array::from_fn(|k| hash[k]))
+}
+
+/// The case of this number.
+pub fn draw(set: &str, number: u64) -> Case {
+    // The golden ratio's multiples fill (0, 1) evenly at every length, so that the first cases of a set are a fair share.
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let start = (seed(set) >> 11) as f64 / (1u64 << 53) as f64;
+    of_kind(set, number, Kind::at((start + number as f64 * golden).fract()))
+}
+
+/// The case of this number that hides this.
+pub fn of_kind(set: &str, number: u64, kind: Kind) -> Case {
+    let mut rng = generator(set, number, 0);
+    let described = if matches!(kind, Kind::Lumped(_)) || rng.random_range(0.0..1.0) < 0.5 {
+        WallNumbers::table()
+    } else {
+        WallNumbers::facade(&mut rng)
+    };
+    let one_of = |rng: &mut ChaCha8Rng, values: &[f64]| values[rng.random_range(0..values.len())];
+    let half = rng.random_range(0.0..1.0) < 0.5;
+    let unknown = kind.effects().iter().any(|effect| UNKNOWN_TO_THE_LIBRARY.contains(effect));
+    let compliant = half || unknown || matches!(kind, Kind::Outside(_));
+    let noise_rad = one_of(&mut rng, &NOISES_RAD);
+    let size = if matches!(kind, Kind::Nothing | Kind::Lumped(_)) { 1.0 } else { one_of(&mut rng, &SIZES) };
+    let prior = prior(kind, &mut rng);
+    let [fit_tests, hold_out_tests] = [[3, 2], [3, 2], [2, 1], [4, 2]][rng.random_range(0..4)];
+    let target_rad = rng.random_range(0.10..0.25) * described.widths_m[0] / described.height_m * 2.0;
+    let scattered = rng.random_range(0.0..1.0) < 0.5;
+    let mut actual = if scattered { scatter(&described, prior, &mut rng) } else { described.clone() };
+    let scale = Scale { wall: &actual, rotation_rad: target_rad, size };
+    let names = kind.effects().into_iter().chain(outside(kind));
+    let mut hidden = names.map(|name| hidden(name, &scale, &mut rng)).collect::<Vec<_>>();
+    let mut described = described;
+    if let Kind::Lumped(_) = kind {
+        // As in the paper: the description counts the carriage into the mass that acts both ways.
+        hidden = vec![Hidden::CarriageMass { mass_kg: actual.carriage_mass_kg }];
+        described.diaphragm_mass_kg += described.carriage_mass_kg;
+        described.carriage_mass_kg = 0.0;
+        actual.carriage_mass_kg = 0.0;
+    }
+    let simulator = if compliant { Simulator::Compliant } else { Simulator::Own };
+    Case {
+        set: set.to_owned(),
+        number,
+        kind,
+        simulator,
+        prior,
+        noise_rad,
+        size,
+        described,
+        actual,
+        hidden,
+        fit_tests,
+        hold_out_tests,
+        target_rad,
+    }
+}
+
+fn outside(kind: Kind) -> Option<&'static str> {
+    if let Kind::Outside(law) = kind { Some(law) } else { None }
+}
+
+fn prior(kind: Kind, rng: &mut ChaCha8Rng) -> Prior {
+    match kind {
+        Kind::Lumped(Freedom::Nothing) => Prior::Known,
+        Kind::Lumped(Freedom::Stiffness) => Prior::StiffnessFree,
+        Kind::Lumped(Freedom::StiffnessAndImpacts) => Prior::StiffnessAndImpactsFree,
+        _ if rng.random_range(0.0..1.0) < 0.75 => Prior::Known,
+        _ => Prior::StiffnessFree,
+    }
+}
+
+/// The wall within what is known of it: k_d off by its prior, at most twice; masses by theirs.
+fn scatter(described: &WallNumbers, prior: Prior, rng: &mut ChaCha8Rng) -> WallNumbers {
+    let mut factor = |sd: f64| 1.0 + sd * rng.random_range(-1.0..1.0) * 3f64.sqrt();
+    let k_d = factor(prior.stiffness());
+    let m = factor(Prior::MASS);
+    WallNumbers {
+        stiffness_n_per_m: described.stiffness_n_per_m * k_d,
+        mass_kg: described.mass_kg * m,
+        ..described.clone()
+    }
+}
+
+impl Prior {
+    /// Relative standard deviation of the wall's mass.
+    pub const MASS: f64 = 0.01;
+
+    /// Relative standard deviation of k_d.
+    pub fn stiffness(self) -> f64 {
+        match self {
+            Prior::Known => 0.02,
+            Prior::StiffnessFree | Prior::StiffnessAndImpactsFree => 0.3,
+        }
+    }
+
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Prior::Known => "k_d to 2 %",
+            Prior::StiffnessFree => "k_d to 30 %",
+            Prior::StiffnessAndImpactsFree => "k_d to 30 %, C_l to 10 %",
+        }
+    }
+}
+
+impl Simulator {
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Simulator::Own => "own",
+            Simulator::Compliant => "compliant",
+        }
+    }
+}

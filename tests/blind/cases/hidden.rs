@@ -1,0 +1,226 @@
+//! Effects with their sizes.
+//!
+//! The nominal size of an effect shows about as much as the effects of the paper's tests would: a tenth or so of the
+//! force or the mass that is there anyway.
+
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use serde_json::{Value, json};
+
+use super::walls::WallNumbers;
+
+/// A joint, as wall files name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Joint {
+    Ground,
+    Crack,
+}
+
+/// One effect.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Hidden {
+    CarriageMass {
+        mass_kg: f64,
+    },
+    ViscousDamping {
+        coefficient_n_s_per_m: f64,
+    },
+    CoulombFriction {
+        force_n: f64,
+    },
+    CubicStiffness {
+        coefficient_n_per_m3: f64,
+    },
+    Gap {
+        slack_m: f64,
+    },
+    /// A further spring on one side only.
+    OneSidedSpring {
+        side: f64,
+        stiffness_n_per_m: f64,
+    },
+    /// A further spring that yields.
+    YieldingSpring {
+        stiffness_n_per_m: f64,
+        force_n: f64,
+    },
+    /// The width between the corners is smaller by the depth, half at each.
+    CornerIndentation {
+        joint: Joint,
+        depth_m: f64,
+    },
+    /// Factors on C_1 … C_8.
+    ImpactDissipation {
+        factors: [f64; 8],
+    },
+    JointDamping {
+        joint: Joint,
+        coefficient_n_m_s_per_rad: f64,
+    },
+    VerticalGroundMotion {
+        ratio: f64,
+    },
+    RecordGain {
+        gain: f64,
+    },
+    RecordLag {
+        lag_s: f64,
+    },
+    SensorGain {
+        body: usize,
+        gain: f64,
+    },
+    SensorOffset {
+        body: usize,
+        offset_rad: f64,
+    },
+    Outside {
+        law: &'static str,
+        rotation_rad: f64,
+        size: f64,
+    },
+}
+
+/// What sizes are measured by.
+#[derive(Debug, Clone, Copy)]
+pub struct Scale<'a> {
+    pub wall: &'a WallNumbers,
+    /// Largest rotation of the tests, rad.
+    pub rotation_rad: f64,
+    /// Size over the nominal one.
+    pub size: f64,
+}
+
+impl Scale<'_> {
+    /// Largest displacement of the top, m.
+    pub fn displacement_m(&self) -> f64 {
+        self.rotation_rad * self.wall.height_m
+    }
+
+    /// Largest force of the floor's spring, N.
+    pub fn spring_n(&self) -> f64 {
+        self.wall.stiffness_n_per_m * self.displacement_m()
+    }
+
+    /// √(k_d m), N s/m.
+    pub fn impedance_n_s_per_m(&self) -> f64 {
+        (self.wall.stiffness_n_per_m * self.wall.mass_kg).sqrt()
+    }
+}
+
+/// An effect of this kind or a law of this name, its size drawn within ± 20 %.
+pub fn hidden(name: &'static str, scale: &Scale, rng: &mut ChaCha8Rng) -> Hidden {
+    let size = scale.size * rng.random_range(0.8..1.2);
+    let sign = if rng.random_range(0.0..1.0) < 0.5 { -1.0 } else { 1.0 };
+    let joint = if rng.random_range(0.0..1.0) < 0.5 { Joint::Ground } else { Joint::Crack };
+    let body = rng.random_range(0..2);
+    let wall = scale.wall;
+    match name {
+        "carriage_mass" => Hidden::CarriageMass { mass_kg: 0.08 * size * wall.mass_kg },
+        "viscous_damping" => {
+            Hidden::ViscousDamping { coefficient_n_s_per_m: 0.1 * size * scale.impedance_n_s_per_m() }
+        }
+        "coulomb_friction" => Hidden::CoulombFriction { force_n: 0.08 * size * scale.spring_n() },
+        "cubic_stiffness" => {
+            let k_3 = 0.3 * size * wall.stiffness_n_per_m / scale.displacement_m().powi(2);
+            Hidden::CubicStiffness { coefficient_n_per_m3: k_3 }
+        }
+        "gap" => Hidden::Gap { slack_m: 0.06 * size * scale.displacement_m() },
+        "one_sided_spring" => {
+            Hidden::OneSidedSpring { side: sign, stiffness_n_per_m: 0.15 * size * wall.stiffness_n_per_m }
+        }
+        // Yields at a fifth of the reach or so.
+        "yielding_spring" => Hidden::YieldingSpring {
+            stiffness_n_per_m: 0.6 * wall.stiffness_n_per_m,
+            force_n: 0.1 * size * scale.spring_n(),
+        },
+        "corner_indentation" => Hidden::CornerIndentation { joint, depth_m: 0.04 * size * wall.thickness_m },
+        "impact_dissipation" => {
+            // Each transition loses a tenth or so of what the impact can see, one more than another.
+            let factors = [0; 8].map(|_| 1.0 - 0.1 * size * rng.random_range(0.5..1.5));
+            Hidden::ImpactDissipation { factors }
+        }
+        "joint_damping" => {
+            let arm_m = 0.5 * wall.widths_m[joint as usize];
+            let coefficient = 0.2 * size * wall.weight_n() * arm_m;
+            Hidden::JointDamping { joint, coefficient_n_m_s_per_rad: coefficient }
+        }
+        "vertical_ground_motion" => Hidden::VerticalGroundMotion { ratio: sign * 0.3 * size },
+        "record_gain" => Hidden::RecordGain { gain: 1.0 + sign * 0.05 * size },
+        // Whole samples, so that the wall's own record can be shifted.
+        "record_lag" => Hidden::RecordLag { lag_s: (2.0 * size).round().max(1.0) * super::tests::STEP_S },
+        "sensor_gain" => Hidden::SensorGain { body, gain: 1.0 + sign * 0.04 * size },
+        "sensor_offset" => Hidden::SensorOffset { body, offset_rad: sign * 0.02 * size * scale.rotation_rad },
+        law => Hidden::Outside { law, rotation_rad: scale.rotation_rad, size },
+    }
+}
+
+impl Hidden {
+    /// Where it acts, in the words of a diagnosis.
+    pub fn place(&self) -> &'static str {
+        match self {
+            Hidden::CornerIndentation { .. } | Hidden::JointDamping { .. } => "joint",
+            Hidden::ImpactDissipation { .. } => "impacts",
+            Hidden::VerticalGroundMotion { .. } | Hidden::RecordGain { .. } | Hidden::RecordLag { .. } => {
+                "ground_motion"
+            }
+            Hidden::SensorGain { .. } | Hidden::SensorOffset { .. } => "sensor",
+            _ => "top",
+        }
+    }
+
+    /// Kind, and the number a refit should find, where it is one number.
+    pub fn kind_and_value(&self) -> (&'static str, Option<f64>) {
+        match *self {
+            Hidden::CarriageMass { mass_kg } => ("carriage_mass", Some(mass_kg)),
+            Hidden::ViscousDamping { coefficient_n_s_per_m: c } => ("viscous_damping", Some(c)),
+            Hidden::CoulombFriction { force_n } => ("coulomb_friction", Some(force_n)),
+            Hidden::CubicStiffness { coefficient_n_per_m3: k_3 } => ("cubic_stiffness", Some(k_3)),
+            Hidden::Gap { slack_m } => ("gap", Some(slack_m)),
+            Hidden::OneSidedSpring { stiffness_n_per_m: k, .. } => ("one_sided_spring", Some(k)),
+            Hidden::YieldingSpring { force_n, .. } => ("yielding_spring", Some(force_n)),
+            Hidden::CornerIndentation { depth_m, .. } => ("corner_indentation", Some(depth_m)),
+            Hidden::ImpactDissipation { .. } => ("impact_dissipation", None),
+            Hidden::JointDamping { coefficient_n_m_s_per_rad: c, .. } => ("joint_damping", Some(c)),
+            Hidden::VerticalGroundMotion { ratio } => ("vertical_ground_motion", Some(ratio)),
+            Hidden::RecordGain { gain } => ("record_gain", Some(gain)),
+            Hidden::RecordLag { lag_s } => ("record_lag", Some(lag_s)),
+            Hidden::SensorGain { gain, .. } => ("sensor_gain", Some(gain)),
+            Hidden::SensorOffset { offset_rad, .. } => ("sensor_offset", Some(offset_rad)),
+            Hidden::Outside { law, .. } => (law, None),
+        }
+    }
+
+    /// As the answer tells it.
+    pub fn told(&self) -> Value {
+        let (kind, value) = self.kind_and_value();
+        let mut told = json!({ "kind": kind, "place": self.place(), "value": value });
+        match self {
+            Hidden::ImpactDissipation { factors } => told["factors"] = json!(factors),
+            Hidden::SensorGain { body, .. } | Hidden::SensorOffset { body, .. } => {
+                told["body"] = json!(["lower", "upper"][*body]);
+            }
+            Hidden::CornerIndentation { joint, .. } | Hidden::JointDamping { joint, .. } => {
+                told["joint"] = json!(joint.name());
+            }
+            Hidden::OneSidedSpring { side, .. } => told["side"] = json!(side_name(*side)),
+            _ => {}
+        }
+        told
+    }
+}
+
+/// A side by its sign, as wall files name it.
+pub fn side_name(side: f64) -> &'static str {
+    if side > 0.0 { "positive" } else { "negative" }
+}
+
+impl Joint {
+    /// Name in wall files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Joint::Ground => "ground",
+            Joint::Crack => "crack",
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! The wall as bodies that are free in the plane, and all that acts on it.
+
+use super::top::TopLaw;
+
+/// Left and right corner of a joint.
+pub const CORNERS: [usize; 2] = [0, 1];
+
+/// Ground and crack; also the lower and the upper body.
+pub const JOINTS: [usize; 2] = [0, 1];
+
+/// A cracked wall. Pairs are of the lower and the upper body, or of the joints at the ground and at the crack.
+#[derive(Debug, Clone)]
+pub struct CompliantWall {
+    /// Heights, m.
+    pub height_m: [f64; 2],
+    /// Masses, kg.
+    pub mass_kg: [f64; 2],
+    /// Polar moments about the centres of mass, kg m².
+    pub inertia_kg_m2: [f64; 2],
+    /// For each joint the distance of its left (negative) and right corner from the wall's axis, m.
+    pub corner_x_m: [[f64; 2]; 2],
+    /// Mass at the top that acts in both directions, m_d, kg.
+    pub top_mass_kg: f64,
+    /// Mass at the top that acts in x only, m_dp, kg.
+    pub carriage_mass_kg: f64,
+    /// Distance of the top mass from the wall's axis, e_C, m.
+    pub eccentricity_m: f64,
+    /// What pushes the top, the floor's spring among it.
+    pub top: Vec<TopLaw>,
+    /// Rotational dampers at the joints, N m s/rad.
+    pub joint_damping_n_m_s: [f64; 2],
+    /// C_1 … C_8, applied by the law `contact`.
+    pub coefficients: [f64; 8],
+    /// A mass that lies loose on the top.
+    pub loose: Option<LooseMass>,
+}
+
+/// A mass that slides freely between two stops on the top of the wall and rattles.
+#[derive(Debug, Clone, Copy)]
+pub struct LooseMass {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Distance to either stop from the middle, m.
+    pub slack_m: f64,
+    /// Stiffness of the stops, N/m.
+    pub stiffness_n_per_m: f64,
+    /// Damping of the stops, N s/m.
+    pub damping_n_s_per_m: f64,
+}
+
+impl LooseMass {
+    /// Force on the loose mass, N, from its place and velocity relative to the top.
+    pub fn force_n(&self, x_m: f64, v_m_s: f64) -> f64 {
+        let beyond = x_m.abs() - self.slack_m;
+        if beyond <= 0.0 {
+            return 0.0;
+        }
+        let closing_m_s = v_m_s * x_m.signum();
+        let push = self.stiffness_n_per_m * beyond + self.damping_n_s_per_m * closing_m_s;
+        -push.max(0.0) * x_m.signum()
+    }
+}
+
+impl CompliantWall {
+    /// Masses at the top in x and in y, kg.
+    pub fn top_masses_kg(&self) -> [f64; 2] {
+        [self.top_mass_kg + self.carriage_mass_kg, self.top_mass_kg]
+    }
+
+    /// Weight above a joint, N.
+    pub fn weight_above_n(&self, joint: usize) -> f64 {
+        let bodies: f64 = self.mass_kg[joint..].iter().sum();
+        (bodies + self.top_mass_kg) * super::G_M_S2
+    }
+}

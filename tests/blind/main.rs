@@ -1,0 +1,112 @@
+//! Blind cases for `mrbd diagnose`: made, diagnosed and scored (`make blind`).
+//!
+//! ```text
+//! set, number ── cases ──> an experiment, its answer kept beside it
+//!                             │ mrbd diagnose, in processes
+//!                             └─ score ──> targets, confusion, one row a case
+//! ```
+//!
+//! Half of the cases come from the library's own simulator, half from one of another formulation ([`compliant`]), so that
+//! a diagnosis is not judged by inverting its own model alone. Tune on the set `tune`; freeze; report on `report`.
+
+mod cases;
+mod compliant;
+mod diagnose;
+mod score;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+
+/// Make blind cases, run `mrbd diagnose` on each, and score what it says.
+#[derive(Debug, Parser)]
+#[command(name = "make blind")]
+struct Options {
+    /// Name of the set: `tune` to tune on, `report` to report; any other name is another set.
+    #[arg(long, default_value = "tune")]
+    set: String,
+    /// How many cases.
+    #[arg(long, default_value_t = 40)]
+    cases: u64,
+    /// Number of the first case.
+    #[arg(long, default_value_t = 0)]
+    first: u64,
+    /// Only cases whose kind contains this.
+    #[arg(long)]
+    only: Option<String>,
+    /// Folder of the set [default: outputs/blind/SET].
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Processes at a time.
+    #[arg(long, default_value_t = 2)]
+    jobs: usize,
+    /// The program to judge.
+    #[arg(long, default_value = env!("CARGO_BIN_EXE_mrbd"))]
+    mrbd: PathBuf,
+    /// Make the cases and stop.
+    #[arg(long)]
+    make_only: bool,
+    /// Score what has been diagnosed and stop.
+    #[arg(long, conflicts_with = "make_only")]
+    score_only: bool,
+}
+
+fn main() -> ExitCode {
+    let options = Options::parse();
+    match go(&options) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("blind: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn go(options: &Options) -> Result<(), String> {
+    let out = options.out.clone().unwrap_or_else(|| PathBuf::from("outputs/blind").join(&options.set));
+    let drawn = (options.first..options.first + options.cases).map(|n| cases::draw::draw(&options.set, n));
+    let only = |kind: &cases::kind::Kind| options.only.as_ref().is_none_or(|part| kind.name().contains(part));
+    let chosen: Vec<cases::draw::Case> = drawn.filter(|case| only(&case.kind)).collect();
+    let folder = |case: &cases::draw::Case| out.join(format!("case_{:04}", case.number));
+    if !options.score_only {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(options.jobs).build();
+        let pool = pool.map_err(|e| e.to_string())?;
+        let motions = cases::tests::motions(&options.set).map_err(|e| e.to_string())?;
+        eprintln!("{} cases of the set {} in {}", chosen.len(), options.set, out.display());
+        let program = diagnose::Program::new(&options.mrbd)?;
+        let bar = progress(chosen.len());
+        let done = pool.install(|| {
+            chosen
+                .par_iter()
+                .map(|case| {
+                    let folder = folder(case);
+                    // The answer is written last: with it a case is whole.
+                    if !folder.join("answer.json").is_file() {
+                        let made = cases::folder::write(case, &motions, &folder);
+                        made.map_err(|e| format!("case {}: {}: {e}", case.number, case.kind.name()))?;
+                    }
+                    if !options.make_only {
+                        program.diagnose(&folder)?;
+                    }
+                    bar.inc(1);
+                    Ok(())
+                })
+                .collect::<Result<Vec<()>, String>>()
+        });
+        bar.finish();
+        done?;
+    }
+    if options.make_only {
+        return Ok(());
+    }
+    let folders: Vec<PathBuf> = chosen.iter().map(folder).collect();
+    score::report(&folders, &out)
+}
+
+fn progress(count: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} cases, {elapsed} gone, {eta} to go");
+    ProgressBar::new(count as u64).with_style(style.expect("a valid template"))
+}

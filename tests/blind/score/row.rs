@@ -1,0 +1,166 @@
+//! One case: what was hidden, what was said, and whether that is right.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::reading::{json, list, median, number, text, texts};
+use crate::diagnose::Outcome;
+
+/// A diagnosed case.
+#[derive(Debug, Clone)]
+pub struct Row {
+    pub number: u64,
+    pub kind: String,
+    pub simulator: String,
+    pub prior: String,
+    pub noise_rad: f64,
+    pub size: f64,
+    pub tests: u64,
+    /// Effects that are hidden, in order.
+    pub hidden: Vec<String>,
+    pub hidden_place: String,
+    /// The verdict; `failed` where there is none.
+    pub verdict: String,
+    pub named: Vec<String>,
+    pub equivalent: Vec<String>,
+    pub place: String,
+    /// |found - true| / |true| of the first effect's number, where it was named rightly.
+    pub parameter_error: Option<f64>,
+    /// Whether the interval of that number holds the truth.
+    pub covered: Option<bool>,
+    /// Median windowed error of the held-out tests over the noise floor, before and after.
+    pub before: Option<f64>,
+    pub after: Option<f64>,
+    pub seconds: f64,
+}
+
+impl Row {
+    /// The row of a case; none if it has not been diagnosed.
+    ///
+    /// # Errors
+    /// Text for people if a file cannot be read.
+    pub fn load(case: &Path) -> Result<Option<Self>, String> {
+        let Some(outcome) = Outcome::load(case) else { return Ok(None) };
+        let answer = json(&case.join("answer.json"))?;
+        let said = case.join("diagnosis").join("diagnosis.json");
+        let diagnosis = match outcome.exit_code {
+            Some(0) => json(&said)?,
+            _ => Value::Null,
+        };
+        Ok(Some(Self::new(&answer, &diagnosis, &outcome)))
+    }
+
+    fn new(answer: &Value, diagnosis: &Value, outcome: &Outcome) -> Self {
+        let verdict = text(diagnosis, "/verdict");
+        let mut row = Self {
+            number: answer.pointer("/case/number").and_then(Value::as_u64).unwrap_or_default(),
+            kind: text(answer, "/case/kind"),
+            simulator: text(answer, "/case/simulator"),
+            prior: text(answer, "/case/prior"),
+            noise_rad: number(answer, "/case/noise_rad").unwrap_or(f64::NAN),
+            size: number(answer, "/case/size").unwrap_or(f64::NAN),
+            tests: number(answer, "/case/fit_tests").unwrap_or(0.0) as u64,
+            hidden: texts(answer, "/effects", "kind"),
+            hidden_place: text(answer, "/place"),
+            verdict: if verdict.is_empty() { "failed".into() } else { verdict },
+            named: texts(diagnosis, "/effects", "kind"),
+            equivalent: texts(diagnosis, "/equivalent", "kind"),
+            place: place(diagnosis),
+            parameter_error: None,
+            covered: None,
+            before: held_out(diagnosis, "before"),
+            after: held_out(diagnosis, "after"),
+            seconds: outcome.seconds,
+        };
+        if row.exact() {
+            row.compare_parameter(answer, diagnosis);
+        }
+        row
+    }
+
+    /// Compares the number of the first hidden effect, if it is one number.
+    fn compare_parameter(&mut self, answer: &Value, diagnosis: &Value) {
+        let Some(value) = number(answer, "/effects/0/value") else { return };
+        let kind = &self.hidden[0];
+        let found = list(diagnosis, "/effects").iter().find(|effect| text(effect, "/kind") == *kind);
+        let Some((found, interval)) = found.and_then(parameter) else { return };
+        self.parameter_error = Some((found - value).abs() / value.abs());
+        self.covered = interval.map(|[low, high]| low <= value && value <= high);
+    }
+
+    /// Whether an effect of the catalogue was hidden.
+    pub fn hides_effect(&self) -> bool {
+        !self.hidden.is_empty() && !self.hides_other_law()
+    }
+
+    /// Whether a law outside the catalogue was hidden.
+    pub fn hides_other_law(&self) -> bool {
+        self.kind.starts_with("outside")
+    }
+
+    /// Whether an effect was claimed, by name or as a class.
+    pub fn claims(&self) -> bool {
+        matches!(self.verdict.as_str(), "named" | "class")
+    }
+
+    /// Exactly what was hidden was named.
+    pub fn exact(&self) -> bool {
+        let sorted = |names: &[String]| {
+            let mut names = names.to_vec();
+            names.sort();
+            names
+        };
+        self.verdict == "named" && self.hides_effect() && sorted(&self.named) == sorted(&self.hidden)
+    }
+
+    /// What was hidden was named, or is in the class.
+    pub fn right(&self) -> bool {
+        let told = |effect: &String| self.named.contains(effect) || self.equivalent.contains(effect);
+        self.exact() || (self.verdict == "class" && self.hides_effect() && self.hidden.iter().all(told))
+    }
+
+    /// A name was given that is not what was hidden.
+    pub fn wrong(&self) -> bool {
+        self.claims() && !self.right()
+    }
+
+    /// Whether the place is right, named or not.
+    pub fn place_right(&self) -> bool {
+        !self.hidden_place.is_empty() && self.place == self.hidden_place
+    }
+
+    /// What was said, in a word: the verdict, or the names.
+    pub fn said(&self) -> String {
+        match self.verdict.as_str() {
+            "named" => self.named.join(" + "),
+            "class" => "a class".into(),
+            other => format!("({other})"),
+        }
+    }
+}
+
+/// Where it acts, as the diagnosis tells it: of the first effect, or of the verdict itself.
+fn place(diagnosis: &Value) -> String {
+    let own = text(diagnosis, "/place");
+    if own.is_empty() { text(diagnosis, "/effects/0/place") } else { own }
+}
+
+/// The only number of an effect and its interval.
+fn parameter(effect: &Value) -> Option<(f64, Option<[f64; 2]>)> {
+    let parameters = effect.get("parameters")?.as_object()?;
+    let (name, value) = parameters.iter().find(|(_, value)| value.is_number())?;
+    let interval = effect.get("interval")?;
+    let pair = interval.get(name).unwrap_or(interval).as_array()?;
+    let ends = [pair.first()?.as_f64()?, pair.get(1)?.as_f64()?];
+    Some((value.as_f64()?, Some(ends)))
+}
+
+/// The median over held-out tests of the windowed error over the noise floor.
+fn held_out(diagnosis: &Value, when: &str) -> Option<f64> {
+    let tests = list(diagnosis, "/tests").iter().filter(|test| text(test, "/use") == "hold-out");
+    median(tests.filter_map(|test| {
+        let error = number(test, &format!("/windowed_error_{when}"))?;
+        Some(error / number(test, "/noise_floor")?)
+    }))
+}

@@ -1,0 +1,74 @@
+//! The targets of the diagnosis and what was reached.
+
+use std::fmt::Write as _;
+
+use super::counted::Counted;
+use super::reading::median;
+use super::row::Row;
+
+/// Sizes from which an effect counts as well visible.
+const VISIBLE_SIZE: f64 = 1.0;
+/// Up to this an effect is to be named nearly always, rad.
+const LOW_NOISE_RAD: f64 = 1.001e-4;
+
+/// A table: figure, target, reached with its interval, cases.
+pub fn table(rows: &[Row]) -> String {
+    let mut lines = Vec::new();
+    let mut add = |figure: &str, target: &str, reached: String| {
+        lines.push([figure.to_owned(), target.to_owned(), reached]);
+    };
+    let nothing: Vec<&Row> = rows.iter().filter(|row| row.hidden.is_empty()).collect();
+    add("a name where nothing is hidden", "≤ 5 %", Counted::of(&nothing, |row| row.claims()).told());
+    for noise in crate::cases::draw::NOISES_RAD {
+        let at = nothing.iter().filter(|row| row.noise_rad == noise);
+        add(&format!("  at {noise:.0e} rad"), "≤ 5 %", Counted::of(at, |row| row.claims()).told());
+    }
+    let one: Vec<&Row> = rows.iter().filter(|row| row.hides_effect() && row.hidden.len() == 1).collect();
+    let visible = |row: &&&Row| row.size >= VISIBLE_SIZE && row.prior.starts_with("k_d to 2 %");
+    let low: Vec<&&Row> = one.iter().filter(|row| visible(row) && row.noise_rad < LOW_NOISE_RAD).collect();
+    let high: Vec<&&Row> = one.iter().filter(|row| visible(row) && row.noise_rad > LOW_NOISE_RAD).collect();
+    add(
+        "right name or class, size ≥ 1, ≤ 1e-4 rad, k_d to 2 %",
+        "≥ 95 %",
+        Counted::of(&low, |r| r.right()).told(),
+    );
+    add("  exact name", "≥ 90 %", Counted::of(&low, |row| row.exact()).told());
+    add("  wrong name", "", Counted::of(&low, |row| row.wrong()).told());
+    add("the same at 3e-4 rad", "≥ 75 %", Counted::of(&high, |row| row.right()).told());
+    add("  wrong name", "≤ 5 %", Counted::of(&high, |row| row.wrong()).told());
+    let placed = rows.iter().filter(|row| !row.hidden.is_empty() && row.size >= VISIBLE_SIZE);
+    add("right place, named or not, size ≥ 1", "≥ 95 %", Counted::of(placed, |row| row.place_right()).told());
+    let outside: Vec<&Row> = rows.iter().filter(|row| row.hides_other_law()).collect();
+    let honest = |row: &&&Row| matches!(row.verdict.as_str(), "place_only" | "unknown");
+    add("another law: place_only or unknown", "≥ 80 %", Counted::of(&outside, honest).told());
+    add("  wrong name", "≤ 10 %", Counted::of(&outside, |row| row.claims()).told());
+    let errors: Vec<f64> = rows.iter().filter_map(|row| row.parameter_error).collect();
+    let error = median(errors.iter().copied());
+    let told = error.map_or("no cases".into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));
+    add("parameter, median error where named rightly", "≤ 5 %", told);
+    let covered = Counted::of(rows.iter().filter_map(|row| row.covered), |covered| *covered);
+    add("  90 % interval holds the truth", "85 to 95 %", covered.told());
+    let pairs = rows.iter().filter(|row| row.hidden.len() == 2);
+    add("two effects, both named", "≥ 80 %", Counted::of(pairs, |row| row.exact()).told());
+    let named: Vec<&Row> = rows.iter().filter(|row| row.right()).collect();
+    let of = |value: fn(&Row) -> Option<f64>| median(named.iter().filter_map(|row| value(row)));
+    let told = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
+    let reached = format!("{} to {}, {} cases", told(of(|r| r.before)), told(of(|r| r.after)), named.len());
+    add("held-out windowed error over noise, median, where right", "> 3 to < 1.5", reached);
+    let slowest = rows.iter().map(|row| row.seconds).fold(0.0, f64::max);
+    let typical = median(rows.iter().map(|row| row.seconds)).unwrap_or(0.0);
+    add("time of a case on one thread", "", format!("median {typical:.0} s, longest {slowest:.0} s"));
+    printed(&lines)
+}
+
+fn printed(lines: &[[String; 3]]) -> String {
+    let mut text = String::new();
+    let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max().unwrap_or(0);
+    let (figure, target) = (width(0).max(6), width(1).max(6));
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{:figure$}  {:target$}  reached (95 % interval), cases", "figure", "target");
+    for [a, b, c] in lines {
+        let _ = writeln!(text, "{a:figure$}  {b:target$}  {c}");
+    }
+    text
+}
