@@ -59,7 +59,7 @@ fn difference(case: &Case, x: &[f64], vertical: f64) -> f64 {
 }
 
 fn case(actual: WallNumbers, hidden: Vec<Hidden>) -> Case {
-    Case { actual, hidden, ..of_kind("test", 0, Kind::Nothing) }
+    Case { actual, hidden, ..of_kind("test", 0, Kind::Nothing, 0) }
 }
 
 /// What may differ: corners give, and impacts take time. Found: 0.0003 to 0.004 of the largest rotation.
@@ -138,8 +138,8 @@ fn regress_a_case_depends_on_its_number_alone_and_can_be_read() {
     let motions = cases::tests::motions("test").expect("the motions");
     let folders = [tempfile::tempdir().expect("a folder"), tempfile::tempdir().expect("a folder")];
     let kind = Kind::One("viscous_damping");
-    let own = (0..).map(|n| of_kind("test", n, kind)).find(|case| case.simulator == Simulator::Own);
-    let case = own.expect("every other case");
+    let own = (0..).map(|n| of_kind("test", 0, kind, n)).find(|case| case.simulator == Simulator::Own);
+    let case = own.expect("every other combination");
     for folder in &folders {
         cases::folder::write(&case, &motions, folder.path()).expect("a case");
     }

@@ -1,5 +1,6 @@
 //! From a set and a number to a case.
 
+use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
@@ -73,26 +74,45 @@ pub fn seed(set: &str) -> u64 {
 
 /// The case of this number.
 pub fn draw(set: &str, number: u64) -> Case {
-    // The golden ratio's multiples fill (0, 1) evenly at every length, so that the first cases of a set are a fair share.
-    let golden = 0.5 * (5f64.sqrt() - 1.0);
-    let start = (seed(set) >> 11) as f64 / (1u64 << 53) as f64;
-    of_kind(set, number, Kind::at((start + number as f64 * golden).fract()))
+    let kind = kind_of(set, number);
+    let before = (0..number).filter(|earlier| kind_of(set, *earlier).group() == kind.group()).count();
+    of_kind(set, number, kind, before)
 }
 
-/// The case of this number that hides this.
-pub fn of_kind(set: &str, number: u64, kind: Kind) -> Case {
+/// What the case of this number hides.
+///
+/// The golden ratio's multiples fill (0, 1) evenly at every length: the first cases of a set are a fair share of it.
+fn kind_of(set: &str, number: u64) -> Kind {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let start = (seed(set) >> 11) as f64 / (1u64 << 53) as f64;
+    Kind::at((start + number as f64 * golden).fract())
+}
+
+/// Noise, size and simulator of a case: the cases of a group go through all combinations, in an order of the set's own.
+fn combination(set: &str, group: &str, before: usize) -> (f64, f64, Simulator) {
+    let simulators = [Simulator::Own, Simulator::Compliant];
+    let mut all: Vec<_> = NOISES_RAD
+        .iter()
+        .flat_map(|noise| SIZES.iter().map(move |size| (*noise, *size)))
+        .flat_map(|(noise, size)| simulators.map(|simulator| (noise, size, simulator)))
+        .collect();
+    all.shuffle(&mut ChaCha8Rng::seed_from_u64(seed(&format!("{set}, {group}"))));
+    all[before % all.len()]
+}
+
+/// The case of this number that hides this, with so many cases of its group before it.
+pub fn of_kind(set: &str, number: u64, kind: Kind, before: usize) -> Case {
+    let (noise_rad, size, simulator) = combination(set, &kind.group(), before);
     let mut rng = generator(set, number, 0);
     let described = if matches!(kind, Kind::Lumped(_)) || rng.random_range(0.0..1.0) < 0.5 {
         WallNumbers::table()
     } else {
         WallNumbers::facade(&mut rng)
     };
-    let one_of = |rng: &mut ChaCha8Rng, values: &[f64]| values[rng.random_range(0..values.len())];
-    let half = rng.random_range(0.0..1.0) < 0.5;
+    let size = if matches!(kind, Kind::Nothing | Kind::Lumped(_)) { 1.0 } else { size };
     let unknown = kind.effects().iter().any(|effect| UNKNOWN_TO_THE_LIBRARY.contains(effect));
-    let compliant = half || unknown || matches!(kind, Kind::Outside(_));
-    let noise_rad = one_of(&mut rng, &NOISES_RAD);
-    let size = if matches!(kind, Kind::Nothing | Kind::Lumped(_)) { 1.0 } else { one_of(&mut rng, &SIZES) };
+    let only_compliant = unknown || matches!(kind, Kind::Outside(_));
+    let simulator = if only_compliant { Simulator::Compliant } else { simulator };
     let prior = prior(kind, &mut rng);
     let [fit_tests, hold_out_tests] = [[3, 2], [3, 2], [2, 1], [4, 2]][rng.random_range(0..4)];
     let target_rad = rng.random_range(0.10..0.25) * described.widths_m[0] / described.height_m * 2.0;
@@ -109,7 +129,6 @@ pub fn of_kind(set: &str, number: u64, kind: Kind) -> Case {
         described.carriage_mass_kg = 0.0;
         actual.carriage_mass_kg = 0.0;
     }
-    let simulator = if compliant { Simulator::Compliant } else { Simulator::Own };
     Case {
         set: set.to_owned(),
         number,

@@ -78,6 +78,15 @@ impl Kind {
         }
     }
 
+    /// Name of the cases that share out noise, size and simulator among them.
+    pub fn group(self) -> String {
+        match self {
+            Kind::Pair(..) => "two effects".into(),
+            Kind::Outside(_) => "another law".into(),
+            _ => self.name(),
+        }
+    }
+
     /// The effects of the catalogue that are hidden.
     pub fn effects(self) -> Vec<&'static str> {
         match self {
