@@ -159,52 +159,77 @@ impl Hidden {
     /// Where it acts, in the words of a diagnosis.
     pub fn place(&self) -> &'static str {
         match self {
-            Hidden::CornerIndentation { .. } | Hidden::JointDamping { .. } => "joint",
+            Hidden::CornerIndentation { joint, .. } | Hidden::JointDamping { joint, .. } => joint.name(),
             Hidden::ImpactDissipation { .. } => "impacts",
             Hidden::VerticalGroundMotion { .. } | Hidden::RecordGain { .. } | Hidden::RecordLag { .. } => {
-                "ground_motion"
+                "ground motion"
             }
             Hidden::SensorGain { .. } | Hidden::SensorOffset { .. } => "sensor",
             _ => "top",
         }
     }
 
-    /// Kind, and the number a refit should find, where it is one number.
-    pub fn kind_and_value(&self) -> (&'static str, Option<f64>) {
+    /// Kind, and the number a refit should find with its key in wall files, where it is one number.
+    pub fn kind_and_value(&self) -> (&'static str, Option<(&'static str, f64)>) {
         match *self {
-            Hidden::CarriageMass { mass_kg } => ("carriage_mass", Some(mass_kg)),
-            Hidden::ViscousDamping { coefficient_n_s_per_m: c } => ("viscous_damping", Some(c)),
-            Hidden::CoulombFriction { force_n } => ("coulomb_friction", Some(force_n)),
-            Hidden::CubicStiffness { coefficient_n_per_m3: k_3 } => ("cubic_stiffness", Some(k_3)),
-            Hidden::Gap { slack_m } => ("gap", Some(slack_m)),
-            Hidden::OneSidedSpring { stiffness_n_per_m: k, .. } => ("one_sided_spring", Some(k)),
-            Hidden::YieldingSpring { force_n, .. } => ("yielding_spring", Some(force_n)),
-            Hidden::CornerIndentation { depth_m, .. } => ("corner_indentation", Some(depth_m)),
+            Hidden::CarriageMass { mass_kg } => ("carriage_mass", Some(("mass_kg", mass_kg))),
+            Hidden::ViscousDamping { coefficient_n_s_per_m: c } => {
+                ("viscous_damping", Some(("coefficient_n_s_per_m", c)))
+            }
+            Hidden::CoulombFriction { force_n } => ("coulomb_friction", Some(("force_n", force_n))),
+            Hidden::CubicStiffness { coefficient_n_per_m3: k_3 } => {
+                ("cubic_stiffness", Some(("coefficient_n_per_m3", k_3)))
+            }
+            Hidden::Gap { slack_m } => ("gap", Some(("half_width_m", slack_m))),
+            Hidden::OneSidedSpring { stiffness_n_per_m: k, .. } => {
+                ("one_sided_spring", Some(("stiffness_n_per_m", k)))
+            }
+            Hidden::YieldingSpring { force_n, .. } => ("yielding_spring", Some(("yield_force_n", force_n))),
+            Hidden::CornerIndentation { depth_m, .. } => ("corner_indentation", Some(("depth_m", depth_m))),
             Hidden::ImpactDissipation { .. } => ("impact_dissipation", None),
-            Hidden::JointDamping { coefficient_n_m_s_per_rad: c, .. } => ("joint_damping", Some(c)),
-            Hidden::VerticalGroundMotion { ratio } => ("vertical_ground_motion", Some(ratio)),
-            Hidden::RecordGain { gain } => ("record_gain", Some(gain)),
-            Hidden::RecordLag { lag_s } => ("record_lag", Some(lag_s)),
-            Hidden::SensorGain { gain, .. } => ("sensor_gain", Some(gain)),
-            Hidden::SensorOffset { offset_rad, .. } => ("sensor_offset", Some(offset_rad)),
+            Hidden::JointDamping { coefficient_n_m_s_per_rad: c, .. } => {
+                ("joint_damping", Some(("coefficient_n_m_s_per_rad", c)))
+            }
+            Hidden::VerticalGroundMotion { ratio } => ("vertical_ground_motion", Some(("ratio", ratio))),
+            Hidden::RecordGain { gain } => ("record_gain", Some(("gain", gain))),
+            Hidden::RecordLag { lag_s } => ("record_lag", Some(("lag_s", lag_s))),
+            Hidden::SensorGain { gain, .. } => ("sensor_gain", Some(("gain", gain))),
+            Hidden::SensorOffset { offset_rad, .. } => ("sensor_offset", Some(("offset_rad", offset_rad))),
             Hidden::Outside { law, .. } => (law, None),
+        }
+    }
+
+    /// The word that a kind takes in wall files.
+    fn choice(&self) -> Option<&'static str> {
+        match *self {
+            Hidden::SensorGain { body, .. } | Hidden::SensorOffset { body, .. } => {
+                Some(["lower", "upper"][body])
+            }
+            Hidden::CornerIndentation { joint, .. } | Hidden::JointDamping { joint, .. } => {
+                Some(joint.name())
+            }
+            Hidden::OneSidedSpring { side, .. } => Some(side_name(side)),
+            _ => None,
         }
     }
 
     /// As the answer tells it.
     pub fn told(&self) -> Value {
-        let (kind, value) = self.kind_and_value();
-        let mut told = json!({ "kind": kind, "place": self.place(), "value": value });
-        match self {
-            Hidden::ImpactDissipation { factors } => told["factors"] = json!(factors),
-            Hidden::SensorGain { body, .. } | Hidden::SensorOffset { body, .. } => {
-                told["body"] = json!(["lower", "upper"][*body]);
-            }
-            Hidden::CornerIndentation { joint, .. } | Hidden::JointDamping { joint, .. } => {
-                told["joint"] = json!(joint.name());
-            }
-            Hidden::OneSidedSpring { side, .. } => told["side"] = json!(side_name(*side)),
-            _ => {}
+        let (kind, number) = self.kind_and_value();
+        let name = self.choice().map_or(kind.to_owned(), |choice| format!("{kind}.{choice}"));
+        let (parameter, value) = number.unzip();
+        // What it is where nothing is hidden.
+        let neutral = if parameter == Some("gain") { 1.0 } else { 0.0 };
+        let mut told = json!({
+            "kind": kind,
+            "name": name,
+            "place": self.place(),
+            "parameter": parameter,
+            "value": value,
+            "deviation": value.map(|value: f64| (value - neutral).abs()),
+        });
+        if let Hidden::ImpactDissipation { factors } = self {
+            told["factors"] = json!(factors);
         }
         told
     }

@@ -5,7 +5,7 @@ use mrbd::store::{Column, Read};
 use super::row::Row;
 
 /// One row a case.
-pub static COLUMNS: [Column<Row>; 20] = [
+pub static COLUMNS: [Column<Row>; 21] = [
     Column::input("case", "", "number of the case in its set", Read::Count(|r| Some(r.number))),
     Column::input("kind", "", "what is hidden", Read::Text(|r| Some(r.kind.as_str().into()))),
     Column::input(
@@ -18,7 +18,7 @@ pub static COLUMNS: [Column<Row>; 20] = [
     Column::input("noise_rad", "rad", "white noise on the rotations", Read::Number(|r| Some(r.noise_rad))),
     Column::input("size", "", "size of the effect over its nominal one", Read::Number(|r| Some(r.size))),
     Column::input("fit_tests", "", "tests to fit", Read::Count(|r| Some(r.tests))),
-    Column::input("place", "", "where it acts", Read::Text(|r| Some(r.hidden_place.as_str().into()))),
+    Column::input("place", "", "where it acts", Read::Text(|r| Some(r.hidden_places.join(" + ").into()))),
     Column::result("verdict", "", "the verdict", Read::Text(|r| Some(r.verdict.as_str().into()))),
     Column::result("named", "", "effects named", Read::Text(|r| Some(r.named.join(" + ").into()))),
     Column::result("equivalent", "", "the class", Read::Text(|r| Some(r.equivalent.join(" ").into()))),
@@ -31,7 +31,18 @@ pub static COLUMNS: [Column<Row>; 20] = [
     Column::result("exact", "", "exactly what is hidden was named", Read::Flag(|r| Some(r.exact()))),
     Column::result("right", "", "named, or in the class", Read::Flag(|r| Some(r.right()))),
     Column::result("wrong", "", "another name was given", Read::Flag(|r| Some(r.wrong()))),
-    Column::result("parameter_error", "", "|found - true| / |true|", Read::Number(|r| r.parameter_error)),
+    Column::result(
+        "over_detectable",
+        "",
+        "size over the smallest that the diagnosis says it could detect",
+        Read::Number(|r| r.over_detectable),
+    ),
+    Column::result(
+        "parameter_error",
+        "",
+        "|found - true| over the deviation from doing nothing",
+        Read::Number(|r| r.parameter_error),
+    ),
     Column::result("covered", "", "the interval holds the truth", Read::Flag(|r| r.covered)),
     Column::result("held_out_before", "", "windowed error over noise, before", Read::Number(|r| r.before)),
     Column::result("held_out_after", "", "windowed error over noise, after", Read::Number(|r| r.after)),

@@ -19,13 +19,16 @@ pub struct Row {
     pub tests: u64,
     /// Effects that are hidden, in order.
     pub hidden: Vec<String>,
-    pub hidden_place: String,
+    /// Where they act, in the same order.
+    pub hidden_places: Vec<String>,
     /// The verdict; `failed` where there is none.
     pub verdict: String,
     pub named: Vec<String>,
     pub equivalent: Vec<String>,
     pub place: String,
-    /// |found - true| / |true| of the first effect's number, where it was named rightly.
+    /// Deviation of the first effect from doing nothing over the smallest that the diagnosis says it could detect.
+    pub over_detectable: Option<f64>,
+    /// |found - true| / deviation of the first effect's number, where it was named rightly.
     pub parameter_error: Option<f64>,
     /// Whether the interval of that number holds the truth.
     pub covered: Option<bool>,
@@ -62,11 +65,12 @@ impl Row {
             size: number(answer, "/case/size").unwrap_or(f64::NAN),
             tests: number(answer, "/case/fit_tests").unwrap_or(0.0) as u64,
             hidden: texts(answer, "/effects", "kind"),
-            hidden_place: text(answer, "/place"),
+            hidden_places: texts(answer, "/effects", "place"),
             verdict: if verdict.is_empty() { "failed".into() } else { verdict },
             named: texts(diagnosis, "/effects", "kind"),
             equivalent: texts(diagnosis, "/equivalent", "kind"),
             place: place(diagnosis),
+            over_detectable: over_detectable(answer, diagnosis),
             parameter_error: None,
             covered: None,
             before: held_out(diagnosis, "before"),
@@ -82,11 +86,22 @@ impl Row {
     /// Compares the number of the first hidden effect, if it is one number.
     fn compare_parameter(&mut self, answer: &Value, diagnosis: &Value) {
         let Some(value) = number(answer, "/effects/0/value") else { return };
+        let Some(deviation) = number(answer, "/effects/0/deviation") else { return };
+        let parameter = text(answer, "/effects/0/parameter");
         let kind = &self.hidden[0];
-        let found = list(diagnosis, "/effects").iter().find(|effect| text(effect, "/kind") == *kind);
-        let Some((found, interval)) = found.and_then(parameter) else { return };
-        self.parameter_error = Some((found - value).abs() / value.abs());
-        self.covered = interval.map(|[low, high]| low <= value && value <= high);
+        let Some(found) = list(diagnosis, "/effects").iter().find(|effect| text(effect, "/kind") == *kind)
+        else {
+            return;
+        };
+        let said = number(found, &format!("/parameters/{parameter}"));
+        self.parameter_error = said.map(|said| (said - value).abs() / deviation);
+        let end = |k: usize| number(found, &format!("/interval/{parameter}/{k}"));
+        self.covered = end(0).zip(end(1)).map(|(low, high)| low <= value && value <= high);
+    }
+
+    /// Whether the first effect is at least twice the smallest detectable; by its size where that is not told.
+    pub fn visible(&self) -> bool {
+        self.over_detectable.map_or(self.size >= 1.0, |ratio| ratio >= 2.0)
     }
 
     /// Whether an effect of the catalogue was hidden.
@@ -120,14 +135,18 @@ impl Row {
         self.exact() || (self.verdict == "class" && self.hides_effect() && self.hidden.iter().all(told))
     }
 
-    /// A name was given that is not what was hidden.
+    /// A name was given that is not what was hidden; one of two is not wrong, only not all.
     pub fn wrong(&self) -> bool {
-        self.claims() && !self.right()
+        match self.verdict.as_str() {
+            "named" => self.named.iter().any(|name| self.hides_other_law() || !self.hidden.contains(name)),
+            "class" => !self.right(),
+            _ => false,
+        }
     }
 
-    /// Whether the place is right, named or not.
+    /// Whether the place is right, of either of two effects, named or not.
     pub fn place_right(&self) -> bool {
-        !self.hidden_place.is_empty() && self.place == self.hidden_place
+        self.hidden_places.contains(&self.place)
     }
 
     /// What was said, in a word: the verdict, or the names.
@@ -146,21 +165,21 @@ fn place(diagnosis: &Value) -> String {
     if own.is_empty() { text(diagnosis, "/effects/0/place") } else { own }
 }
 
-/// The only number of an effect and its interval.
-fn parameter(effect: &Value) -> Option<(f64, Option<[f64; 2]>)> {
-    let parameters = effect.get("parameters")?.as_object()?;
-    let (name, value) = parameters.iter().find(|(_, value)| value.is_number())?;
-    let interval = effect.get("interval")?;
-    let pair = interval.get(name).unwrap_or(interval).as_array()?;
-    let ends = [pair.first()?.as_f64()?, pair.get(1)?.as_f64()?];
-    Some((value.as_f64()?, Some(ends)))
+/// How far above the smallest detectable size the first effect is, as the diagnosis itself sees that size.
+fn over_detectable(answer: &Value, diagnosis: &Value) -> Option<f64> {
+    let name = text(answer, "/effects/0/name");
+    let row = list(diagnosis, "/could_hide").iter().find(|row| text(row, "/name") == name)?;
+    let parameter = text(answer, "/effects/0/parameter");
+    let deviation = number(answer, "/effects/0/deviation")?;
+    let smallest = number(row, "/smallest_detectable").filter(|_| text(row, "/parameter") == parameter)?;
+    Some(deviation / smallest)
 }
 
 /// The median over held-out tests of the windowed error over the noise floor.
 fn held_out(diagnosis: &Value, when: &str) -> Option<f64> {
     let tests = list(diagnosis, "/tests").iter().filter(|test| text(test, "/use") == "hold-out");
     median(tests.filter_map(|test| {
-        let error = number(test, &format!("/windowed_error_{when}"))?;
+        let error = number(test, &format!("/windowed_error/{when}"))?;
         Some(error / number(test, "/noise_floor")?)
     }))
 }

@@ -6,8 +6,6 @@ use super::counted::Counted;
 use super::reading::median;
 use super::row::Row;
 
-/// Sizes from which an effect counts as well visible.
-const VISIBLE_SIZE: f64 = 1.0;
 /// Up to this an effect is to be named nearly always, rad.
 const LOW_NOISE_RAD: f64 = 1.001e-4;
 
@@ -24,11 +22,11 @@ pub fn table(rows: &[Row]) -> String {
         add(&format!("  at {noise:.0e} rad"), "≤ 5 %", Counted::of(at, |row| row.claims()).told());
     }
     let one: Vec<&Row> = rows.iter().filter(|row| row.hides_effect() && row.hidden.len() == 1).collect();
-    let visible = |row: &&&Row| row.size >= VISIBLE_SIZE && row.prior.starts_with("k_d to 2 %");
+    let visible = |row: &&&Row| row.visible() && row.prior.starts_with("k_d to 2 %");
     let low: Vec<&&Row> = one.iter().filter(|row| visible(row) && row.noise_rad < LOW_NOISE_RAD).collect();
     let high: Vec<&&Row> = one.iter().filter(|row| visible(row) && row.noise_rad > LOW_NOISE_RAD).collect();
     add(
-        "right name or class, size ≥ 1, ≤ 1e-4 rad, k_d to 2 %",
+        "right name or class, visible, ≤ 1e-4 rad, k_d to 2 %",
         "≥ 95 %",
         Counted::of(&low, |r| r.right()).told(),
     );
@@ -36,8 +34,8 @@ pub fn table(rows: &[Row]) -> String {
     add("  wrong name", "", Counted::of(&low, |row| row.wrong()).told());
     add("the same at 3e-4 rad", "≥ 75 %", Counted::of(&high, |row| row.right()).told());
     add("  wrong name", "≤ 5 %", Counted::of(&high, |row| row.wrong()).told());
-    let placed = rows.iter().filter(|row| !row.hidden.is_empty() && row.size >= VISIBLE_SIZE);
-    add("right place, named or not, size ≥ 1", "≥ 95 %", Counted::of(placed, |row| row.place_right()).told());
+    let placed = rows.iter().filter(|row| !row.hidden.is_empty() && row.visible());
+    add("right place, named or not, visible", "≥ 95 %", Counted::of(placed, |row| row.place_right()).told());
     let outside: Vec<&Row> = rows.iter().filter(|row| row.hides_other_law()).collect();
     let honest = |row: &&&Row| matches!(row.verdict.as_str(), "place_only" | "unknown");
     add("another law: place_only or unknown", "≥ 80 %", Counted::of(&outside, honest).told());
@@ -58,7 +56,9 @@ pub fn table(rows: &[Row]) -> String {
     let slowest = rows.iter().map(|row| row.seconds).fold(0.0, f64::max);
     let typical = median(rows.iter().map(|row| row.seconds)).unwrap_or(0.0);
     add("time of a case on one thread", "", format!("median {typical:.0} s, longest {slowest:.0} s"));
-    printed(&lines)
+    let note = "visible: at least twice the smallest size that the diagnosis says it could detect; \
+                of nominal size or more where it does not say\n";
+    printed(&lines) + note
 }
 
 fn printed(lines: &[[String; 3]]) -> String {
