@@ -123,7 +123,7 @@ struct Channels<'a> {
 
 impl Channels<'_> {
     fn rotations(&self) -> Result<[Option<Vec<f64>>; 2], InputError> {
-        let p = self.wall.parameters();
+        let p = &self.wall.indented();
         let lower = match &self.test.lower_reading {
             None => self.column("theta1_rad"),
             Some(reading) => {
@@ -146,7 +146,7 @@ impl Channels<'_> {
     }
 
     fn upper(&self, key: &str, reading: &Reading, lower: &[f64]) -> Result<Vec<f64>, InputError> {
-        let p = self.wall.parameters();
+        let p = &self.wall.indented();
         let u = self.reading(key, reading)?;
         let theta = |(u, theta1): (&f64, &f64)| upper_rotation_rad(p, reading.height_m, *u, *theta1);
         Ok(u.iter().zip(lower).map(theta).collect())

@@ -11,7 +11,7 @@
 //!   with many local minima. Windows that end after some impacts make it smooth.
 
 use super::measured::Measured;
-use crate::model::{Contact, Pair, Wall};
+use crate::model::{Contact, Pair, Reading, Wall};
 use crate::simulate::Observer;
 use crate::solver::Quintic;
 
@@ -189,6 +189,7 @@ pub struct Errors {
 #[derive(Debug)]
 pub struct Comparison<'a> {
     target: &'a Target,
+    reading: Reading,
     next: usize,
     errors: Errors,
 }
@@ -196,7 +197,13 @@ pub struct Comparison<'a> {
 impl<'a> Comparison<'a> {
     /// Before the run.
     pub fn new(target: &'a Target) -> Self {
-        Self { target, next: 0, errors: Errors { rad_s: [[0.0; BLOCKS]; 2] } }
+        Self { target, reading: Reading::TRUE, next: 0, errors: Errors { rad_s: [[0.0; BLOCKS]; 2] } }
+    }
+
+    /// Compares what sensors read of the rotations.
+    #[must_use]
+    pub fn read_by(self, reading: Reading) -> Self {
+        Self { reading, ..self }
     }
 
     /// After the run.
@@ -206,7 +213,7 @@ impl<'a> Comparison<'a> {
 
     fn compare_until(&mut self, end_s: f64, theta_at: impl Fn(f64) -> Pair) {
         while let Some(sample) = self.target.samples.get(self.next).filter(|s| s.time_s < end_s) {
-            let theta = theta_at(sample.time_s);
+            let theta = self.reading.of(theta_at(sample.time_s));
             for (i, blocks) in self.errors.rad_s.iter_mut().enumerate() {
                 let error = (sample.theta_rad[i] - theta[i]).abs();
                 blocks[sample.block] += sample.weight_s[i] * error;

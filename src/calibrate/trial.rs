@@ -73,7 +73,7 @@ impl Test {
 
     /// Runs a wall through the test and compares.
     pub fn simulate(&self, wall: &Wall, accuracy: Accuracy) -> Simulated {
-        let mut comparison = Comparison::new(&self.target);
+        let mut comparison = Comparison::new(&self.target).read_by(wall.reading());
         let response = simulate_observed(wall, &self.shaking, accuracy, &mut comparison);
         self.compared(&response, comparison.errors())
     }

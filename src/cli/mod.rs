@@ -7,6 +7,7 @@ mod calibrate;
 mod check;
 mod compare_models;
 mod completions;
+mod effects;
 mod examples;
 mod fragility;
 mod init;
@@ -56,6 +57,7 @@ enum Command {
     Check(check::CheckCommand),
     Fragility(fragility::FragilityCommand),
     Calibrate(calibrate::CalibrateArgs),
+    Effects(effects::EffectsCommand),
     Records(records::RecordsArgs),
     #[command(after_help = examples::REPORT)]
     Report(report::ReportCommand),
@@ -80,6 +82,7 @@ impl Cli {
             Command::Check(command) => command.execute(),
             Command::Fragility(command) => command.execute(),
             Command::Calibrate(args) => calibrate::execute(&args),
+            Command::Effects(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),

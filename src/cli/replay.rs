@@ -95,7 +95,7 @@ impl ReplayCommand {
             simulate_observed(wall, shaking, accuracy, &mut *history.borrow_mut())
         };
         let finished = run_one(run, &observed);
-        writer.finish(&history.into_inner())?;
+        writer.finish(&history.into_inner(), &finished.run.wall.reading())?;
         Ok(finished)
     }
 }

@@ -87,7 +87,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
         crate::simulate::simulate(&wall, &shaking, accuracy)
     };
     if let Some(writer) = history {
-        writer.finish(&watch.history)?;
+        writer.finish(&watch.history, &wall.reading())?;
     }
     if let Some(plot) = plot {
         let record_name = args.record.as_deref().map(|path| record_name(path, args.scale));
@@ -197,7 +197,7 @@ pub(super) fn as_json(wall: &Wall, response: &Response) -> Value {
         .zip(response.pattern_time_s)
         .map(|(name, s)| ((*name).to_owned(), s.into()))
         .collect();
-    json!({
+    let mut results = json!({
         "theta1_max_rad": theta1.value.abs(),
         "theta2_max_rad": theta2.value.abs(),
         "theta1_max_over_alpha1": over_alpha1,
@@ -220,7 +220,14 @@ pub(super) fn as_json(wall: &Wall, response: &Response) -> Value {
         "tensions_crack": wall.is_cracked().then_some(response.demand[1].tensions),
         "steps": response.work.steps,
         "evaluations": response.work.evaluations,
-    })
+        "effects": wall.parameters().effects,
+    });
+    let reading = wall.reading();
+    if !reading.is_true() {
+        // The rotations above are the wall's own; only histories are as read.
+        results["sensors"] = json!({ "gain": reading.gain, "offset_rad": reading.offset_rad });
+    }
+    results
 }
 
 /// The results for people, a few lines.
@@ -252,6 +259,16 @@ pub(super) fn summary(wall: &Wall, response: &Response) -> String {
         restitution.capture_velocity_rad_s,
         response.energy.residual()
     ));
+    let effects = &wall.parameters().effects;
+    if !effects.is_empty() {
+        let names: Vec<String> = effects.iter().map(|effect| effect.variant().name()).collect();
+        lines.push(format!("effects     {}", names.join(", ")));
+    }
+    if !wall.reading().is_true() {
+        lines.push(
+            "sensors     rotations here are the wall's own; those of the history are as read".to_owned(),
+        );
+    }
     lines.join("\n")
 }
 

@@ -19,7 +19,8 @@ pub fn crushed_widths_m(
     strength_pa: f64,
 ) -> Result<[f64; 2], ImpossibleWall> {
     let key = "corners.compressive_strength_pa";
-    let refuse = |allowed: String| ImpossibleWall { key, found: strength_pa.to_string(), allowed };
+    let refuse =
+        |allowed: String| ImpossibleWall { key: key.into(), found: strength_pa.to_string(), allowed };
     if !(strength_pa > 0.0 && strength_pa.is_finite()) {
         return Err(refuse("a finite number above 0".to_owned()));
     }

@@ -176,7 +176,7 @@ impl RockingWall {
     fn scaled(&self, change: Option<Table2Change>, contact: Contact, omega: Pair, strike: &Strike) -> Pair {
         let restitution = self.wall().parameters().restitution;
         let Some(change) = change else { return omega };
-        let c_l = restitution.coefficients[change.index()];
+        let c_l = self.coefficients[change.index()];
         let u = match restitution.law {
             // Eq. 7 of the paper.
             ImpactLaw::Whole => [0.0, 0.0],

@@ -10,20 +10,28 @@ mod crushing;
 mod effect;
 mod impact;
 mod joint;
+mod laws;
 mod motion;
 mod posture;
+mod restrained;
+mod restraint;
 mod rocking;
 mod vector;
 mod wall;
 
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub use crushing::crushed_widths_m;
-pub use effect::Effect;
+pub(crate) use effect::GroundChange;
+pub use effect::{
+    Effect, EffectChoice, EffectError, EffectKind, EffectParameter, EffectVariant, Place, Reading,
+};
 pub use impact::Impact;
 pub use joint::{JointForce, JointForces};
 pub(crate) use motion::Aftermath;
 pub use motion::MotionRate;
 pub use posture::Pair;
+pub(crate) use restraint::Kink;
+pub use restraint::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
 pub use vector::Vector;

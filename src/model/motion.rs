@@ -13,8 +13,8 @@
 use wide::f64x2;
 
 use super::contact::Contact;
-use super::effect::Laws;
 use super::joint::{JointForce, JointForces};
+use super::laws::Laws;
 use super::posture::{Arms, Pair, Turns};
 use super::vector::{Vector, sin_cos, sin_cos_pair};
 use super::wall::{G_M_S2, Wall};
@@ -41,6 +41,15 @@ impl Freedom {
             (true, true) => Freedom::Both,
         }
     }
+}
+
+/// How a contact state moves: as it is free to, or with its top held in place by friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Moves {
+    Not,
+    AsOne,
+    AsTwo,
+    WithTopHeld,
 }
 
 /// Symmetric 2 × 2 mass matrix of the two rotations, kg m².
@@ -90,6 +99,7 @@ pub struct MotionRate {
 #[derive(Debug, Clone)]
 pub(crate) struct Motion {
     pub freedom: Freedom,
+    moves: Moves,
     o_x: f64,
     e_c: f64,
     q: Vector,
@@ -122,6 +132,10 @@ pub(crate) struct Aftermath {
     pub forces: JointForces,
     pub top_displacement_m: f64,
     pub top_velocity_m_s: f64,
+    /// Relative to the ground, m/s².
+    pub top_acceleration_m_s2: f64,
+    /// Force by which friction holds the top in place, N; 0 where it does not.
+    pub holding_n: f64,
 }
 
 /// The turned vectors that every term of the equations is made of.
@@ -144,8 +158,9 @@ impl Motion {
         let inertia_2 = wall.inertia_kg_m2[1] + m2 * arms.g2.dot(arms.g2) + m_d * arms.c.dot(arms.c);
         let v = arms.g1 * m1 + arms.q * upper_mass;
         let u = arms.g2 * m2 + arms.c * m_d;
-        Self {
+        let mut motion = Self {
             freedom: Freedom::of(contact),
+            moves: Moves::Not,
             o_x: arms.o_x,
             e_c: wall.parameters().eccentricity_m,
             q: arms.q,
@@ -164,7 +179,25 @@ impl Motion {
             upper_mass,
             lower_inertia,
             q_x: arms.q_x,
-        }
+        };
+        motion.set_laws(laws, false);
+        motion
+    }
+
+    /// The laws beyond weight and inertia.
+    pub fn laws(&self) -> &Laws {
+        &self.laws
+    }
+
+    /// Puts other laws at the top, and holds it in place or lets it go.
+    pub fn set_laws(&mut self, laws: Laws, held: bool) {
+        self.laws = laws;
+        self.moves = match self.freedom {
+            Freedom::None => Moves::Not,
+            _ if held => Moves::WithTopHeld,
+            Freedom::Monolithic => Moves::AsOne,
+            Freedom::Upper | Freedom::Both => Moves::AsTwo,
+        };
     }
 
     #[inline]
@@ -201,11 +234,58 @@ impl Motion {
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     #[inline]
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
-        match self.freedom {
-            Freedom::None => MotionRate { theta_dd: [0.0; 2], ground_power_w: 0.0, loss_power_w: 0.0 },
-            Freedom::Monolithic => self.monolithic_rate(theta[0], omega[0], ground),
-            Freedom::Upper | Freedom::Both => self.two_body_rate(theta, omega, ground),
+        match self.moves {
+            Moves::Not => MotionRate { theta_dd: [0.0; 2], ground_power_w: 0.0, loss_power_w: 0.0 },
+            Moves::AsOne => self.monolithic_rate(theta[0], omega[0], ground),
+            Moves::AsTwo => self.two_body_rate(theta, omega, ground),
+            Moves::WithTopHeld => self.held(theta, omega, ground).0,
         }
+    }
+
+    /// The motion with the top held in place, a_C = 0, and the force by which friction holds it, N.
+    ///
+    /// Of the accelerations without it, θ''_0, the force λ makes θ'' = θ''_0 + M⁻¹ Jᵀ λ with J = (Y_Q, Y_C), so that
+    /// λ = -a_C0 / (J M⁻¹ Jᵀ). What can move in one way only stands still.
+    #[cold]
+    fn held(&self, theta: Pair, omega: Pair, ground: Vector) -> (MotionRate, f64) {
+        let mut rate = match self.freedom {
+            Freedom::Monolithic => self.monolithic_rate(theta[0], omega[0], ground),
+            _ => self.two_body_rate(theta, omega, ground),
+        };
+        let t = self.turned(theta);
+        let [_, _, free] = self.top(theta, omega, rate.theta_dd);
+        let push = [t.r_q.y, t.r_c.y];
+        let per_force = self.mass_matrix_of(&t).solve(self.freedom, push);
+        let holding_n = -free / (push[0] * per_force[0] + push[1] * per_force[1]);
+        rate.theta_dd = match self.freedom {
+            Freedom::Both => [0, 1].map(|i| rate.theta_dd[i] + per_force[i] * holding_n),
+            _ => [0.0; 2],
+        };
+        (rate, holding_n)
+    }
+
+    /// Displacement (m), velocity (m/s) and acceleration (m/s²) of the top, all relative to the ground.
+    pub fn top(&self, theta: Pair, omega: Pair, theta_dd: Pair) -> [f64; 3] {
+        let t = self.turned(theta);
+        let along = |rates: Pair| t.r_q.y * rates[0] + t.r_c.y * rates[1];
+        let centripetal = t.r_q.x * omega[0] * omega[0] + t.r_c.x * omega[1] * omega[1];
+        [self.o_x + t.r_q.x + t.r_c.x - self.e_c, along(omega), along(theta_dd) - centripetal]
+    }
+
+    /// The velocities without those of the top: what can move in one way only stops.
+    pub fn stopped(&self, theta: Pair, omega: Pair) -> Pair {
+        if self.freedom != Freedom::Both {
+            return [0.0; 2];
+        }
+        let t = self.turned(theta);
+        let [y_q, y_c] = [t.r_q.y, t.r_c.y];
+        let share = (y_q * omega[0] + y_c * omega[1]) / (y_q * y_q + y_c * y_c);
+        [omega[0] - share * y_q, omega[1] - share * y_c]
+    }
+
+    /// Largest speed (m/s) the top could have at these velocities if none cancelled: what its roundings are of.
+    pub fn top_speed_size(&self, omega: Pair) -> f64 {
+        self.q.y * omega[0].abs() + self.c.y * omega[1].abs()
     }
 
     /// Both bodies side by side: the first lane is the lower body (r_Q, V), the second the upper (r_C, U).
@@ -273,7 +353,9 @@ impl Motion {
         let [w1, w2] = omega.map(|w| w * w);
         let x_c = self.o_x + t.r_q.x + t.r_c.x - self.e_c;
         let v_c = t.r_q.y * omega[0] + t.r_c.y * omega[1];
-        let top_force = self.laws.spring_force_n(x_c) + self.laws.damping_force_n(v_c);
+        let holding_n =
+            if self.moves == Moves::WithTopHeld { self.held(theta, omega, ground).1 } else { 0.0 };
+        let top_force = self.laws.spring_force_n(x_c) + self.laws.damping_force_n(v_c) + holding_n;
         let with_gravity = Vector::new(ground.x, ground.y + G_M_S2);
         let at_q = with_gravity + t.r_q.turned() * theta_dd[0] - t.r_q * w1;
         let carriage = at_q.x + t.r_c.y * theta_dd[1] - t.r_c.x * w2;
@@ -294,7 +376,13 @@ impl Motion {
             ground: JointForce { shear: through_ground.x, normal: through_ground.y, moment: about_origin },
             crack: JointForce { shear: in_crack.x, normal: in_crack.y, moment: about_middle },
         };
-        Aftermath { forces, top_displacement_m: x_c, top_velocity_m_s: v_c }
+        Aftermath {
+            forces,
+            top_displacement_m: x_c,
+            top_velocity_m_s: v_c,
+            top_acceleration_m_s2: carriage - ground.x,
+            holding_n,
+        }
     }
 
     /// Kinetic, gravity and spring energy at a state, J; gravity is zero at rest.

@@ -29,8 +29,8 @@ impl Arms {
     pub fn new(wall: &Wall, contact: Contact) -> Self {
         let p = wall.parameters();
         let [h1, h2] = wall.height_m;
-        let o_x = contact.ground.sign() * p.lower_width_m / 2.0;
-        let q_x = if wall.is_cracked() { contact.crack.sign() * p.upper_width_m / 2.0 } else { 0.0 };
+        let o_x = contact.ground.sign() * wall.width_m[0] / 2.0;
+        let q_x = if wall.is_cracked() { contact.crack.sign() * wall.width_m[1] / 2.0 } else { 0.0 };
         Self {
             o_x,
             g1: Vector::new(-o_x, h1 / 2.0),

@@ -2,10 +2,11 @@
 
 use super::MechanicsError;
 use super::contact::{Contact, Joint, Pivot, Touching};
-use super::effect::Laws;
 use super::joint::{JointForces, Masses};
+use super::laws::Laws;
 use super::motion::{Motion, MotionRate};
 use super::posture::{Arms, Pair, Posture, Turns};
+use super::restraint::{Regime, Restraint};
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 
@@ -16,7 +17,7 @@ const LEAST_CAPTURE: f64 = 1e-8;
 
 /// Corner forces within this share of the weight count as zero where no state carries the forces exactly: the rounding of
 /// the top's position times the stiffest spring.
-const FORCE_ROUNDING: f64 = 1e-9;
+pub(super) const FORCE_ROUNDING: f64 = 1e-9;
 
 /// Rotations (rad) and angular velocities (rad/s) of the two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -36,14 +37,26 @@ pub struct RockingWall {
     pub(super) motions: [Motion; 9],
     /// Relative velocity below which a joint that would open stays closed, rad/s.
     pub(super) capture_rad_s: f64,
+    /// C_1 … C_8 with the factors of effects.
+    pub(super) coefficients: [f64; 8],
+    /// Laws at the top with kinks, if there are any ...
+    pub(super) restraint: Option<Restraint>,
+    /// ... below which speed the top stands, m/s ...
+    pub(super) least_speed_m_s: f64,
+    /// ... and the branch they are in.
+    pub(super) regime: Regime,
 }
 
 impl RockingWall {
     /// Works out the equations of motion of every contact state.
     pub fn new(wall: &Wall) -> Self {
         let p = wall.parameters();
-        let laws = Laws::new(p.carriage_mass_kg, p.stiffness_n_per_m, &p.effects);
+        let laws = Laws::new(p.carriage_mass_kg, p.stiffness_n_per_m, &wall.effects);
         let mut rocking = Self {
+            coefficients: wall.coefficients(),
+            restraint: Restraint::new(laws, &wall.effects),
+            least_speed_m_s: 0.0,
+            regime: Regime::default(),
             masses: Masses::new(wall, laws.carriage_mass_kg),
             arms: Contact::ALL.map(|contact| Arms::new(wall, contact)),
             motions: Contact::ALL.map(|contact| Motion::new(wall, contact, laws)),
@@ -52,6 +65,8 @@ impl RockingWall {
         };
         let least = LEAST_CAPTURE * wall.alpha_rad() / rocking.response_time_s();
         rocking.capture_rad_s = rocking.capture_rad_s.max(least);
+        rocking.least_speed_m_s = rocking.least_speed_m_s();
+        rocking.enter_regime(Regime::default());
         rocking
     }
 
@@ -87,7 +102,7 @@ impl RockingWall {
     /// Horizontal displacement of the middle of the crack (of the top of an uncracked wall), relative to the ground, m,
     /// at a rotation of the lower body.
     pub fn crack_displacement_m(&self, theta_1: f64) -> f64 {
-        let o_x = Pivot::of_angle(theta_1).sign() * self.wall.parameters().lower_width_m / 2.0;
+        let o_x = Pivot::of_angle(theta_1).sign() * self.width_m(Joint::Ground) / 2.0;
         o_x + Vector::new(-o_x, self.wall.height_m[0]).rotated(theta_1.sin_cos()).x
     }
 
@@ -102,7 +117,9 @@ impl RockingWall {
         };
         let mass = about(Pivot::Right).max(about(Pivot::Left));
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
-        let stiffness = p.stiffness_n_per_m * p.height_m * p.height_m + weight * p.height_m / 2.0;
+        let further = self.restraint.map_or(0.0, |restraint| restraint.further_stiffness_n_per_m());
+        let spring = p.stiffness_n_per_m + further;
+        let stiffness = spring * p.height_m * p.height_m + weight * p.height_m / 2.0;
         (mass / stiffness).sqrt()
     }
 
@@ -140,11 +157,7 @@ impl RockingWall {
     }
 
     pub(crate) fn width_m(&self, joint: Joint) -> f64 {
-        let p = self.wall.parameters();
-        match joint {
-            Joint::Ground => p.lower_width_m,
-            Joint::Crack => p.upper_width_m,
-        }
+        self.wall.width_m[joint as usize]
     }
 
     /// The contact state in which the wall goes on from a state whose joints in `contact` are closed or open:
@@ -170,7 +183,7 @@ impl RockingWall {
     }
 
     /// States that open `count` of the closed joints of `contact` and leave the others as they are.
-    fn states_opening(&self, contact: Contact, count: usize) -> impl Iterator<Item = Contact> {
+    pub(super) fn states_opening(&self, contact: Contact, count: usize) -> impl Iterator<Item = Contact> {
         self.states_touching(contact, Touching::closed_in(contact))
             .filter(move |c| c.open_joints() == contact.open_joints() + count)
     }
@@ -196,7 +209,7 @@ impl RockingWall {
             .flat_map(move |&ground| cracks.iter().map(move |&crack| Contact { ground, crack }))
     }
 
-    fn carries(&self, before: Contact, candidate: Contact, state: &State, ground: Vector) -> bool {
+    pub(super) fn carries(&self, before: Contact, candidate: Contact, state: &State, ground: Vector) -> bool {
         let theta_dd = self.rate(candidate, state, ground).theta_dd;
         let apart = |joint: Joint| {
             let opens = before.at(joint).is_closed() && candidate.at(joint).is_open();
@@ -205,8 +218,8 @@ impl RockingWall {
         if !self.joints().all(apart) {
             return false;
         }
-        let forces = self.joint_forces(candidate, state, theta_dd, ground);
-        self.smallest_corner_force(candidate, &forces).is_none_or(|least| least >= 0.0)
+        let after = self.motion(candidate).aftermath(state.theta, state.omega, theta_dd, ground);
+        self.least_hold(candidate, &after).is_none_or(|least| least >= 0.0)
     }
 }
 

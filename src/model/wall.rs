@@ -1,8 +1,10 @@
 //! The wall: geometry, masses, restraint and impact law, checked once.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
-use super::effect::Effect;
+use super::effect::{self, Effect, EffectSums, Reading};
 
 /// Acceleration of gravity, m/s².
 pub const G_M_S2: f64 = 9.81;
@@ -99,7 +101,7 @@ impl WallParameters {
 #[error("{key}: found {found}; allowed: {allowed}")]
 pub struct ImpossibleWall {
     /// Dotted key of the wall file.
-    pub key: &'static str,
+    pub key: Cow<'static, str>,
     /// The value found.
     pub found: String,
     /// What is allowed.
@@ -118,6 +120,10 @@ pub struct Wall {
     pub(crate) inertia_kg_m2: [f64; 2],
     /// Slenderness angles α_1, α_2, rad.
     pub(crate) alpha_i_rad: [f64; 2],
+    /// Widths b_1, b_2 between the rocking corners, m, as the effects leave them.
+    pub(crate) width_m: [f64; 2],
+    /// What the effects come to.
+    pub(crate) effects: EffectSums,
 }
 
 impl Wall {
@@ -126,7 +132,8 @@ impl Wall {
     /// # Errors
     /// [`ImpossibleWall`] names the first parameter that cannot be.
     pub fn new(parameters: WallParameters) -> Result<Self, ImpossibleWall> {
-        check(&parameters)?;
+        let effects = EffectSums::of(&parameters.effects);
+        check(&parameters, &effects)?;
         let p = &parameters;
         let h1 = p.crack_height_m.unwrap_or(p.height_m);
         let height_m = [h1, p.height_m - h1];
@@ -134,12 +141,15 @@ impl Wall {
         // Full width b, not the width between corners: the crushed strip keeps its mass.
         let inertia = |m_i: f64, h_i: f64| m_i * (p.thickness_m.powi(2) + h_i.powi(2)) / 12.0;
         let inertia_kg_m2 = [inertia(mass_kg[0], height_m[0]), inertia(mass_kg[1], height_m[1])];
-        let alpha_1 = (p.lower_width_m / height_m[0]).atan();
+        let [inwards_1, inwards_2] = effects.indentation_m;
+        let width_m = [p.lower_width_m - inwards_1, p.upper_width_m - inwards_2];
+        let alpha_1 = (width_m[0] / height_m[0]).atan();
         let alpha_2 = match p.crack_height_m {
-            Some(_) => (p.upper_width_m / height_m[1]).atan(),
+            Some(_) => (width_m[1] / height_m[1]).atan(),
             None => alpha_1,
         };
-        Ok(Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad: [alpha_1, alpha_2], parameters })
+        let alpha_i_rad = [alpha_1, alpha_2];
+        Ok(Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad, width_m, effects, parameters })
     }
 
     /// The parameters the wall was made from.
@@ -159,7 +169,29 @@ impl Wall {
 
     /// Slenderness angle of the uncracked wall α = atan(b_1 / h), rad.
     pub fn alpha_rad(&self) -> f64 {
-        (self.parameters.lower_width_m / self.parameters.height_m).atan()
+        (self.width_m[0] / self.parameters.height_m).atan()
+    }
+
+    /// Widths b_1, b_2 between the rocking corners, m: those of the parameters less what effects take.
+    pub fn width_m(&self) -> [f64; 2] {
+        self.width_m
+    }
+
+    /// The parameters with the corners where effects put them.
+    pub fn indented(&self) -> WallParameters {
+        let [lower_width_m, upper_width_m] = self.width_m;
+        WallParameters { lower_width_m, upper_width_m, ..self.parameters.clone() }
+    }
+
+    /// Coefficients C_1 … C_8: those of the parameters times the factors of effects.
+    pub fn coefficients(&self) -> [f64; 8] {
+        let (own, factors) = (self.parameters.restitution.coefficients, self.effects.impact_factors);
+        std::array::from_fn(|l| own[l] * factors[l])
+    }
+
+    /// How the rotations of this wall are read by the sensors of its effects.
+    pub fn reading(&self) -> Reading {
+        self.effects.reading
     }
 
     /// Rotations at which the wall counts as collapsed, rad.
@@ -168,7 +200,7 @@ impl Wall {
     }
 }
 
-fn check(p: &WallParameters) -> Result<(), ImpossibleWall> {
+fn check(p: &WallParameters, effects: &EffectSums) -> Result<(), ImpossibleWall> {
     positive("wall.thickness_m", p.thickness_m)?;
     positive("wall.height_m", p.height_m)?;
     positive("wall.length_m", p.length_m)?;
@@ -191,7 +223,8 @@ fn check(p: &WallParameters) -> Result<(), ImpossibleWall> {
     }
     not_negative("restitution.capture_velocity_rad_s", p.restitution.capture_velocity_rad_s)?;
     positive("collapse.rotation_ratio", p.collapse_rotation_ratio)?;
-    check_initial(p)
+    check_initial(p)?;
+    effect::check(p, effects)
 }
 
 fn check_initial(p: &WallParameters) -> Result<(), ImpossibleWall> {
@@ -226,6 +259,6 @@ fn require(
     if value.is_finite() && holds {
         Ok(())
     } else {
-        Err(ImpossibleWall { key, found: value.to_string(), allowed: allowed() })
+        Err(ImpossibleWall { key: Cow::Borrowed(key), found: value.to_string(), allowed: allowed() })
     }
 }

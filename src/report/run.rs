@@ -184,6 +184,11 @@ impl RunPicture<'_> {
 
     fn provenance(&self) -> Vec<(String, String)> {
         let p = self.wall.parameters();
+        let [lower_width_m, upper_width_m] = self.wall.width_m();
+        let effects = match &p.effects[..] {
+            [] => "none".to_owned(),
+            effects => effects.iter().map(|effect| format!("{effect:?}")).collect::<Vec<_>>().join(", "),
+        };
         let pair = |name: &str, value: String| (name.to_owned(), value);
         let crack = p.crack_height_m.map_or("uncracked".to_owned(), |h1| format!("crack at {h1} m"));
         vec![
@@ -197,10 +202,7 @@ impl RunPicture<'_> {
             ),
             pair(
                 "corners",
-                format!(
-                    "{:.4} m apart at the ground, {:.4} m at the crack",
-                    p.lower_width_m, p.upper_width_m
-                ),
+                format!("{:.4} m apart at the ground, {:.4} m at the crack", lower_width_m, upper_width_m),
             ),
             pair(
                 "floor",
@@ -209,7 +211,8 @@ impl RunPicture<'_> {
                     p.diaphragm_mass_kg, p.carriage_mass_kg, p.stiffness_n_per_m
                 ),
             ),
-            pair("coefficients C_l", format!("{:?}", p.restitution.coefficients)),
+            pair("coefficients C_l", format!("{:?}", self.wall.coefficients())),
+            pair("further effects", effects),
             pair("record", self.record_name.unwrap_or("none, a free release").to_owned()),
             pair("tolerance", format!("{:e} of αᵢ", self.accuracy.tolerance)),
         ]

@@ -1,17 +1,19 @@
 //! What happens first inside a step: a joint closes, a joint opens, a body passes its collapse rotation.
 
-use crate::model::{Contact, Joint, Pair, Touching, opening};
+use crate::model::{Contact, Joint, Kink, Pair, Touching, opening};
 use crate::solver::{Bernstein, Quintic};
 
 /// What ends a step early.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Event {
     /// A body passes its collapse rotation.
     Collapses,
     /// An open joint closes; closed joints touch too.
     Strikes(Touching),
-    /// A closed joint lifts at a corner.
+    /// A closed joint lifts at a corner, or friction can no longer hold the top.
     Opens,
+    /// A law at the top comes to a kink.
+    Bends(Kink),
 }
 
 impl Event {

@@ -3,10 +3,13 @@
 use std::sync::Arc;
 
 use super::Shaking;
-use crate::model::Vector;
+use crate::model::{GroundChange, Vector};
 
 /// Step of a free release, which has no record: its history is written at this step, s.
 pub const FREE_RELEASE_STEP_S: f64 = 0.005;
+
+/// A lag this near a number of whole steps, as a share of one, is that number: a quotient of roundings.
+const NEAR_WHOLE: f64 = 1e-9;
 
 /// Piecewise linear ground acceleration; cheap to clone, for the samples are shared.
 #[derive(Debug, Clone)]
@@ -14,6 +17,8 @@ pub(crate) struct GroundPath {
     step_s: f64,
     /// Samples, one zero appended; empty for a free release.
     samples: Arc<[Vector]>,
+    /// Time of the first sample, s: within a step before the start of the run.
+    origin_s: f64,
     end_s: f64,
 }
 
@@ -38,14 +43,35 @@ impl GroundPath {
     pub fn new(shaking: &Shaking) -> Self {
         let Some(horizontal) = &shaking.horizontal else {
             let samples = Arc::new([]);
-            return Self { step_s: FREE_RELEASE_STEP_S, samples, end_s: shaking.tail_s };
+            return Self { step_s: FREE_RELEASE_STEP_S, samples, origin_s: 0.0, end_s: shaking.tail_s };
         };
         let x = horizontal.acceleration_m_s2();
         let y = shaking.vertical.as_ref().map_or(&[][..], |v| v.acceleration_m_s2());
         let count = x.len().max(y.len()) + 1;
         let sample = |of: &[f64], k: usize| of.get(k).copied().unwrap_or(0.0);
         let samples = (0..count).map(|k| Vector { x: sample(x, k), y: sample(y, k) }).collect();
-        Self { step_s: horizontal.step_s(), samples, end_s: horizontal.duration_s() + shaking.tail_s }
+        let end_s = horizontal.duration_s() + shaking.tail_s;
+        Self { step_s: horizontal.step_s(), samples, origin_s: 0.0, end_s }
+    }
+
+    /// The ground motion that effects make of this record; a record that comes later makes the run end later, so that
+    /// its free motion stays as long.
+    #[must_use]
+    pub fn changed(&self, change: &GroundChange) -> Self {
+        if *change == GroundChange::NONE || self.samples.is_empty() {
+            return self.clone();
+        }
+        let GroundChange { gain, lag_s, vertical_ratio } = *change;
+        let shaken = |a: &Vector| Vector { x: gain * a.x, y: gain * (a.y + vertical_ratio * a.x) };
+        // Whole steps of quiet before a record that comes later, and whole steps less of one that comes earlier.
+        let steps = lag_s / self.step_s;
+        let whole = (steps - steps.round()).abs() < NEAR_WHOLE;
+        let steps = if whole { steps.round() } else { steps.ceil() };
+        let quiet = std::iter::repeat_n(Vector::default(), steps.max(0.0) as usize);
+        let passed = (-steps).max(0.0) as usize;
+        let samples: Arc<[Vector]> = quiet.chain(self.samples.iter().skip(passed).map(shaken)).collect();
+        let origin_s = if whole || samples.is_empty() { 0.0 } else { lag_s - steps * self.step_s };
+        Self { samples, origin_s, end_s: self.end_s + lag_s.max(0.0), step_s: self.step_s }
     }
 
     /// Time between samples, s.
@@ -67,7 +93,7 @@ impl GroundPath {
     /// The piece that a time lies in, and the offset in it, s.
     pub fn place(&self, time_s: f64) -> (usize, f64) {
         let last = self.samples.len().max(1) - 1;
-        let mut k = ((time_s / self.step_s) as usize).min(last);
+        let mut k = (((time_s - self.origin_s) / self.step_s) as usize).min(last);
         // The quotient may round up to the next piece.
         if self.start_s(k) > time_s {
             k -= 1;
@@ -84,13 +110,13 @@ impl GroundPath {
     /// Start of the `k`-th piece, s.
     #[inline]
     pub fn start_s(&self, k: usize) -> f64 {
-        k as f64 * self.step_s
+        (self.origin_s + k as f64 * self.step_s).max(0.0)
     }
 
     /// How many pieces between samples lie wholly within the run.
     pub fn whole_pieces(&self) -> usize {
         let between_samples = self.samples.len().saturating_sub(1);
-        between_samples.min((self.end_s / self.step_s) as usize)
+        between_samples.min(((self.end_s - self.origin_s) / self.step_s) as usize)
     }
 
     /// The `k`-th piece: one between samples, and one of no acceleration from the last to the end of the run.
@@ -105,8 +131,11 @@ impl GroundPath {
         let zero = Vector::default();
         match (self.samples.get(k), self.samples.get(k + 1)) {
             (Some(&from), Some(&to)) => {
-                let length_s = self.step_s.min(left_s);
-                Some(Piece { start_s, length_s, from, slope: (to - from) * (1.0 / self.step_s) })
+                let slope = (to - from) * (1.0 / self.step_s);
+                // The first piece may have begun before the run.
+                let passed_s = if k == 0 { -self.origin_s } else { 0.0 };
+                let length_s = (self.step_s - passed_s).min(left_s);
+                Some(Piece { start_s, length_s, from: from + slope * passed_s, slope })
             }
             _ if k + 1 == self.samples.len().max(1) => {
                 Some(Piece { start_s, length_s: left_s, from: zero, slope: zero })

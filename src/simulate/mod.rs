@@ -3,6 +3,7 @@
 mod events;
 mod ground_path;
 mod history;
+mod kinks;
 mod response;
 mod rest;
 mod run;

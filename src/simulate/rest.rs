@@ -2,12 +2,16 @@
 //!
 //! At rest every corner force is linear in the ground acceleration, so the record can be searched sample by sample
 //! without integrating, and the instant inside a sample is exact.
+//!
+//! Friction at the top can take any force λ within ±F_c. A corner force c + D λ stays positive above or below some λ,
+//! and a λ that suits all exists as long as every bound from below lies below every bound from above: conditions that
+//! are linear in the ground acceleration again.
 
 use super::ground_path::Piece;
 use crate::model::{Contact, RockingWall, State, Vector};
 
-/// Corner forces at rest over the wall's weight: `x` times a_x plus `y` times a_y plus `standing`.
-#[derive(Debug, Clone, Copy)]
+/// Corner forces at rest: `x` times a_x plus `y` times a_y plus `standing`.
+#[derive(Debug, Clone, Copy, Default)]
 struct CornerForce {
     x: f64,
     y: f64,
@@ -15,6 +19,15 @@ struct CornerForce {
 }
 
 impl CornerForce {
+    /// The same force over a positive number.
+    fn over(&self, divisor: f64) -> Self {
+        Self { x: self.x / divisor, y: self.y / divisor, standing: self.standing / divisor }
+    }
+
+    fn plus(&self, other: &Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y, standing: self.standing + other.standing }
+    }
+
     #[inline]
     fn at(&self, ground: Vector) -> f64 {
         self.x * ground.x + self.y * ground.y + self.standing
@@ -28,15 +41,30 @@ pub(crate) struct RestLimits {
     corners: [CornerForce; 4],
     /// Mass that pushes sideways over mass that presses down, at the ground and at the crack.
     sideways_over_down: [f64; 2],
+    /// In place of the corners, what must not be negative for friction at the top to hold the wall; empty without.
+    with_friction: Vec<CornerForce>,
 }
+
+/// A corner that never lifts.
+const PRESSED: CornerForce = CornerForce { x: 0.0, y: 0.0, standing: 1.0 };
 
 impl RestLimits {
     pub fn new(wall: &RockingWall) -> Self {
+        let mut limits = Self::of_corners(wall);
+        let friction_n = wall.restraint().map_or(0.0, |restraint| restraint.friction_n());
+        if friction_n > 0.0 {
+            limits.with_friction = with_friction(wall, &limits.corners, friction_n);
+            limits.corners = [PRESSED; 4];
+        }
+        limits
+    }
+
+    fn of_corners(wall: &RockingWall) -> Self {
         let forces_under =
             |ground: Vector| wall.joint_forces(Contact::REST, &State::default(), [0.0, 0.0], ground);
         let [still, pushed, pulled, lifted] =
             [(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0)].map(|(x, y)| forces_under(Vector { x, y }));
-        let mut corners = [CornerForce { x: 0.0, y: 0.0, standing: 1.0 }; 4];
+        let mut corners = [PRESSED; 4];
         for joint in wall.joints() {
             let of = |f: &crate::model::JointForces| f.at(joint).corners(wall.width_m(joint));
             let (still, pushed, pulled, lifted) = (of(&still), of(&pushed), of(&pulled), of(&lifted));
@@ -54,13 +82,27 @@ impl RestLimits {
             let force = pushed.at(joint);
             sideways_over_down[joint as usize] = force.shear / force.normal * crate::model::G_M_S2;
         }
-        Self { corners, sideways_over_down }
+        Self { corners, sideways_over_down, with_friction: Vec::new() }
     }
 
     /// Whether every corner stays pressed under a ground acceleration.
     #[inline]
     pub fn holds(&self, ground: Vector) -> bool {
-        self.corners.iter().all(|corner| corner.at(ground) >= 0.0)
+        self.corners.iter().all(|corner| corner.at(ground) >= 0.0) && self.friction_holds(ground)
+    }
+
+    #[inline]
+    fn friction_holds(&self, ground: Vector) -> bool {
+        self.with_friction.iter().all(|condition| condition.at(ground) >= 0.0)
+    }
+
+    /// The least of what holds the wall at rest; it moves when this is negative.
+    pub fn hold(&self, ground: Vector) -> f64 {
+        self.conditions().map(|condition| condition.at(ground)).fold(f64::INFINITY, f64::min)
+    }
+
+    fn conditions(&self) -> impl Iterator<Item = &CornerForce> {
+        self.corners.iter().chain(&self.with_friction)
     }
 
     /// Offset in a piece, not before `from_s`, at which the first corner lifts; none if all are pressed at its end,
@@ -75,7 +117,7 @@ impl RestLimits {
             let (f0, f1) = (corner.at(start), corner.at(end));
             (f1 < 0.0).then(|| if f0 > 0.0 { f0 / (f0 - f1) } else { 0.0 })
         };
-        let first = self.corners.iter().filter_map(root).fold(1.0, f64::min);
+        let first = self.conditions().filter_map(root).fold(1.0, f64::min);
         Some(from_s + first * (piece.length_s - from_s))
     }
 
@@ -89,4 +131,34 @@ impl RestLimits {
     pub fn friction_factors(&self) -> [f64; 2] {
         self.sideways_over_down
     }
+}
+
+/// What must not be negative for a force at the top within ±F_c to press all corners.
+fn with_friction(wall: &RockingWall, corners: &[CornerForce; 4], friction_n: f64) -> Vec<CornerForce> {
+    let most = CornerForce { standing: friction_n, ..CornerForce::default() };
+    let (mut from_below, mut from_above) = (vec![most], vec![most]);
+    let mut conditions = Vec::new();
+    // As large as the friction, so that it stands out of the roundings; both ways, for the mirror's sake.
+    let [pushed, pulled] = [friction_n, -friction_n].map(|force_n| {
+        wall.pushed(force_n).joint_forces(Contact::REST, &State::default(), [0.0; 2], Vector::default())
+    });
+    for joint in wall.joints() {
+        let width_m = wall.width_m(joint);
+        let [pushed, pulled] = [pushed, pulled].map(|forces| forces.at(joint).corners(width_m));
+        for side in 0..2 {
+            let corner = &corners[2 * joint as usize + side];
+            let per_force = (pushed[side] - pulled[side]) / (2.0 * friction_n);
+            if per_force > 0.0 {
+                from_below.push(corner.over(per_force));
+            } else if per_force < 0.0 {
+                from_above.push(corner.over(-per_force));
+            } else {
+                conditions.push(*corner);
+            }
+        }
+    }
+    let pairs = from_below.iter().flat_map(|low| from_above.iter().map(move |high| low.plus(high)));
+    // The first pair is the friction's own two bounds.
+    conditions.extend(pairs.skip(1));
+    conditions
 }

@@ -3,12 +3,13 @@
 use super::events::{Event, first_event};
 use super::ground_path::{GroundPath, Piece};
 use super::history::Observer;
+use super::kinks;
 use super::response::{Outcome, Peak, Response};
 use super::rest::RestLimits;
 use super::simulator::{Placed, Simulator};
 use super::tally::Tally;
 use crate::model::{
-    Aftermath, Contact, Joint, MechanicsError, Pair, RockingWall, State, Touching, Vector, opening,
+    Aftermath, Contact, Joint, Kink, MechanicsError, Pair, RockingWall, State, Touching, Vector, opening,
 };
 use crate::solver::{Controller, DormandPrince, Point, Quintic, Rate, STAGES, Step};
 
@@ -63,6 +64,8 @@ enum Stop {
 impl<'a, O: Observer> Run<'a, O> {
     /// A run that starts as it is placed and ends where its ground path does.
     pub fn new(simulator: &Simulator, placed: &Placed, ground: GroundPath, observer: &'a mut O) -> Self {
+        let mut wall = simulator.wall.clone();
+        wall.place_top(placed.contact, &placed.state, placed.plastic_displacement_m);
         Self {
             rest: simulator.rest.clone(),
             collapse_rad: simulator.wall.wall().collapse_rotation_rad(),
@@ -75,7 +78,7 @@ impl<'a, O: Observer> Run<'a, O> {
             corner_force: None,
             top_velocity_m_s: 0.0,
             stalled: 0,
-            wall: simulator.wall.clone(),
+            wall,
             ground,
         }
     }
@@ -120,7 +123,7 @@ impl<'a, O: Observer> Run<'a, O> {
 
     /// Goes on in the contact state that carries the joint forces, opening joints where it must.
     fn enter(&mut self, contact: Contact, ground: Vector, time_s: f64) -> Result<(), Stop> {
-        let settled = self.wall.settle(contact, &self.state(), ground).map_err(|e| failed(time_s, &e))?;
+        let settled = self.settle(contact, ground).map_err(|e| failed(time_s, &e))?;
         if settled != contact {
             self.tally.opening(contact, settled);
         }
@@ -130,9 +133,24 @@ impl<'a, O: Observer> Run<'a, O> {
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
         let after = self.aftermath(&self.now, ground);
-        self.corner_force = self.wall.smallest_corner_force(settled, &after.forces);
+        self.corner_force = self.wall.least_hold(settled, &after);
         self.top_velocity_m_s = after.top_velocity_m_s;
         Ok(())
+    }
+
+    fn settle(&mut self, contact: Contact, ground: Vector) -> Result<Contact, MechanicsError> {
+        let Some(restraint) = self.wall.restraint().copied() else {
+            return self.wall.settle(contact, &self.state(), ground);
+        };
+        self.now.velocity = self.wall.come_to_stand(contact, &self.state());
+        let state = self.state();
+        if contact == Contact::REST && restraint.yields() {
+            // A spring that has yielded leans on the wall at rest.
+            self.wall.place_top(contact, &state, self.wall.regime().plastic_m);
+            self.rest = RestLimits::new(&self.wall);
+        }
+        let rest_hold = self.rest.hold(ground);
+        self.wall.settle_restrained(&restraint, contact, &state, ground, rest_hold)
     }
 
     fn all_pieces(&mut self, start_s: f64) -> Result<(), Stop> {
@@ -205,11 +223,13 @@ impl<'a, O: Observer> Run<'a, O> {
         let step = self.accepted_step(piece, from_s, remaining_s);
         let motion = Quintic::new(&step.start, &step.end, step.h);
         let after = self.aftermath(&step.end, piece.at(from_s + step.h));
-        let end_force = self.wall.smallest_corner_force(self.contact, &after.forces);
+        let end_force = self.wall.least_hold(self.contact, &after);
         let force_at =
             |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
         let corner_force = (self.corner_force, end_force);
-        match first_event(self.contact, &motion, self.collapse_rad, corner_force, force_at) {
+        let event = first_event(self.contact, &motion, self.collapse_rad, corner_force, force_at);
+        let kink = kinks::first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
+        match earlier(event, kink) {
             None => {
                 self.corner_force = end_force;
                 self.keep(piece.start_s + from_s, &step, &motion, &after);
@@ -228,8 +248,8 @@ impl<'a, O: Observer> Run<'a, O> {
     fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
         let state = State { theta: motion.position(share), omega: motion.velocity(share) };
         let theta_dd = self.wall.rate(self.contact, &state, ground).theta_dd;
-        let forces = self.wall.joint_forces(self.contact, &state, theta_dd, ground);
-        self.wall.smallest_corner_force(self.contact, &forces).unwrap_or(f64::INFINITY)
+        let after = self.wall.motion(self.contact).aftermath(state.theta, state.omega, theta_dd, ground);
+        self.wall.least_hold(self.contact, &after).unwrap_or(f64::INFINITY)
     }
 
     fn accepted_step(&mut self, piece: &Piece, from_s: f64, remaining_s: f64) -> Step {
@@ -262,6 +282,10 @@ impl<'a, O: Observer> Run<'a, O> {
         self.observer.moved(start_s, self.contact, motion);
         self.now = step.end;
         self.quadrature_rate = step.end_quadrature_rate;
+        if self.wall.is_held() {
+            // The error of a step, which would have it slide.
+            self.now.velocity = self.wall.stopped(self.contact, self.now.position, self.now.velocity);
+        }
     }
 
     /// Raises the largest top displacement, between the ends of the step too where the top turns back inside.
@@ -286,13 +310,21 @@ impl<'a, O: Observer> Run<'a, O> {
         from_s: f64,
         whole: &Step,
     ) -> Result<f64, Stop> {
+        if let (Event::Bends(kink), true) = (event, share == 0.0) {
+            return self.bend(kink, piece.at(from_s), piece.start_s + from_s).map(|()| from_s);
+        }
         let mut h = share * whole.h;
         if matches!(event, Event::Opens) {
             h = (h + AFTER_OPENING * self.ground.step_s()).min(whole.h);
         }
         let mut step = self.step(piece, from_s, h);
         if let Some(gap) = event.gap() {
-            step = self.onto_contact(piece, from_s, step, whole.h, gap);
+            let left = |p: &Point| (gap(p.position), gap(p.velocity));
+            step = self.onto_event(piece, from_s, step, whole.h, left);
+        }
+        if let Event::Bends(kink) = event {
+            let (wall, contact) = (self.wall.clone(), self.contact);
+            step = self.onto_event(piece, from_s, step, whole.h, |p| kinks::left(&wall, contact, kink, p));
         }
         let to_s = from_s + step.h;
         let (start_s, time_s) = (piece.start_s + from_s, piece.start_s + to_s);
@@ -302,27 +334,41 @@ impl<'a, O: Observer> Run<'a, O> {
         match event {
             Event::Collapses => return Err(Stop::Collapsed { time_s }),
             Event::Opens => self.enter(self.contact, piece.at(to_s), time_s)?,
+            Event::Bends(kink) => self.bend(kink, piece.at(to_s), time_s)?,
             Event::Strikes(touching) => self.strike(touching, piece.at(to_s), time_s)?,
         }
         Ok(to_s.min(piece.length_s))
     }
 
-    /// Moves the end of a step onto the zero of a gap: the quintic that found it is only as accurate as the step.
+    /// Goes on beyond a kink of the laws at the top.
+    fn bend(&mut self, kink: Kink, ground: Vector, time_s: f64) -> Result<(), Stop> {
+        if matches!(kink, Kink::Stops { .. }) {
+            self.now.velocity = self.wall.stopped(self.contact, self.now.position, self.now.velocity);
+        }
+        self.wall.pass(kink, self.contact, self.now.position);
+        self.progress(0.0, time_s)?;
+        self.enter(self.contact, ground, time_s)
+    }
+
+    /// Moves the end of a step onto the zero of what is left to an event, told together with its rate: the quintic that
+    /// found it is only as accurate as the step.
     ///
     /// To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow, and what is
     /// small beside the wall's rotation is not small beside it. Not beyond the step that was searched: behind it may lie
     /// the end of the piece.
-    fn onto_contact(
+    #[inline]
+    fn onto_event(
         &mut self,
         piece: &Piece,
         from_s: f64,
         mut step: Step,
         most_s: f64,
-        gap: fn(Pair) -> f64,
+        left: impl Fn(&Point) -> (f64, f64),
     ) -> Step {
         let short_s = SHORT * self.ground.step_s();
         for _ in 0..MOST_CORRECTIONS {
-            let late_s = gap(step.end.position) / gap(step.end.velocity);
+            let (gap, rate) = left(&step.end);
+            let late_s = gap / rate;
             if late_s.abs() <= short_s {
                 step.end = step.end.after(-late_s);
                 step.h -= late_s;
@@ -333,7 +379,7 @@ impl<'a, O: Observer> Run<'a, O> {
                 break;
             }
             let nearer = self.step(piece, from_s, h);
-            if gap(nearer.end.position).abs() >= gap(step.end.position).abs() {
+            if left(&nearer.end).0.abs() >= gap.abs() {
                 break;
             }
             step = nearer;
@@ -416,6 +462,15 @@ impl<'a, O: Observer> Run<'a, O> {
             demand: self.tally.demand,
             work: self.tally.work,
         }
+    }
+}
+
+/// The first of what may happen inside a step; what happens to the joints goes first.
+fn earlier(event: Option<(Event, f64)>, kink: Option<(Kink, f64)>) -> Option<(Event, f64)> {
+    match (event, kink) {
+        (Some((_, at)), Some((kink, share))) if share < at => Some((Event::Bends(kink), share)),
+        (None, Some((kink, share))) => Some((Event::Bends(kink), share)),
+        (event, _) => event,
     }
 }
 

@@ -38,6 +38,8 @@ pub struct Simulator {
     pub(super) wall: RockingWall,
     pub(super) rest: RestLimits,
     pub(super) controller: Controller,
+    /// The ground motion as recorded, and as the wall's effects make it.
+    record: GroundPath,
     ground: GroundPath,
 }
 
@@ -46,6 +48,7 @@ pub struct Simulator {
 pub(super) struct Placed {
     pub contact: Contact,
     pub state: State,
+    pub plastic_displacement_m: f64,
 }
 
 impl Simulator {
@@ -57,14 +60,15 @@ impl Simulator {
     /// Another wall under the same shaking, whose samples are shared and not copied.
     #[must_use]
     pub fn with_wall(&self, wall: &Wall, accuracy: Accuracy) -> Self {
-        Self::over(wall, self.ground.clone(), accuracy)
+        Self::over(wall, self.record.clone(), accuracy)
     }
 
-    fn over(wall: &Wall, ground: GroundPath, accuracy: Accuracy) -> Self {
+    fn over(wall: &Wall, record: GroundPath, accuracy: Accuracy) -> Self {
+        let ground = record.changed(&wall.effects.ground);
         let rocking = RockingWall::new(wall);
         let scale = ErrorScale { position: wall.alpha_i_rad(), time_s: rocking.response_time_s() };
         let controller = Controller::new(scale, STEP_SHARE * accuracy.tolerance, ground.step_s());
-        Self { rest: RestLimits::new(&rocking), controller, wall: rocking, ground }
+        Self { rest: RestLimits::new(&rocking), controller, wall: rocking, record, ground }
     }
 
     /// The wall, ready to move.
@@ -123,6 +127,6 @@ impl Simulator {
         if contact.crack.sign() * (*theta2 - *theta1) < 0.0 {
             *theta2 = *theta1;
         }
-        Placed { contact, state }
+        Placed { contact, state, plastic_displacement_m: start.plastic_displacement_m }
     }
 }

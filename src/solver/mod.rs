@@ -12,4 +12,4 @@ mod quintic;
 pub use bernstein::Bernstein;
 pub use controller::{Controller, ErrorScale};
 pub use dormand_prince::{DormandPrince, Rate, STAGES, Step};
-pub use quintic::{Point, Quintic};
+pub use quintic::{Point, Quintic, hermite};

@@ -85,7 +85,7 @@ impl Quintic {
 
 /// Bernstein form of the quintic with these positions, velocities and accelerations at both ends.
 #[inline]
-fn hermite([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], h: f64) -> Bernstein<6> {
+pub fn hermite([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], h: f64) -> Bernstein<6> {
     let (v0, v1) = (v0 * h / 5.0, v1 * h / 5.0);
     let (a0, a1) = (a0 * h * h / 20.0, a1 * h * h / 20.0);
     Bernstein([x0, x0 + v0, x0 + 2.0 * v0 + a0, x1 - 2.0 * v1 + a1, x1 - v1, x1])

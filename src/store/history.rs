@@ -1,4 +1,7 @@
 //! Histories of single runs, as CSV or Parquet by the file's extension.
+//!
+//! `theta1_rad` and `theta2_rad` are what the sensors read. Where that is not the rotation itself, the rotation stands
+//! beside it in `theta1_true_rad` and `theta2_true_rad`.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -9,6 +12,7 @@ use parquet::arrow::ArrowWriter;
 use tempfile::NamedTempFile;
 
 use crate::error::{Error, InputError, Result};
+use crate::model::Reading;
 use crate::simulate::History;
 
 /// A place for a history, opened before the run so that a path that cannot be written is found first.
@@ -46,15 +50,17 @@ pub fn write_history(path: &Path) -> Result<HistoryWriter> {
 }
 
 impl HistoryWriter {
-    /// Writes the rows; the file appears whole.
+    /// Writes the rows, with the rotations as they are read; the file appears whole.
     ///
     /// # Errors
     /// What the file system says.
-    pub fn finish(self, history: &History) -> Result<()> {
+    pub fn finish(self, history: &History, reading: &Reading) -> Result<()> {
         let Self { path, file, format } = self;
         match format {
-            Format::Csv => write_csv(file.as_file(), history).map_err(|e| Error::table(&path, e))?,
-            Format::Parquet => write_parquet(file.as_file(), history).map_err(|e| Error::table(&path, e))?,
+            Format::Csv => write_csv(file.as_file(), history, reading).map_err(|e| Error::table(&path, e))?,
+            Format::Parquet => {
+                write_parquet(file.as_file(), history, reading).map_err(|e| Error::table(&path, e))?
+            }
         }
         file.as_file().sync_all().map_err(|e| Error::io("write the history", &path, e))?;
         file.persist(&path).map_err(|e| Error::io("write the history", &path, e.error))?;
@@ -67,29 +73,49 @@ fn tidy_s(time_s: f64) -> f64 {
     (time_s * 1e9).round() / 1e9
 }
 
-fn write_csv(file: &File, history: &History) -> Result<(), csv::Error> {
+/// The first columns of every history, and those of the true rotations where they are read otherwise.
+const COLUMNS: [&str; 6] =
+    ["time_s", "theta1_rad", "theta2_rad", "pattern", "theta1_true_rad", "theta2_true_rad"];
+
+fn columns(reading: &Reading) -> &'static [&'static str] {
+    &COLUMNS[..if reading.is_true() { 4 } else { 6 }]
+}
+
+fn write_csv(file: &File, history: &History, reading: &Reading) -> Result<(), csv::Error> {
     let mut writer = csv::Writer::from_writer(file);
-    writer.write_record(["time_s", "theta1_rad", "theta2_rad", "pattern"])?;
+    writer.write_record(columns(reading))?;
     for row in &history.rows {
-        let [theta1, theta2] = row.theta_rad;
-        writer.serialize((tidy_s(row.time_s), theta1, theta2, row.contact.name()))?;
+        let [theta1, theta2] = reading.of(row.theta_rad);
+        let read = (tidy_s(row.time_s), theta1, theta2, row.contact.name());
+        if reading.is_true() {
+            writer.serialize(read)?;
+        } else {
+            writer.serialize((read, row.theta_rad))?;
+        }
     }
     writer.flush()?;
     Ok(())
 }
 
-fn write_parquet(file: &File, history: &History) -> Result<(), parquet::errors::ParquetError> {
+fn write_parquet(
+    file: &File,
+    history: &History,
+    reading: &Reading,
+) -> Result<(), parquet::errors::ParquetError> {
     let rows = &history.rows;
     let column = |of: &dyn Fn(usize) -> f64| -> ArrayRef {
         Arc::new(Float64Array::from_iter_values((0..rows.len()).map(of)))
     };
     let pattern = StringArray::from_iter_values(rows.iter().map(|row| row.contact.name()));
-    let batch = RecordBatch::try_from_iter([
-        ("time_s", column(&|i| tidy_s(rows[i].time_s))),
-        ("theta1_rad", column(&|i| rows[i].theta_rad[0])),
-        ("theta2_rad", column(&|i| rows[i].theta_rad[1])),
-        ("pattern", Arc::new(pattern) as ArrayRef),
-    ])?;
+    let arrays = [
+        column(&|i| tidy_s(rows[i].time_s)),
+        column(&|i| reading.of(rows[i].theta_rad)[0]),
+        column(&|i| reading.of(rows[i].theta_rad)[1]),
+        Arc::new(pattern) as ArrayRef,
+        column(&|i| rows[i].theta_rad[0]),
+        column(&|i| rows[i].theta_rad[1]),
+    ];
+    let batch = RecordBatch::try_from_iter(columns(reading).iter().copied().zip(arrays))?;
     let mut writer = ArrowWriter::try_new(file, batch.schema(), None)?;
     writer.write(&batch)?;
     writer.close()?;

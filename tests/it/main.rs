@@ -15,6 +15,8 @@ mod check;
 mod cli_records;
 mod cli_simulate;
 mod convergence;
+mod effects_catalogue;
+mod effects_same;
 mod energy;
 mod first_steps;
 mod fragility;

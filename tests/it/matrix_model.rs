@@ -1,7 +1,7 @@
 //! The mechanics once more, as matrices over the mass points (x1, y1, θ1, x2, y2, θ2, xC, yC):
 //! written from the model alone, sharing nothing with the kernel but the wall's parameters.
 
-use mrbd::model::{Contact, Effect, G_M_S2, Joint, State, Touching, Vector, WallParameters};
+use mrbd::model::{Contact, G_M_S2, Joint, State, Touching, Vector, WallParameters};
 use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 pub type Jacobian = SMatrix<f64, 8, 2>;
@@ -59,14 +59,14 @@ impl MatrixWall {
         let mut wall =
             Self { p: p.clone(), h, m, i, m_dp: p.carriage_mass_kg, k_3: 0.0, c_top: 0.0, c_joint: [0.0; 2] };
         for effect in &p.effects {
-            match effect {
-                Effect::CarriageMass { mass_kg } => wall.m_dp += mass_kg,
-                Effect::ViscousDamping { coefficient_n_s_per_m } => wall.c_top += coefficient_n_s_per_m,
-                Effect::CubicStiffness { coefficient_n_per_m3 } => wall.k_3 += coefficient_n_per_m3,
-                Effect::JointDamping { joint, coefficient_n_m_s_per_rad } => {
-                    let at = usize::from(*joint == Joint::Crack);
-                    wall.c_joint[at] += coefficient_n_m_s_per_rad;
-                }
+            let value = effect.parameters()[0];
+            match effect.variant().name().as_str() {
+                "carriage_mass" => wall.m_dp += value,
+                "viscous_damping" => wall.c_top += value,
+                "cubic_stiffness" => wall.k_3 += value,
+                "joint_damping.ground" => wall.c_joint[0] += value,
+                "joint_damping.crack" => wall.c_joint[1] += value,
+                other => panic!("no {other} in matrix form"),
             }
         }
         wall

@@ -1,11 +1,11 @@
 //! What does not depend on which side is left, or on the unit of length.
 
 use mrbd::ground::Accelerogram;
-use mrbd::model::{Effect, WallParameters};
+use mrbd::model::WallParameters;
 use mrbd::simulate::{Accuracy, History, Response, Shaking, simulate_observed};
 use rand::RngExt;
 
-use crate::walls::{any_effects, any_restitution, any_shaking, any_wall, around_zero, made, rng};
+use crate::walls::{any_effects, any_restitution, any_shaking, any_wall, around_zero, effect, made, rng};
 
 fn run(wall: &WallParameters, shaking: &Shaking, accuracy: Accuracy) -> (Response, History) {
     let step_s = shaking.horizontal.as_ref().map_or(0.005, Accelerogram::step_s);
@@ -79,13 +79,17 @@ fn scaled_wall(wall: &WallParameters, s: f64, mu: f64) -> WallParameters {
         ..wall.clone()
     };
     scaled.restitution.capture_velocity_rad_s /= root;
-    for effect in &mut scaled.effects {
-        match effect {
-            Effect::CarriageMass { mass_kg } => *mass_kg *= mu,
-            Effect::ViscousDamping { coefficient_n_s_per_m: c } => *c *= mu / root,
-            Effect::CubicStiffness { coefficient_n_per_m3: k_3 } => *k_3 *= mu / (s * s * s),
-            Effect::JointDamping { coefficient_n_m_s_per_rad: c, .. } => *c *= mu * s * root,
-        }
+    for scaled in &mut scaled.effects {
+        let name = scaled.variant().name();
+        // N, N/m, … by their units: mass times length by time squared.
+        let factor = match name.split('.').next().expect("a kind") {
+            "carriage_mass" => mu,
+            "viscous_damping" => mu / root,
+            "cubic_stiffness" => mu / (s * s * s),
+            "joint_damping" => mu * s * root,
+            other => panic!("no rule for {other}"),
+        };
+        *scaled = effect(&name, &scaled.parameters().iter().map(|value| value * factor).collect::<Vec<_>>());
     }
     scaled
 }

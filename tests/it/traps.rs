@@ -1,13 +1,13 @@
 //! Small traps: set-ups at the edge of what a wall or a record can be. Every run ends, with numbers that make sense.
 
 use mrbd::ground::Accelerogram;
-use mrbd::model::{Contact, Effect, G_M_S2, ImpactLaw, Joint, WallParameters};
+use mrbd::model::{Contact, G_M_S2, ImpactLaw, WallParameters};
 use mrbd::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate_observed};
 use rand::RngExt;
 
 use crate::walls::{
-    any_effects, any_restitution, any_shaking, any_wall, around_zero, bare_wall, log_uniform, made, rng,
-    table_wall,
+    any_effects, any_restitution, any_shaking, any_wall, around_zero, bare_wall, effect, log_uniform, made,
+    rng, table_wall,
 };
 
 /// Runs a wall and checks what any run must keep.
@@ -199,7 +199,7 @@ fn regress_once_failed() {
     // A damped joint and a stiff spring at a loose tolerance: flights lower than the error of a step.
     let mut stiff = bare_wall(0.438, 3.497, Some(2.431));
     stiff.stiffness_n_per_m = 9.4e8;
-    stiff.effects = vec![Effect::JointDamping { joint: Joint::Ground, coefficient_n_m_s_per_rad: 631.0 }];
+    stiff.effects = vec![effect("joint_damping.ground", &[631.0])];
     for tolerance in [1e-3, 1e-5] {
         sane("stiff", &stiff, &sine(8.0), tolerance);
     }
@@ -226,6 +226,7 @@ fn fuzzed(index: u64) -> (WallParameters, Shaking, f64) {
     }
     if rng.random_bool(0.2) {
         wall.crack_height_m = None;
+        wall.effects.retain(|effect| effect.variant().choice != Some("crack"));
     }
     if rng.random_bool(0.2) {
         let lean = made(&wall).alpha_i_rad().map(|a| (a * around_zero(&mut rng, 1.5)).clamp(-1.5, 1.5));

@@ -2,8 +2,7 @@
 
 use mrbd::ground::Accelerogram;
 use mrbd::model::{
-    Contact, Effect, G_M_S2, ImpactLaw, Joint, Pivot, Restitution, State, Touching, Vector, Wall,
-    WallParameters,
+    Contact, Effect, G_M_S2, ImpactLaw, Pivot, Restitution, State, Touching, Vector, Wall, WallParameters,
 };
 use mrbd::simulate::Shaking;
 use rand::{RngExt, SeedableRng};
@@ -98,24 +97,23 @@ fn some(rng: &mut ChaCha8Rng, mut draw: impl FnMut(&mut ChaCha8Rng) -> f64) -> f
     if rng.random_bool(2.0 / 3.0) { draw(rng) } else { 0.0 }
 }
 
-/// Each further effect in one wall out of two, of a size that matters to the wall.
+/// An effect of the catalogue.
+pub fn effect(name: &str, values: &[f64]) -> Effect {
+    Effect::with_parameters(name, values).expect("values within their bounds")
+}
+
+/// Each smooth further effect in one wall out of two, of a size that matters to the wall.
 pub fn any_effects(rng: &mut ChaCha8Rng, wall: &WallParameters) -> Vec<Effect> {
     let weight_n = wall.mass_kg * G_M_S2;
     let (b, h) = (wall.thickness_m, wall.height_m);
     let time_s = (h / G_M_S2).sqrt();
     let all = [
-        Effect::CarriageMass { mass_kg: wall.mass_kg * rng.random_range(0.0..0.3) },
-        Effect::ViscousDamping { coefficient_n_s_per_m: weight_n / h * time_s * rng.random_range(0.0..0.5) },
+        effect("carriage_mass", &[wall.mass_kg * rng.random_range(0.0..0.3)]),
+        effect("viscous_damping", &[weight_n / h * time_s * rng.random_range(0.0..0.5)]),
         // Softening stays below half of what the wall's weight holds within its thickness.
-        Effect::CubicStiffness { coefficient_n_per_m3: weight_n / h / (b * b) * rng.random_range(-0.5..5.0) },
-        Effect::JointDamping {
-            joint: Joint::Ground,
-            coefficient_n_m_s_per_rad: weight_n * h * time_s * rng.random_range(0.0..0.05),
-        },
-        Effect::JointDamping {
-            joint: Joint::Crack,
-            coefficient_n_m_s_per_rad: weight_n * h * time_s * rng.random_range(0.0..0.05),
-        },
+        effect("cubic_stiffness", &[weight_n / h / (b * b) * rng.random_range(-0.5..5.0)]),
+        effect("joint_damping.ground", &[weight_n * h * time_s * rng.random_range(0.0..0.05)]),
+        effect("joint_damping.crack", &[weight_n * h * time_s * rng.random_range(0.0..0.05)]),
     ];
     all.into_iter().filter(|_| rng.random_bool(0.5)).collect()
 }

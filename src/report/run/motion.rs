@@ -23,7 +23,7 @@ pub fn data(picture: &RunPicture) -> Value {
     json!({
         "thickness": p.thickness_m,
         "heights": [h1, p.height_m - h1],
-        "widths": [p.lower_width_m, p.upper_width_m],
+        "widths": picture.wall.width_m(),
         "cracked": picture.wall.is_cracked(),
         "stiffness": p.stiffness_n_per_m,
         "alpha": picture.wall.alpha_i_rad(),

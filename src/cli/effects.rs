@@ -1,0 +1,118 @@
+//! `mrbd effects`: the catalogue of further effects that a wall file may have.
+
+use clap::Args;
+use serde::Serialize;
+
+use super::output;
+use crate::error::{InputError, Result};
+use crate::model::{Effect, EffectKind, EffectParameter, Place};
+
+/// List the further effects that a wall file may have, with an example of each.
+///
+/// Examples:
+///   mrbd effects
+///   mrbd effects gap coulomb_friction
+///   mrbd effects --json
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub struct EffectsCommand {
+    /// Kinds to list; none: all.
+    kinds: Vec<String>,
+    /// Print the catalogue as JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+/// One effect as it stands in a wall file.
+#[derive(Debug, Serialize)]
+struct Example {
+    effects: [Effect; 1],
+}
+
+impl EffectsCommand {
+    /// Runs the command.
+    ///
+    /// # Errors
+    /// A kind that there is not.
+    pub fn execute(&self) -> Result<()> {
+        let named = |name: &String| Effect::kind_named(name).map_err(|e| no_kind(name, &e.to_string()));
+        let kinds = match &self.kinds[..] {
+            [] => Effect::kinds().iter().collect(),
+            names => names.iter().map(named).collect::<Result<Vec<_>, _>>()?,
+        };
+        output::print(&if self.json {
+            format!("{:#}", serde_json::json!(kinds))
+        } else {
+            kinds.into_iter().map(for_people).collect::<Vec<_>>().join("\n\n\n")
+        })
+    }
+}
+
+fn no_kind(name: &str, message: &str) -> InputError {
+    let allowed = message.split_once(", expected ").map_or(message, |(_, allowed)| allowed);
+    InputError::option("KINDS", format!("{name:?}"), allowed)
+}
+
+fn place(place: Place) -> &'static str {
+    match place {
+        Place::Top => "at the top",
+        Place::Joint => "at a joint",
+        Place::Impacts => "at impacts",
+        Place::GroundMotion => "in the ground motion",
+        Place::Sensor => "in the reading of the rotations",
+    }
+}
+
+fn for_people(kind: &EffectKind) -> String {
+    let mut lines = vec![format!("{} — {}", kind.name, place(kind.place))];
+    lines.extend(wrapped(kind.description));
+    lines.push(format!("  {}", kind.law));
+    if let Some(choice) = kind.choice {
+        lines.push(format!("  {}: {}; {}", choice.key, choice.options.join(" or "), choice.meaning));
+    }
+    lines.extend(kind.parameters.iter().map(bounds));
+    lines.extend(wrapped(&format!("Known by: {}; at impacts: {}.", kind.fingerprint, kind.at_impacts)));
+    if !kind.confused_with.is_empty() {
+        lines.extend(wrapped(&format!("Easily taken for: {}.", kind.confused_with.join(", "))));
+    }
+    let several = if kind.may_repeat { "several add up or multiply" } else { "at most one a wall" };
+    lines.push(format!("  In a wall file ({several}):\n"));
+    lines.push(example(kind));
+    lines.join("\n")
+}
+
+fn bounds(parameter: &EffectParameter) -> String {
+    let EffectParameter { key, unit, least, most, meaning, .. } = parameter;
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    format!("  {key}: {} to {}{unit}; {meaning}", short(*least), short(*most))
+}
+
+fn short(value: f64) -> String {
+    if value.abs() >= 1e4 { format!("{value:e}") } else { value.to_string() }
+}
+
+fn example(kind: &EffectKind) -> String {
+    let Some(variant) = Effect::kind_named(kind.name).ok().and_then(|kind| kind.variants().last()) else {
+        return String::new();
+    };
+    // A table of texts and numbers can always be written.
+    let text = toml::to_string(&Example { effects: [variant.example()] }).unwrap_or_default();
+    text.trim_end().lines().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
+}
+
+/// Indented lines of at most so many letters.
+const WIDTH: usize = 96;
+
+fn wrapped(text: &str) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(format!("  {word}")),
+        }
+    }
+    lines
+}

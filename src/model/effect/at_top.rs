@@ -1,0 +1,170 @@
+//! Effects at the top C: masses, and forces by displacement and velocity of C.
+
+use super::catalogue::{EffectChoice, EffectKind, EffectParameter, Place};
+use super::sums::Yielding;
+
+pub(super) const KINDS: [EffectKind; 7] = [
+    EffectKind {
+        name: "carriage_mass",
+        place: Place::Top,
+        choice: None,
+        parameters: &[EffectParameter {
+            key: "mass_kg",
+            unit: "kg",
+            least: 0.0,
+            most: 1e12,
+            example: 120.0,
+            meaning: "mass added to m_dp",
+        }],
+        may_repeat: true,
+        law: "F = -m (ẍ_C + ẍ_g)",
+        description: "A mass at the top that moves with it sideways and rests on something else: the carriage of a \
+                      shaking table, a floor that spans parallel to the wall.",
+        fingerprint: "absolute acceleration of C",
+        at_impacts: "counts in the horizontal momentum of the top",
+        confused_with: &["diaphragm.stiffness_n_per_m", "diaphragm.mass_kg", "impact_dissipation"],
+        add: |effect, sums| sums.carriage_mass_kg += effect.value(0),
+    },
+    EffectKind {
+        name: "viscous_damping",
+        place: Place::Top,
+        choice: None,
+        parameters: &[EffectParameter {
+            key: "coefficient_n_s_per_m",
+            unit: "N s/m",
+            least: 0.0,
+            most: 1e12,
+            example: 1500.0,
+            meaning: "force per velocity of the top",
+        }],
+        may_repeat: true,
+        law: "F = -c ẋ_C",
+        description: "A force against the velocity of the top and in proportion to it, as of a fluid damper.",
+        fingerprint: "velocity of C",
+        at_impacts: "none",
+        confused_with: &["coulomb_friction", "yielding_spring"],
+        add: |effect, sums| sums.viscous_n_s_per_m += effect.value(0),
+    },
+    EffectKind {
+        name: "coulomb_friction",
+        place: Place::Top,
+        choice: None,
+        parameters: &[EffectParameter {
+            key: "force_n",
+            unit: "N",
+            least: 0.0,
+            most: 1e9,
+            example: 300.0,
+            meaning: "friction force F_c while the top slides, and the most it can hold while it sticks",
+        }],
+        may_repeat: true,
+        law: "F = -F_c sign(ẋ_C); at ẋ_C = 0 whatever within ±F_c keeps it so",
+        description: "Dry friction of constant force between the top and what it leans on, such as guides or bearings. \
+                      The top sticks where the friction can hold it; it helps a wall at rest to stay there.",
+        fingerprint: "sign of the velocity of C, with a step where it turns back",
+        at_impacts: "none: a bounded force has no impulse",
+        confused_with: &["viscous_damping", "yielding_spring"],
+        add: |effect, sums| sums.friction_n += effect.value(0),
+    },
+    EffectKind {
+        name: "cubic_stiffness",
+        place: Place::Top,
+        choice: None,
+        parameters: &[EffectParameter {
+            key: "coefficient_n_per_m3",
+            unit: "N/m³",
+            least: -1e15,
+            most: 1e15,
+            example: 4e6,
+            meaning: "force per cube of the displacement; negative softens",
+        }],
+        may_repeat: true,
+        law: "F = -k_3 x_C³",
+        description: "A spring at the top that hardens, or softens, the further it is displaced.",
+        fingerprint: "cube of the displacement of C",
+        at_impacts: "none",
+        confused_with: &["diaphragm.stiffness_n_per_m", "gap"],
+        add: |effect, sums| sums.cubic_n_per_m3 += effect.value(0),
+    },
+    EffectKind {
+        name: "gap",
+        place: Place::Top,
+        choice: None,
+        parameters: &[EffectParameter {
+            key: "half_width_m",
+            unit: "m",
+            least: 0.0,
+            most: 10.0,
+            example: 0.002,
+            meaning: "displacement to either side at which the floor's spring k_d begins to act",
+        }],
+        may_repeat: false,
+        law: "F = -k_d (x_C ∓ g) beyond ±g, nothing between",
+        description: "Slack in the connection to the floor: its spring k_d does nothing until the slack is taken up.",
+        fingerprint: "displacement of C with a dead zone around zero",
+        at_impacts: "none",
+        confused_with: &["diaphragm.stiffness_n_per_m", "cubic_stiffness", "sensor_offset"],
+        add: |effect, sums| sums.gap_half_width_m = effect.value(0),
+    },
+    EffectKind {
+        name: "one_sided_spring",
+        place: Place::Top,
+        choice: Some(EffectChoice {
+            key: "side",
+            // In the order of `EffectSums::one_sided_n_per_m`.
+            options: &["negative", "positive"],
+            meaning: "sign of the displacements of the top at which it acts",
+        }),
+        parameters: &[EffectParameter {
+            key: "stiffness_n_per_m",
+            unit: "N/m",
+            least: 0.0,
+            most: 1e12,
+            example: 8000.0,
+            meaning: "force per displacement on that side",
+        }],
+        may_repeat: true,
+        law: "F = -k x_C on one side of x_C = 0, nothing on the other",
+        description: "A further spring that pushes but does not pull, or pulls but does not push: a wall leaning on its \
+                      neighbour, a tie.",
+        fingerprint: "displacement of C of one sign only",
+        at_impacts: "none",
+        confused_with: &["diaphragm.stiffness_n_per_m", "sensor_offset"],
+        add: |effect, sums| sums.one_sided_n_per_m[effect.choice_index()] += effect.value(0),
+    },
+    EffectKind {
+        name: "yielding_spring",
+        place: Place::Top,
+        choice: None,
+        parameters: &[
+            EffectParameter {
+                key: "stiffness_n_per_m",
+                unit: "N/m",
+                least: 0.0,
+                most: 1e12,
+                example: 60_000.0,
+                meaning: "force per displacement while elastic",
+            },
+            EffectParameter {
+                key: "yield_force_n",
+                unit: "N",
+                least: 0.0,
+                most: 1e9,
+                example: 400.0,
+                meaning: "most the spring can pull or push",
+            },
+        ],
+        may_repeat: false,
+        law: "F = -k (x_C - x_p) within ±F_y, beyond which the plastic displacement x_p follows",
+        description: "A further spring at the top, elastic up to a force at which it yields without hardening and keeps \
+                      what it has yielded: a steel tie, a nailed connection. New at the start of a run.",
+        fingerprint: "loop of force against displacement of C, with memory",
+        at_impacts: "none",
+        confused_with: &["coulomb_friction", "viscous_damping", "diaphragm.stiffness_n_per_m"],
+        add: |effect, sums| {
+            let [stiffness_n_per_m, force_n] = [effect.value(0), effect.value(1)];
+            let acts = stiffness_n_per_m > 0.0 && force_n > 0.0;
+            sums.yielding = acts.then_some(Yielding { stiffness_n_per_m, force_n });
+        },
+    },
+];
