@@ -17,6 +17,7 @@ use crate::input::{load_wall, toml_file};
 use crate::model::{Contact, ImpactLaw, Pair, Wall, WallParameters};
 use crate::simulate::{Accuracy, Observer, Shaking, simulate_observed};
 use crate::solver::Quintic;
+use crate::store::FileNote;
 
 /// A pipeline file with a `[comparison]`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -37,6 +38,9 @@ struct ComparisonTable {
     tail_s: f64,
     tolerance: f64,
 }
+
+/// Kind of results, by which a report tells the folder of a comparison from others.
+pub const KIND: &str = "comparison";
 
 /// Names of the models.
 pub const MODELS: [&str; 3] = ["calibrated", "updated", "lumped"];
@@ -82,6 +86,12 @@ pub struct Finding {
 pub struct ModelComparison {
     /// Name of the study.
     pub name: String,
+    /// Suite of records.
+    pub suite: String,
+    /// Whether it is generated rather than recorded.
+    pub generated: bool,
+    /// Files that were read.
+    pub inputs: Vec<FileNote>,
     /// One a run.
     pub rows: Vec<ComparisonRow>,
     /// The claims.
@@ -104,9 +114,17 @@ pub fn compare(path: &Path, suite: Option<&Path>) -> Result<ModelComparison> {
     let file: ComparisonFile = toml_file::load(path)?;
     check(path, &file.comparison)?;
     let beside = |name: &Path| path.parent().unwrap_or(Path::new("")).join(name);
-    let wall = load_wall(&beside(&file.wall))?;
-    let best_fit = CoefficientSets::load(&beside(&file.coefficients))?.best_fit;
-    let suite = Suite::load(&suite.map_or_else(|| beside(&file.suite), Path::to_path_buf))?;
+    let suite_path = suite.map_or_else(|| beside(&file.suite), Path::to_path_buf);
+    let files = [
+        ("pipeline", path.to_path_buf()),
+        ("wall", beside(&file.wall)),
+        ("coefficients", beside(&file.coefficients)),
+        ("suite", suite_path.clone()),
+    ];
+    let inputs = files.iter().map(|(role, path)| FileNote::of(role, path)).collect::<Result<_>>()?;
+    let wall = load_wall(&files[1].1)?;
+    let best_fit = CoefficientSets::load(&files[2].1)?.best_fit;
+    let suite = Suite::load(&suite_path)?;
     let mut cases = Vec::new();
     for &law in &file.comparison.laws {
         let models = models(path, wall.parameters(), law, best_fit)?;
@@ -120,7 +138,14 @@ pub fn compare(path: &Path, suite: Option<&Path>) -> Result<ModelComparison> {
     let settings = &file.comparison;
     let rows = cases.par_iter().map(|case| case.run(settings)).collect::<Vec<_>>();
     let findings = settings.laws.iter().flat_map(|law| findings(law.name(), &rows)).collect();
-    Ok(ModelComparison { name: file.name, rows: rows.into_iter().flatten().collect(), findings })
+    Ok(ModelComparison {
+        name: file.name,
+        suite: suite.name.clone(),
+        generated: suite.generated,
+        inputs,
+        rows: rows.into_iter().flatten().collect(),
+        findings,
+    })
 }
 
 fn check(path: &Path, table: &ComparisonTable) -> Result<(), InputError> {

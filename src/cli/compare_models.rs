@@ -1,6 +1,7 @@
 //! `mrbd run` on a pipeline that compares models: rows on stdout, findings on stderr, both in the output folder.
 
 use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::output;
 use crate::comparison::{Finding, ModelComparison, compare, print_rows};
@@ -26,10 +27,26 @@ fn write(comparison: &ModelComparison, folder: &Path) -> Result<()> {
         let found = format!("{}: {e}", folder.display());
         InputError::option("--out", found, "a folder that can be written")
     })?;
+    write_durably(&folder.join("manifest.json"), manifest(comparison).as_bytes())?;
     let mut rows = Vec::new();
     print_rows(&mut rows, &comparison.rows).map_err(|e| Error::io("write the rows", folder, e))?;
     write_durably(&folder.join("comparison.csv"), &rows)?;
     let findings = serde_json::to_vec_pretty(&comparison.findings)
         .map_err(|e| Error::io("write the findings", folder, e.into()))?;
     write_durably(&folder.join("findings.json"), &findings)
+}
+
+/// Kind and provenance, by which `mrbd report` knows the folder.
+fn manifest(comparison: &ModelComparison) -> String {
+    let now_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let manifest = serde_json::json!({
+        "kind": crate::comparison::KIND,
+        "name": comparison.name,
+        "tool_version": env!("CARGO_PKG_VERSION"),
+        "suite": comparison.suite,
+        "generated": comparison.generated,
+        "inputs": comparison.inputs,
+        "started_unix_s": now_unix_s,
+    });
+    format!("{manifest:#}\n")
 }

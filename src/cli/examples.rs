@@ -33,4 +33,6 @@ pub const CHECK: &str = "Examples:
 /// `mrbd report`.
 pub const REPORT: &str = "Examples:
   mrbd report outputs/sweep
+  mrbd report calibrated
+  mrbd report run.parquet
   mrbd report outputs/sweep --site inputs/site_mirandola.toml";

@@ -9,11 +9,12 @@ use crate::ground::Site;
 
 /// Make one HTML page of a folder of results: figures, conclusions, assumptions, provenance.
 ///
-/// The page is DIR/report.html; it needs no network and nothing but itself, its links lead to the files beside it.
+/// For a sweep, a calibration, a comparison of models, an overturning spectrum, or a history of `mrbd simulate`.
+/// The page is DIR/report.html, or FILE.html beside a history; it needs no network and nothing but itself, its links lead to the files beside it.
 #[derive(Debug, Args)]
 pub struct ReportCommand {
-    /// Folder of results, for example the output folder of `mrbd run`.
-    folder: PathBuf,
+    /// Output folder of `mrbd run` or `mrbd calibrate`, or a history file (.csv, .parquet).
+    results: PathBuf,
     /// Site file: the records are held against its code spectrum.
     #[arg(long, value_name = "FILE")]
     site: Option<PathBuf>,
@@ -26,7 +27,7 @@ impl ReportCommand {
     /// An input error for a folder without results or with damaged ones; [`crate::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
         let site = self.site.as_deref().map(Site::load).transpose()?;
-        let page = crate::report::report(&self.folder, site.as_ref())?;
+        let page = crate::report::report(&self.results, site.as_ref())?;
         super::output::print(&page.display().to_string())
     }
 }

@@ -61,7 +61,7 @@ pub struct SimulateArgs {
     /// Write the rotations at every sample to a .csv or .parquet file.
     #[arg(long, value_name = "FILE")]
     history: Option<PathBuf>,
-    /// Draw the run into a .svg or .html file; the page shows the wall in motion too.
+    /// Draw the run into a .svg, .png or .html file; the page shows the wall in motion too.
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
     /// Print the results as JSON.

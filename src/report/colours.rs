@@ -60,6 +60,8 @@ pub enum Mark {
     Square,
     /// A triangle.
     Triangle,
+    /// No point: a line or a surface.
+    None,
 }
 
 /// Colour and mark of the `index`-th curve of a figure.

@@ -216,6 +216,7 @@ fn draw_shape<DB: DrawingBackend>(
             chart.draw_series([place + Rectangle::new(corners, style)])?
         }
         Mark::Triangle => chart.draw_series([place + TriangleMarker::new((0, 0), size + 2, style)])?,
+        Mark::None => return Ok(()),
     };
     Ok(())
 }

@@ -2,8 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use serde::Deserialize;
+
 use super::page::Page;
-use super::sweep;
+use super::provenance::read_json;
+use super::{calibration, comparison, history, overturning, sweep};
 use crate::error::{Error, InputError, Result};
 use crate::ground::Site;
 use crate::store::{Manifest, write_durably};
@@ -11,28 +14,53 @@ use crate::store::{Manifest, write_durably};
 /// Name of a page in the folder of its results.
 pub const PAGE_NAME: &str = "report.html";
 
-/// Makes the page of the results in a folder; gives where it is. Records are held against the code of a site.
+/// Makes the page of the results in a folder, or of a history file; gives where it is. Records are held against the code
+/// of a site.
 ///
 /// # Errors
-/// An input error for a folder that holds no results or damaged ones; [`crate::Error::Io`] if the disk refuses.
-pub fn report(folder: &Path, site: Option<&Site>) -> Result<PathBuf> {
-    let page = page_of(folder, site)?;
-    let path = folder.join(PAGE_NAME);
-    write_durably(&path, page.html()?.as_bytes())?;
+/// An input error for results that are none or damaged; [`crate::Error::Io`] if the disk refuses.
+pub fn report(results: &Path, site: Option<&Site>) -> Result<PathBuf> {
+    let (page, path) = if results.is_dir() {
+        (page_of(results, site), results.join(PAGE_NAME))
+    } else if results.exists() {
+        (history::page(results), results.with_extension("html"))
+    } else {
+        return Err(InputError::file(results, "nothing there", RESULTS).into());
+    };
+    write_durably(&path, page.map_err(as_damage)?.html()?.as_bytes())?;
     Ok(path)
 }
 
+/// What a page can be made of.
+const RESULTS: &str = "a folder of `mrbd run` or `mrbd calibrate`, or a history of `mrbd simulate`";
+
+/// What a manifest says its folder holds; without a word, a study of runs.
+#[derive(Deserialize)]
+struct Kind {
+    kind: Option<String>,
+}
+
 fn page_of(folder: &Path, site: Option<&Site>) -> Result<Page> {
-    if !folder.is_dir() {
-        let found = if folder.exists() { "a file" } else { "nothing there" };
-        return Err(InputError::file(folder, found, "a folder with results of mrbd").into());
+    let path = folder.join("manifest.json");
+    if !path.is_file() {
+        // An overturning spectrum keeps its provenance in its tables.
+        return match folder.join("boundaries.parquet").is_file() {
+            true => overturning::page(folder),
+            false => Err(InputError::file(folder, "no manifest.json", RESULTS).into()),
+        };
     }
-    match Manifest::read(&folder.join("manifest.json"))? {
-        Some(manifest) => sweep::page(folder, &manifest, site).map_err(as_damage),
-        None => {
-            let allowed = "the output folder of `mrbd run`; for one run `mrbd simulate --plot FILE.html`";
-            Err(InputError::file(folder, "no manifest.json", allowed).into())
-        }
+    let Kind { kind } = read_json(&path, "a manifest as mrbd writes it beside its results")?;
+    match kind.as_deref() {
+        Some(crate::calibrate::KIND) => calibration::page(folder),
+        Some(crate::comparison::KIND) => comparison::page(folder),
+        _ => study(folder, &path, site),
+    }
+}
+
+fn study(folder: &Path, path: &Path, site: Option<&Site>) -> Result<Page> {
+    match Manifest::read(path)? {
+        Some(manifest) => sweep::page(folder, &manifest, site),
+        None => Err(InputError::file(path, "nothing there", RESULTS).into()),
     }
 }
 

@@ -9,14 +9,35 @@
 //! | `folder` | which kind of results a folder holds, and its page |
 //! | `sweep` | the paper's figures 12 and 14 to 20 from the medians and runs of a sweep |
 //! | `run` | one run: histories, and the wall in motion |
-//! | `curves`, `lines`, `svg`, `colours` | panels of curves, drawn by plotters |
-//! | `page` | sections, figures and tables made into HTML |
+//! | `history` | a history file |
+//! | `calibration` | measured against simulated, intervals, convergence (Figs. 6 to 8) |
+//! | `comparison` | three models of a wall under the same records (Fig. 9) |
+//! | `overturning` | which pulses overturn a wall |
+//!
+//! To make another page: say what a folder of its kind is in `folder`, and fill a `Page` with sections.
+//!
+//! | block | what |
+//! | --- | --- |
+//! | `page` | `Page`, `Section`, `Figure` (panels under a legend, caption, links), `Table`, `Number`, made into HTML |
+//! | `graph`, `axis` | `Graph`: bands, lines, bars, dots and intervals over linear, logarithmic or named axes |
+//! | `curves` | `Panel`: curves over slenderness with a band for collapses above all numbers |
+//! | `lines` | `LinePanel`: spectra |
+//! | `provenance` | the manifest as names and values, files, sentences on what is generated or assumed |
+//! | `colours`, `words` | a palette that colour-blind people tell apart, numbers and names as people read them |
+//! | `svg`, `pixels` | a drawing of plotters as SVG with values for the script, or as PNG |
 
+mod axis;
+mod calibration;
 mod colours;
+mod comparison;
 mod curves;
 mod folder;
+mod graph;
+mod history;
 mod lines;
+mod overturning;
 mod page;
+mod pixels;
 mod provenance;
 mod run;
 mod svg;

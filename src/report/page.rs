@@ -92,6 +92,13 @@ pub struct Link {
     pub href: String,
 }
 
+impl Link {
+    /// A file beside the page, under its own name.
+    pub fn to(name: &str) -> Self {
+        Self { text: name.to_owned(), href: address(name) }
+    }
+}
+
 /// A table; the first cell of each row heads it.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Table {
@@ -103,6 +110,18 @@ pub struct Table {
     pub head: Vec<String>,
     /// Rows.
     pub rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// A table of plain cells.
+    pub fn of(caption: &str, head: &[&str], rows: impl Iterator<Item = Vec<String>>) -> Self {
+        Self {
+            caption: caption.to_owned(),
+            prose: false,
+            head: head.iter().map(|&head| head.to_owned()).collect(),
+            rows: rows.map(|row| row.into_iter().map(Cell::from).collect()).collect(),
+        }
+    }
 }
 
 /// A cell of a table.
@@ -127,6 +146,17 @@ pub struct Motion {
     pub data: String,
 }
 
+/// The script of the moving wall, its parts in one scope of their own.
+const MOTION: &str = concat!(
+    "\"use strict\";\n(() => {\n",
+    include_str!("templates/motion/geometry.js"),
+    include_str!("templates/motion/stage.js"),
+    include_str!("templates/motion/strip.js"),
+    include_str!("templates/motion/controls.js"),
+    include_str!("templates/motion/play.js"),
+    "})();\n"
+);
+
 impl Page {
     /// The page as HTML.
     ///
@@ -141,7 +171,7 @@ impl Page {
             page => self,
             style => include_str!("templates/style.css"),
             script => include_str!("templates/figures.js"),
-            motion => moves.then_some(include_str!("templates/motion.js")),
+            motion => moves.then_some(MOTION),
             version => env!("CARGO_PKG_VERSION"),
         };
         environment.get_template("page").and_then(|template| template.render(page)).map_err(failed)

@@ -1,11 +1,14 @@
 //! Where a page comes from: the manifest, what is generated or assumed, and the files behind it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use super::page::{Link, address};
 use crate::aggregate::Medians;
-use crate::error::Result;
-use crate::store::{Manifest, run_files};
+use crate::error::{InputError, Result};
+use crate::store::{FileNote, Manifest, file_sha256, run_files};
 
 /// The manifest as names and values.
 pub fn of(manifest: &Manifest) -> Vec<(String, String)> {
@@ -20,18 +23,89 @@ pub fn of(manifest: &Manifest) -> Vec<(String, String)> {
         pair("begun", format!("{} (UTC)", utc(manifest.started_unix_s))),
         pair("gravity", format!("{} m/s²", manifest.gravity_m_s2)),
     ];
-    pairs.extend(manifest.inputs.iter().map(|file| {
-        // The folder a file lay in says nothing to who reads the page.
-        let name =
-            Path::new(&file.path).file_name().map_or(file.path.clone(), |n| n.to_string_lossy().into_owned());
-        (file.role.clone(), format!("{name}, SHA-256 {}", file.sha256))
-    }));
+    pairs.extend(inputs(&manifest.inputs));
     pairs.extend(manifest.suite.records.iter().map(|record| {
         let event = if record.event.is_empty() { String::new() } else { format!(", {}", record.event) };
         let text = format!("{}{event}, scaled by {}, SHA-256 {}", record.name, record.scale, record.sha256);
         ("record".to_owned(), text)
     }));
     pairs
+}
+
+/// The files that were read, by role.
+pub fn inputs(files: &[FileNote]) -> impl Iterator<Item = (String, String)> {
+    files.iter().map(|file| {
+        // The folder a file lay in says nothing to who reads the page.
+        let name =
+            Path::new(&file.path).file_name().map_or(file.path.clone(), |n| n.to_string_lossy().into_owned());
+        (file.role.clone(), format!("{name}, SHA-256 {}", file.sha256))
+    })
+}
+
+/// A file that was read, found again: where it was, or from the folder of the results; none where it is gone or another
+/// one now.
+pub fn found_again(folder: &Path, inputs: &[FileNote], role: &str) -> Option<PathBuf> {
+    let note = inputs.iter().find(|input| input.role == role)?;
+    let beside = note.path_from_folder.as_ref().map(|path| folder.join(path));
+    let places = std::iter::once(PathBuf::from(&note.path)).chain(beside);
+    places.into_iter().find(|path| file_sha256(path).is_ok_and(|sha256| sha256 == note.sha256))
+}
+
+/// The manifest of results that are not a study of runs: a calibration, a comparison of models.
+#[derive(Debug, Deserialize)]
+pub struct Note {
+    /// Name of what was done; empty where it has none.
+    #[serde(default)]
+    pub name: String,
+    /// Version of the program.
+    pub tool_version: String,
+    /// Suite of records, where there is one, and whether it is generated.
+    pub suite: Option<String>,
+    /// Whether its records are generated rather than recorded.
+    #[serde(default)]
+    pub generated: bool,
+    /// Files that were read.
+    pub inputs: Vec<FileNote>,
+    /// When it began, seconds since 1970.
+    pub started_unix_s: u64,
+}
+
+impl Note {
+    /// Reads a manifest.
+    ///
+    /// # Errors
+    /// As [`read_json`].
+    pub fn read(path: &Path) -> Result<Self> {
+        read_json(path, "a manifest as mrbd writes it beside its results")
+    }
+
+    /// The manifest as names and values.
+    pub fn pairs(&self) -> Vec<(String, String)> {
+        let pair = |name: &str, value: String| (name.to_owned(), value);
+        let mut pairs = vec![
+            pair("program", format!("mrbd {}", self.tool_version)),
+            pair("begun", format!("{} (UTC)", utc(self.started_unix_s))),
+        ];
+        pairs.extend(self.suite.iter().map(|suite| pair("suite", suite.clone())));
+        pairs.extend(inputs(&self.inputs));
+        pairs
+    }
+
+    /// A sentence on generated records; none where they are recorded.
+    pub fn generated_note(&self) -> Option<String> {
+        let suite = self.suite.as_deref().filter(|_| self.generated)?;
+        Some(format!("The records of suite “{suite}” are generated, not measured."))
+    }
+}
+
+/// Reads JSON that mrbd wrote.
+///
+/// # Errors
+/// An input error for a file that is not there or holds something else.
+pub fn read_json<T: DeserializeOwned>(path: &Path, allowed: &str) -> Result<T> {
+    let refuse = |found: String| InputError::file(path, found, allowed);
+    let bytes = std::fs::read(path).map_err(|e| refuse(e.to_string()))?;
+    Ok(serde_json::from_slice(&bytes).map_err(|e| refuse(e.to_string()))?)
 }
 
 /// What a reader must know before the figures: generated records, assumptions, failed runs.

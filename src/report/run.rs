@@ -47,6 +47,14 @@ impl RunPicture<'_> {
         self.histories(&self.whole())
     }
 
+    /// The histories as one PNG, 2400 pixels wide.
+    ///
+    /// # Errors
+    /// As [`RunPicture::svg`].
+    pub fn png(&self) -> Result<Vec<u8>> {
+        histories::png(self, &self.whole())
+    }
+
     /// The page of the run: the wall in motion, histories, numbers.
     ///
     /// # Errors

@@ -41,6 +41,7 @@ where
         &DrawingArea<SVGBackend, Shift>,
     ) -> std::result::Result<Told, DrawingAreaErrorKind<std::io::Error>>,
 {
+    register_font()?;
     let mut text = String::new();
     let told = {
         let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
@@ -49,6 +50,13 @@ where
         told
     };
     Ok(dressed(&text, size, label, &told))
+}
+
+/// The font of pixels, by which plotters measures text of SVG too; machines without any font draw the same.
+pub(super) fn register_font() -> Result<()> {
+    static FONT: &[u8] = include_bytes!("fonts/DejaVuSans.ttf");
+    let refused = |_| Error::Picture { message: "the font of the program is none".into() };
+    plotters::style::register_font("sans-serif", FontStyle::Normal, FONT).map_err(refused)
 }
 
 /// What plotters said.

@@ -31,7 +31,7 @@ pub fn page(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<P
     if manifest.suite.records.len() > 1 {
         sections.push(by_record::section(folder, &view, &links)?);
     }
-    sections.push(spectra::section(spectra::suite_of(manifest).as_ref(), site)?);
+    sections.push(spectra::section(spectra::suite_of(folder, manifest).as_ref(), site)?);
     sections.extend([findings(&medians, &view), assumptions(&medians)]);
     Ok(Page {
         title: format!("Sweep “{}”", manifest.plan),

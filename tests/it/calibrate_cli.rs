@@ -9,7 +9,7 @@ use serde_json::Value;
 
 use crate::calibrate_support::{TRUE, Twin};
 
-fn quick() -> Twin {
+pub fn quick() -> Twin {
     let settings =
         "capture_study_rad_s = [1e-3]\nmost_generations = 4\nrefine_vectors = 100\nreplicates = 20\n";
     let scales = vec![0.7, 1.0];

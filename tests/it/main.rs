@@ -43,6 +43,7 @@ mod pipeline_support;
 mod published;
 mod replay;
 mod report_browser;
+mod report_kinds;
 mod report_pages;
 mod shared;
 mod slurm;

@@ -6,6 +6,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
+use crate::report_kinds::{calibration_page, comparison_page, history_page, overturning_page};
 use crate::report_pages::{run_page, sweep_page};
 
 /// Chromium without a window, a profile or the network.
@@ -151,4 +152,60 @@ fn regress_pages_print_in_chromium() {
     chromium(&page, &[&format!("--print-to-pdf={}", pdf.display())]);
     let bytes = fs::read(pdf).expect("a printed page");
     assert!(bytes.starts_with(b"%PDF") && bytes.len() > 20_000, "{} bytes", bytes.len());
+}
+
+/// What holds of every page with figures: they are drawn, values stand under the pointer, and the legend picks a curve.
+fn figures_work(page: &Path) {
+    for width in [1200, 500] {
+        let found = probe(
+            page,
+            width,
+            "const panels = all('.panel svg');
+             found.panels = panels.length;
+             found.drawn = panels.filter((svg) => svg.getBoundingClientRect().height > 60 && svg.querySelectorAll('text').length > 2).length;
+             const circle = document.querySelector('.hits circle');
+             circle.dispatchEvent(new PointerEvent('pointerenter'));
+             const tip = document.getElementById('tip');
+             found.tip = tip.hidden ? '' : tip.textContent;
+             const figure = circle.closest('figure');
+             const key = [...figure.querySelectorAll('.legend button')].find((key) => key.dataset.colour === circle.dataset.colour);
+             key.click();
+             found.faded = figure.querySelectorAll('.faded').length;
+             found.own = [...figure.querySelectorAll('.faded')].filter((e) => e.getAttribute('stroke') === key.dataset.colour).length;
+             key.click();
+             found.after = figure.querySelectorAll('.faded').length;",
+        );
+        assert!(found["panels"].as_u64() > Some(0) && found["panels"] == found["drawn"], "{found}");
+        assert!(found["tip"].as_str().is_some_and(|tip| tip.len() > 5), "{found}");
+        assert!(found["faded"].as_u64() > Some(0), "{found}");
+        assert_eq!((&found["own"], &found["after"]), (&0.into(), &0.into()));
+    }
+}
+
+#[test]
+#[ignore = "needs chromium: make test-browser"]
+fn regress_calibration_page_in_chromium() {
+    let (_folder, page) = calibration_page();
+    figures_work(&page);
+}
+
+#[test]
+#[ignore = "needs chromium: make test-browser"]
+fn regress_comparison_page_in_chromium() {
+    let (_folder, page) = comparison_page();
+    figures_work(&page);
+}
+
+#[test]
+#[ignore = "needs chromium: make test-browser"]
+fn regress_overturning_page_in_chromium() {
+    let (_folder, page) = overturning_page();
+    figures_work(&page);
+}
+
+#[test]
+#[ignore = "needs chromium: make test-browser"]
+fn regress_history_page_in_chromium() {
+    let (_folder, page) = history_page("parquet");
+    figures_work(&page);
 }

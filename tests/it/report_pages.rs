@@ -86,22 +86,28 @@ fn regress_a_sweep_page_holds_figures_conclusions_and_where_they_come_from() {
 
 #[test]
 fn regress_links_of_a_page_lead_to_files() {
-    let (folder, path) = sweep_page();
-    let page = fs::read_to_string(&path).expect("the page");
-    let beside = folder.path().join("outputs/small");
+    let (_folder, path) = sweep_page();
+    let (anchors, files) = followed_links(&path);
+    assert!(anchors >= 4 && files >= 6, "{anchors} anchors, {files} files");
+}
+
+/// Follows every link of a page; gives the numbers of those within the page and of those to files beside it.
+pub fn followed_links(path: &Path) -> (usize, usize) {
+    let page = fs::read_to_string(path).expect("the page");
+    let beside = path.parent().expect("a folder");
     let links: Vec<String> = page
         .split("<a href=\"")
         .skip(1)
         .map(|rest| from_address(rest.split_once('"').expect("a quoted address").0))
         .collect();
     let (anchors, files): (Vec<_>, Vec<_>) = links.iter().partition(|link| link.starts_with('#'));
-    assert!(anchors.len() >= 4 && files.len() >= 6, "{links:?}");
-    for file in files {
+    for file in &files {
         assert!(beside.join(file).is_file(), "{file}");
     }
-    for anchor in anchors {
+    for anchor in &anchors {
         assert!(page.contains(&format!("id=\"{}\"", &anchor[1..])), "{anchor}");
     }
+    (anchors.len(), files.len())
 }
 
 #[test]
@@ -124,7 +130,7 @@ fn rejects_folders_without_results_and_damaged_ones() {
         assert!(output.stdout.is_empty());
     };
     refused("nowhere", "nothing there");
-    refused("study.toml", "a file");
+    refused("study.toml", "extension");
     refused("empty", "no manifest.json");
     let runs = folder.path().join("outputs/small/runs");
     let part = runs.join("record=pulse_1/part-1.parquet");
@@ -194,7 +200,7 @@ fn regress_a_plot_alone_is_an_svg_and_does_not_change_the_run() {
 #[test]
 fn rejects_pictures_before_running() {
     let folder = study(SMALL);
-    for (picture, told) in [("run.gif", ".svg or .html"), ("no/folder/run.svg", "not there")] {
+    for (picture, told) in [("run.gif", ".svg, .png or .html"), ("no/folder/run.svg", "not there")] {
         let arguments = ["simulate", TABLE_WALL, "--record", "pulse_2.csv", "--plot", picture];
         let output = mrbd(folder.path(), &arguments);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -6,6 +6,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::super::colours::{COLLAPSE, INK, PALETTE, PATTERNS};
+use super::super::pixels::png as draw_png;
 use super::super::svg::{Drawn, Told, svg as draw_svg};
 use super::super::words::{rounded_up, tick};
 use super::RunPicture;
@@ -43,6 +44,14 @@ type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoor
 /// [`crate::Error::Picture`] if plotters refuses.
 pub fn svg(picture: &RunPicture, window: &Window) -> Result<String> {
     draw_svg(SIZE, &format!("Histories: {}", picture.title()), |area| draw(picture, window, area))
+}
+
+/// The histories of a run within a window, as PNG.
+///
+/// # Errors
+/// As [`svg`].
+pub fn png(picture: &RunPicture, window: &Window) -> Result<Vec<u8>> {
+    draw_png(SIZE, |area| draw(picture, window, area))
 }
 
 fn draw<DB: DrawingBackend>(

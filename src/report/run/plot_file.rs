@@ -16,6 +16,7 @@ pub struct PlotFile {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Svg,
+    Png,
     Html,
 }
 
@@ -23,14 +24,15 @@ impl PlotFile {
     /// The picture at a path.
     ///
     /// # Errors
-    /// An extension other than .svg and .html; a folder that is not there.
+    /// An extension other than .svg, .png and .html; a folder that is not there.
     pub fn new(path: &Path) -> Result<Self> {
         let refuse =
             |found: String, allowed: &str| Err(InputError::key(path, "--plot", found, allowed).into());
         let kind = match path.extension().and_then(|extension| extension.to_str()) {
             Some("svg") => Kind::Svg,
+            Some("png") => Kind::Png,
             Some("html") => Kind::Html,
-            other => return refuse(format!("extension {:?}", other.unwrap_or("")), ".svg or .html"),
+            other => return refuse(format!("extension {:?}", other.unwrap_or("")), ".svg, .png or .html"),
         };
         match path.parent() {
             Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => refuse(
@@ -46,11 +48,12 @@ impl PlotFile {
     /// # Errors
     /// [`crate::Error::Picture`] or [`crate::Error::Io`].
     pub fn write(&self, picture: &RunPicture) -> Result<()> {
-        let text = match self.kind {
-            Kind::Svg => picture.svg()?,
-            Kind::Html => picture.html()?,
+        let bytes = match self.kind {
+            Kind::Svg => picture.svg()?.into_bytes(),
+            Kind::Png => picture.png()?,
+            Kind::Html => picture.html()?.into_bytes(),
         };
-        write_durably(&self.path, text.as_bytes())
+        write_durably(&self.path, &bytes)
     }
 }
 

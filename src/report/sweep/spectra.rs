@@ -5,6 +5,7 @@ use std::path::Path;
 use super::super::colours::{COLLAPSE, Colour, Mark, of_curve};
 use super::super::lines::{Line, LinePanel};
 use super::super::page::{Figure, Key, Section};
+use super::super::provenance::found_again;
 use super::super::words::rounded_up;
 use crate::error::Result;
 use crate::ground::{CODE_DAMPING, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck, response_spectrum_m_s2};
@@ -17,9 +18,9 @@ const LONGEST_S: f64 = 3.0;
 const STEP_S: f64 = 0.02;
 
 /// The suite of a study, if its file is still where it was and still holds the samples that were run.
-pub fn suite_of(manifest: &Manifest) -> Option<Suite> {
-    let file = manifest.inputs.iter().find(|input| input.role == "suite")?;
-    let motions = Motions::new(Suite::load(Path::new(&file.path)).ok()?);
+pub fn suite_of(folder: &Path, manifest: &Manifest) -> Option<Suite> {
+    let file = found_again(folder, &manifest.inputs, "suite")?;
+    let motions = Motions::new(Suite::load(&file).ok()?);
     let same = motions.hashes.len() == manifest.suite.records.len()
         && motions
             .hashes

@@ -1,0 +1,112 @@
+//! The page of a calibration: measured against simulated, what the tests tell, how the searches converged.
+
+mod convergence;
+mod histories;
+mod parameters;
+mod stored;
+mod tests;
+
+use std::path::Path;
+
+use super::page::{Link, Number, Page};
+use super::provenance::Note;
+use crate::error::Result;
+use histories::Again;
+use stored::Stored;
+
+/// The page of the calibration in a folder.
+///
+/// # Errors
+/// Input errors for files that are none of a calibration; whatever drawing meets.
+pub fn page(folder: &Path) -> Result<Page> {
+    let stored = Stored::read(&folder.join("calibration.json"))?;
+    let note = Note::read(&folder.join("manifest.json"))?;
+    let again = Again::of(folder, &note, &stored);
+    let sections = vec![
+        histories::section(again.as_ref(), &stored)?,
+        parameters::section(&stored)?,
+        tests::section(&stored),
+        convergence::section(&stored)?,
+    ];
+    Ok(Page {
+        title: "Calibration".into(),
+        lead: lead(&stored),
+        numbers: numbers(&stored),
+        notes: notes(&stored),
+        sections,
+        provenance: origin(&stored, &note),
+        files: [
+            "manifest.json",
+            "calibration.json",
+            "candidates.parquet",
+            "generations.parquet",
+            "wall.calibrated.toml",
+        ]
+        .map(Link::to)
+        .to_vec(),
+    })
+}
+
+fn lead(stored: &Stored) -> String {
+    let fit = stored.tests.iter().filter(|test| test.purpose == "fit").count();
+    let held = stored.tests.len() - fit;
+    let told = stored.parameters.iter().filter(|p| p.identifiability == "identified").count();
+    format!(
+        "{} numbers of a wall sought in {fit} shaking-table test{}, {held} held out; {told} of them are told by the tests.",
+        stored.parameters.len(),
+        if fit == 1 { "" } else { "s" }
+    )
+}
+
+/// Mean of the misfits that exist.
+fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let values: Vec<f64> = values.flatten().collect();
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// A misfit as people read it.
+fn wme(value: Option<f64>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.3}"))
+}
+
+fn numbers(stored: &Stored) -> Vec<Number> {
+    let of = |purpose: &str, joint: bool| {
+        let tests = stored.tests.iter().filter(|test| test.purpose == purpose);
+        mean(tests.map(|test| if joint { test.wme_joint } else { test.wme_before }))
+    };
+    let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
+    let mut numbers = vec![
+        number(wme(of("fit", true)), "mean WME of the tests to fit"),
+        number(wme(of("fit", false)), "the same before calibration, C_l = 1"),
+    ];
+    if stored.tests.iter().any(|test| test.purpose != "fit") {
+        numbers.push(number(wme(of("hold-out", true)), "mean WME of the tests held out"));
+    }
+    numbers.push(number(stored.simulations.to_string(), "simulations"));
+    numbers
+}
+
+fn notes(stored: &Stored) -> Vec<String> {
+    let mut notes = vec![format!(
+        "Assumed: impact law “{}”, capture velocity {:e} rad/s. WME: mean absolute error of both rotations, each over its mean absolute measured rotation (Eq. 8).",
+        stored.law, stored.capture_velocity_rad_s
+    )];
+    let on_bound: Vec<&str> =
+        stored.parameters.iter().filter(|p| p.on_bound).map(|p| p.name.as_str()).collect();
+    if !on_bound.is_empty() {
+        notes.push(format!("On a bound, which then decides the value: {}.", on_bound.join(", ")));
+    }
+    notes
+}
+
+fn origin(stored: &Stored, note: &Note) -> Vec<(String, String)> {
+    let pair = |name: &str, value: String| (name.to_owned(), value);
+    let mut pairs = note.pairs();
+    pairs.extend([
+        pair("seed", stored.seed.to_string()),
+        pair("inputs together", format!("SHA-256 {}", stored.request_sha256)),
+        pair("bounds of C_l", stored.bounds_source.clone()),
+        pair("tolerance", format!("{:e} of αᵢ", stored.tolerance)),
+    ]);
+    pairs
+}

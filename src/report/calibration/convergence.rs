@@ -1,0 +1,102 @@
+//! Figure 6: how the searches converged.
+
+use super::super::axis::Axis;
+use super::super::colours::of_curve;
+use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::page::{Figure, Key, Link, Section, Table};
+use super::stored::{Stored, StoredMethod};
+use super::wme;
+use crate::error::Result;
+
+/// The section.
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub fn section(stored: &Stored) -> Result<Section> {
+    let mut names: Vec<&str> = searches(stored).map(|m| m.method.as_str()).collect();
+    names.dedup();
+    let mut seen: Vec<&str> = Vec::new();
+    names.retain(|name| {
+        !seen.contains(name) && {
+            seen.push(name);
+            true
+        }
+    });
+    let mut groups: Vec<Option<&str>> = Vec::new();
+    for method in searches(stored) {
+        if !groups.contains(&method.test.as_deref()) {
+            groups.push(method.test.as_deref());
+        }
+    }
+    let panels = groups.into_iter().map(|test| panel(stored, &names, test)).collect::<Result<_>>()?;
+    let legend = names.iter().enumerate().map(|(index, name)| {
+        let (colour, mark) = of_curve(index);
+        Key { label: (*name).to_owned(), colour: colour.hex(), mark }
+    });
+    Ok(Section {
+        id: "convergence".into(),
+        title: "How the searches converged".into(),
+        figures: vec![Figure {
+            id: "convergence-figure".into(),
+            title: "Lowest misfit by generation".into(),
+            paper: Some("Fig. 6".into()),
+            legend: legend.collect(),
+            panels,
+            caption: "Lowest WME found so far, by generation of each search. Searches that end in different valleys say that the misfit is rough.".into(),
+            links: vec![Link::to("generations.parquet")],
+            ..Figure::default()
+        }],
+        tables: vec![table(stored)],
+        ..Section::default()
+    })
+}
+
+/// Searches that went through generations.
+fn searches(stored: &Stored) -> impl Iterator<Item = &StoredMethod> {
+    stored.methods.iter().filter(|m| m.best_costs.iter().flatten().count() > 1)
+}
+
+fn panel(stored: &Stored, names: &[&str], test: Option<&str>) -> Result<String> {
+    let own: Vec<&StoredMethod> = searches(stored).filter(|m| m.test.as_deref() == test).collect();
+    let costs = || own.iter().flat_map(|m| &m.best_costs).flatten().copied();
+    let longest = own.iter().map(|m| m.best_costs.len()).max().unwrap_or(1);
+    let mut layers = Vec::new();
+    for method in &own {
+        let index = names.iter().position(|name| *name == method.method).unwrap_or(0);
+        let (colour, mark) = of_curve(index);
+        let numbered = method.best_costs.iter().zip((0..).map(f64::from));
+        let points: Vec<(f64, f64)> = numbered.map(|(cost, g)| (g, cost.unwrap_or(f64::NAN))).collect();
+        let tip = |&(x, y): &(f64, f64)| Dot {
+            x,
+            y,
+            tip: format!("{}, generation {x}\nlowest WME {y:.4}", method.method),
+        };
+        let dots = points.iter().filter(|point| point.1.is_finite()).map(tip).collect();
+        layers.push(Layer::Line { colour, width: 2, dashed: false, name: String::new(), points });
+        layers.push(Layer::Dots { colour, mark, size: 4, hollow: false, dots });
+    }
+    Graph {
+        title: test.unwrap_or("all tests to fit").to_owned(),
+        format: Format::Half,
+        x: Axis::linear("generation", 0.0, (longest - 1).max(1) as f64),
+        y: Axis::log_holding("lowest WME", costs()),
+        layers,
+    }
+    .svg()
+}
+
+fn table(stored: &Stored) -> Table {
+    let row = |m: &StoredMethod| {
+        let lowest = match m.test {
+            Some(_) => m.best_costs.last().copied().flatten(),
+            None => m.best.mean_wme,
+        };
+        let test = m.test.clone().unwrap_or_else(|| "all, mean".to_owned());
+        vec![m.method.clone(), test, wme(lowest), m.simulations.to_string()]
+    };
+    Table::of(
+        "The searches",
+        &["search", "test", "lowest WME", "simulations"],
+        stored.methods.iter().map(row),
+    )
+}
