@@ -14,7 +14,7 @@ mod compliant;
 mod diagnose;
 mod score;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -76,34 +76,38 @@ fn go(options: &Options) -> Result<(), String> {
         let pool = pool.map_err(|e| e.to_string())?;
         let motions = cases::tests::motions(&options.set).map_err(|e| e.to_string())?;
         eprintln!("{} cases of the set {} in {}", chosen.len(), options.set, out.display());
-        let program = diagnose::Program::new(&options.mrbd)?;
+        let program = (!options.make_only).then(|| diagnose::Program::new(&options.mrbd)).transpose()?;
         let bar = progress(chosen.len());
-        let done = pool.install(|| {
-            chosen
-                .par_iter()
-                .map(|case| {
-                    let folder = folder(case);
-                    // The answer is written last: with it a case is whole.
-                    if !folder.join("answer.json").is_file() {
-                        let made = cases::folder::write(case, &motions, &folder);
-                        made.map_err(|e| format!("case {}: {}: {e}", case.number, case.kind.name()))?;
-                    }
-                    if !options.make_only {
-                        program.diagnose(&folder)?;
-                    }
-                    bar.inc(1);
-                    Ok(())
-                })
-                .collect::<Result<Vec<()>, String>>()
+        let done: Vec<Result<(), String>> = pool.install(|| {
+            let one = |case: &cases::draw::Case| {
+                let done = make_and_diagnose(case, &motions, &folder(case), program.as_ref());
+                bar.inc(1);
+                done.map_err(|e| format!("case {}, {}: {e}", case.number, case.kind.name()))
+            };
+            chosen.par_iter().map(one).collect()
         });
         bar.finish();
-        done?;
+        done.into_iter().filter_map(Result::err).for_each(|e| eprintln!("blind: {e}"));
     }
     if options.make_only {
         return Ok(());
     }
     let folders: Vec<PathBuf> = chosen.iter().map(folder).collect();
     score::report(&folders, &out)
+}
+
+/// Makes a case unless it is there, and diagnoses it if there is a program to.
+fn make_and_diagnose(
+    case: &cases::draw::Case,
+    motions: &[Vec<f64>],
+    folder: &Path,
+    program: Option<&diagnose::Program>,
+) -> Result<(), String> {
+    // The answer is written last: with it a case is whole.
+    if !folder.join("answer.json").is_file() {
+        cases::folder::write(case, motions, folder)?;
+    }
+    program.map_or(Ok(()), |program| program.diagnose(folder))
 }
 
 fn progress(count: usize) -> ProgressBar {

@@ -95,6 +95,10 @@ fn analytic_effects_mean_the_same_in_both_simulators() {
     let effects = [
         (soft, Hidden::CarriageMass { mass_kg: 400.0 }),
         (soft, Hidden::ViscousDamping { coefficient_n_s_per_m: 2000.0 }),
+        (soft, Hidden::CoulombFriction { force_n: 300.0 }),
+        (soft, Hidden::Gap { slack_m: 0.003 }),
+        (soft, Hidden::OneSidedSpring { side: -1.0, stiffness_n_per_m: 8000.0 }),
+        (soft, Hidden::YieldingSpring { stiffness_n_per_m: 20_000.0, force_n: 200.0 }),
         (soft, Hidden::CubicStiffness { coefficient_n_per_m3: 4e6 }),
         (soft, Hidden::CornerIndentation { joint: Joint::Ground, depth_m: 0.02 }),
         (stiff, Hidden::CornerIndentation { joint: Joint::Crack, depth_m: 0.02 }),
@@ -117,6 +121,31 @@ fn analytic_effects_mean_the_same_in_both_simulators() {
         assert!(found < AGREE, "{told}: {found}");
         // Otherwise agreement would say nothing about the effect.
         assert!(shows > 5e-4, "{told}: shows only {shows} rad");
+    }
+}
+
+/// What the cases do to records themselves, against the library's own effects of that name.
+#[test]
+fn analytic_effects_of_the_ground_mean_what_the_cases_do() {
+    let record = sine(1.4, 0.8);
+    let still = vec![0.0; record.len()];
+    let with = |kind: &str, numbers: &str| {
+        let effect = format!("kind = \"{kind}\"\n{numbers}").parse().expect("a table");
+        own(&WallNumbers::table().to_toml(&[effect]), &record, &still)
+    };
+    let plain = |x: &[f64], y: &[f64]| own(&WallNumbers::table().to_toml(&[]), x, y);
+    let times = |factor: f64| record.iter().map(|a| a * factor).collect::<Vec<_>>();
+    let late = [vec![0.0; 2], record.clone()].concat();
+    let pairs = [
+        ("gain", with("record_gain", "gain = 1.05"), plain(&times(1.05), &still)),
+        ("vertical", with("vertical_ground_motion", "ratio = 0.3"), plain(&record, &times(0.3))),
+        ("lag", with("record_lag", "lag_s = 0.01"), plain(&late, &[0.0, 0.0])),
+    ];
+    for (name, effect, by_hand) in pairs {
+        let both = effect.iter().flatten().zip(by_hand.iter().flatten());
+        let worst = both.fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()));
+        // The same run to rounding, but for steps that end elsewhere: a hundredth of the smallest noise.
+        assert!(worst < 1e-7, "{name}: {worst} rad");
     }
 }
 

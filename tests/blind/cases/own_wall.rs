@@ -3,11 +3,7 @@
 use toml::Table;
 
 use super::draw::Case;
-use super::hidden::Hidden;
-
-/// Kinds that the library cannot simulate: their cases are made by the other simulator.
-pub const UNKNOWN_TO_THE_LIBRARY: [&str; 4] =
-    ["coulomb_friction", "gap", "one_sided_spring", "yielding_spring"];
+use super::hidden::{Hidden, side_name};
 
 /// The wall file.
 pub fn true_wall(case: &Case) -> String {
@@ -15,15 +11,28 @@ pub fn true_wall(case: &Case) -> String {
     let mut effects = Vec::new();
     for effect in &case.hidden {
         match *effect {
-            Hidden::CarriageMass { mass_kg } => effects.push(table("carriage_mass", "mass_kg", mass_kg)),
+            Hidden::CarriageMass { mass_kg } => effects.push(table("carriage_mass", &[("mass_kg", mass_kg)])),
             Hidden::ViscousDamping { coefficient_n_s_per_m: c } => {
-                effects.push(table("viscous_damping", "coefficient_n_s_per_m", c));
+                effects.push(table("viscous_damping", &[("coefficient_n_s_per_m", c)]));
+            }
+            Hidden::CoulombFriction { force_n } => {
+                effects.push(table("coulomb_friction", &[("force_n", force_n)]));
             }
             Hidden::CubicStiffness { coefficient_n_per_m3: k_3 } => {
-                effects.push(table("cubic_stiffness", "coefficient_n_per_m3", k_3));
+                effects.push(table("cubic_stiffness", &[("coefficient_n_per_m3", k_3)]));
+            }
+            Hidden::Gap { slack_m } => effects.push(table("gap", &[("half_width_m", slack_m)])),
+            Hidden::OneSidedSpring { side, stiffness_n_per_m: k } => {
+                let mut spring = table("one_sided_spring", &[("stiffness_n_per_m", k)]);
+                spring.insert("side".into(), side_name(side).into());
+                effects.push(spring);
+            }
+            Hidden::YieldingSpring { stiffness_n_per_m: k, force_n } => {
+                let numbers = [("stiffness_n_per_m", k), ("yield_force_n", force_n)];
+                effects.push(table("yielding_spring", &numbers));
             }
             Hidden::JointDamping { joint, coefficient_n_m_s_per_rad: c } => {
-                let mut damping = table("joint_damping", "coefficient_n_m_s_per_rad", c);
+                let mut damping = table("joint_damping", &[("coefficient_n_m_s_per_rad", c)]);
                 damping.insert("joint".into(), joint.name().into());
                 effects.push(damping);
             }
@@ -40,19 +49,17 @@ pub fn true_wall(case: &Case) -> String {
             | Hidden::RecordLag { .. }
             | Hidden::SensorGain { .. }
             | Hidden::SensorOffset { .. } => {}
-            Hidden::CoulombFriction { .. }
-            | Hidden::Gap { .. }
-            | Hidden::OneSidedSpring { .. }
-            | Hidden::YieldingSpring { .. }
-            | Hidden::Outside { .. } => unreachable!("drawn for the other simulator"),
+            Hidden::Outside { .. } => unreachable!("drawn for the other simulator"),
         }
     }
     numbers.to_toml(&effects)
 }
 
-fn table(kind: &str, key: &str, value: f64) -> Table {
+fn table(kind: &str, numbers: &[(&str, f64)]) -> Table {
     let mut table = Table::new();
     table.insert("kind".into(), kind.into());
-    table.insert(key.into(), value.into());
+    for (key, value) in numbers {
+        table.insert((*key).into(), (*value).into());
+    }
     table
 }
