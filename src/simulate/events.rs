@@ -147,5 +147,31 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
             positive = (share, force);
         }
     }
+    // A force that is linear gives false position a positive side within roundings of zero, from which it does not move.
+    while negative.0 - positive.0 > SAME_INSTANT {
+        let middle = 0.5 * (positive.0 + negative.0);
+        if force_at(middle) < 0.0 {
+            negative.0 = middle;
+        } else {
+            positive.0 = middle;
+        }
+    }
     negative.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_a_force_on_a_line_vanishes_where_the_line_does() {
+        // Linear to the last digit, so that false position comes to stand within roundings of the root.
+        for k in 1..1000 {
+            let root = f64::from(k) * 1e-3;
+            let line = |share: f64| 7.743666e-4 - 7.743666e-4 / root * share;
+            let found = lift_between((0.0, line(0.0)), (1.0, line(1.0)), line);
+            // The bracket's width, and a rounding of the line over its slope.
+            assert!((found - root).abs() <= 2.0 * SAME_INSTANT, "{found} for {root}");
+        }
+    }
 }

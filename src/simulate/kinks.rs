@@ -28,26 +28,21 @@ fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h:
         return None;
     }
     let top = |p: &Point| wall.top(contact, p.position, p.velocity, p.acceleration);
-    let x_c = hermite(top(start), top(end), h);
+    let (from, to) = (top(start), top(end));
     // What x_C and its velocity are sums of.
     let width_m = wall.wall().parameters().thickness_m;
     let speed_m_s =
         wall.top_speed_size(contact, start.velocity).max(wall.top_speed_size(contact, end.velocity));
     let share = |kink: Kink| match kink {
         Kink::Passes { limit_m, sign, .. } => {
-            let mut left = x_c.below(limit_m).times(sign);
-            let rounding = ROUNDINGS * f64::EPSILON * (width_m + limit_m.abs());
-            match begins(&mut left, rounding) {
-                true => left.first_root_after_start(),
-                false => Some(0.0),
-            }
+            let left = |[x_c, v_c, a_c]: [f64; 3]| [limit_m - x_c, -v_c, -a_c].map(|term| sign * term);
+            let rounding_m = ROUNDINGS * f64::EPSILON * (width_m + limit_m.abs());
+            first_end(hermite(left(from), left(to), h), rounding_m)
         }
         Kink::Stops { sign } => {
-            let mut speed = x_c.derivative().times(sign / h);
-            match begins(&mut speed, ROUNDINGS * f64::EPSILON * speed_m_s) {
-                true => speed.first_root_after_start(),
-                false => Some(0.0),
-            }
+            // From the displacement since the start, whose differences have the roundings of the velocity alone.
+            let x_c = hermite([0.0, from[1], from[2]], [to[0] - from[0], to[1], to[2]], h);
+            first_end(x_c.derivative().times(sign / h), ROUNDINGS * f64::EPSILON * speed_m_s)
         }
     };
     let kinks = wall.restraint()?.kinks(&wall.regime());
@@ -55,16 +50,15 @@ fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h:
     roots.reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
-/// Whether what is left to a kink begins on the right side of it, or at it within roundings and not on the way back.
-fn begins<const N: usize>(left: &mut Bernstein<N>, rounding: f64) -> bool {
-    if left.0[0] < -rounding {
-        return false;
+/// Share at which what is left to a kink turns negative, where it may begin at zero: then its first coefficient beyond
+/// roundings tells whether it turns negative at once or comes back later.
+fn first_end<const N: usize>(mut left: Bernstein<N>, rounding: f64) -> Option<f64> {
+    let first = left.0.iter().position(|c| c.abs() > rounding)?;
+    if left.0[first] < 0.0 {
+        return Some(0.0);
     }
-    if left.0[0] <= rounding {
-        left.0[0] = 0.0;
-        return left.0[1] >= -rounding;
-    }
-    true
+    left.0[..first].fill(0.0);
+    left.first_root()
 }
 
 /// What is left to a kink at an instant, and how fast it falls.

@@ -139,18 +139,6 @@ impl<const N: usize> Bernstein<N> {
     }
 }
 
-impl Bernstein<5> {
-    /// First root after the start of a polynomial that may itself start at zero: a speed that begins.
-    pub fn first_root_after_start(&self) -> Option<f64> {
-        if self.0[0] > 0.0 {
-            return self.first_root();
-        }
-        // p(x) = x q(x): q_i = n/(i+1) p_(i+1).
-        let once: Bernstein<4> = Bernstein(std::array::from_fn(|i| self.0[i + 1] * 4.0 / (i + 1) as f64));
-        once.first_root()
-    }
-}
-
 impl Bernstein<6> {
     /// Derivative with respect to the share.
     #[inline]

@@ -140,6 +140,53 @@ fn rejects_unknown_effects_and_their_keys() {
 }
 
 #[test]
+fn analytic_the_examples_of_the_catalogue_are_effects_that_run() {
+    let listed = mrbd(&["effects"]);
+    assert!(listed.status.success() && listed.stderr.is_empty());
+    let listed = String::from_utf8_lossy(&listed.stdout).into_owned();
+    let examples: Vec<String> = listed
+        .split("\n\n\n")
+        .map(|kind| kind.lines().filter_map(|line| line.strip_prefix("    ")).collect::<Vec<_>>().join("\n"))
+        .collect();
+    let kinds: Value = serde_json::from_slice(&mrbd(&["effects", "--json"]).stdout).expect("JSON");
+    assert_eq!(kinds.as_array().expect("a list").len(), examples.len());
+    let (folder, record) = folder_with_record();
+    let wall = wall_with(&folder, "[collapse]", &format!("{}\n\n[collapse]", examples.join("\n\n")));
+    let output = mrbd(&["simulate", text(&wall), "--record", text(&record), "--json"]);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let results: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(results["effects"].as_array().expect("a list").len(), examples.len());
+    rejects(&["effects", "magic"], &["magic", "`coulomb_friction`"]);
+}
+
+#[test]
+fn analytic_histories_show_what_sensors_read_beside_the_truth() {
+    let (folder, record) = folder_with_record();
+    let sensors = "[[effects]]\nkind = \"sensor_gain\"\nbody = \"lower\"\ngain = 2.0\n\n\
+                   [[effects]]\nkind = \"sensor_offset\"\nbody = \"both\"\noffset_rad = 0.25\n\n[collapse]";
+    let wall = wall_with(&folder, "[collapse]", sensors);
+    let [read, plain] = ["read.csv", "plain.csv"].map(|name| folder.path().join(name));
+    for (wall, history) in [(text(&wall), &read), (TABLE_WALL, &plain)] {
+        let output =
+            mrbd(&["simulate", wall, "--record", text(&record), "--json", "--history", text(history)]);
+        assert!(output.status.success(), "{}", stderr(&output));
+        let results: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        assert_eq!(results.get("sensors").is_some(), history == &read);
+    }
+    let [read, plain] = [read, plain].map(|path| std::fs::read_to_string(path).expect("a history"));
+    let mut rows = read.lines().zip(plain.lines());
+    let (header, plain_header) = rows.next().expect("a header");
+    assert_eq!(header, format!("{plain_header},theta1_true_rad,theta2_true_rad"));
+    for (row, plain) in rows {
+        let (row, plain): (Vec<&str>, Vec<&str>) = (row.split(',').collect(), plain.split(',').collect());
+        assert_eq!((row[0], row[3], row[4], row[5]), (plain[0], plain[3], plain[1], plain[2]));
+        let number = |text: &str| text.parse::<f64>().expect("a number");
+        assert_eq!(number(row[1]), 2.0 * number(plain[1]) + 0.25);
+        assert_eq!(number(row[2]), number(plain[2]) + 0.25);
+    }
+}
+
+#[test]
 fn rejects_options_that_make_no_sense() {
     let (folder, record) = folder_with_record();
     let record = text(&record);

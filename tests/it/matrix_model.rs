@@ -227,6 +227,18 @@ impl MatrixWall {
         self.balance(contact, state.theta, &a, self.top_force(contact, state))
     }
 
+    /// Forces through the ground and the crack of a wall at rest under a further force at the top.
+    pub fn through_joints_pushed(
+        &self,
+        contact: Contact,
+        state: &State,
+        ground: Vector,
+        top_force: f64,
+    ) -> [Through; 2] {
+        let ground = Self::on_points(Vector { x: ground.x, y: ground.y + G_M_S2 });
+        self.balance(contact, state.theta, &ground, self.top_force(contact, state) + top_force)
+    }
+
     /// Impulses through the ground and the crack in an impact.
     pub fn impulses(&self, from: Contact, to: Contact, state: &State, omega: [f64; 2]) -> [Through; 2] {
         let before = self.jacobian(from, state.theta) * Vector2::from(state.omega);

@@ -118,6 +118,36 @@ pub fn any_effects(rng: &mut ChaCha8Rng, wall: &WallParameters) -> Vec<Effect> {
     all.into_iter().filter(|_| rng.random_bool(0.5)).collect()
 }
 
+/// Every further effect in one wall out of two, of a size that matters to the wall, those at the top with kinks too.
+pub fn any_of_all_effects(rng: &mut ChaCha8Rng, wall: &WallParameters) -> Vec<Effect> {
+    let weight_n = wall.mass_kg * G_M_S2;
+    let (b, h) = (wall.thickness_m, wall.height_m);
+    // The force at the top that lifts a block of this shape.
+    let lifting_n = 0.5 * weight_n * b / h;
+    let factors: Vec<f64> = (0..8).map(|_| rng.random_range(0.7..1.0)).collect();
+    let all = [
+        effect("coulomb_friction", &[lifting_n * rng.random_range(0.0..1.5)]),
+        effect("gap", &[b * rng.random_range(0.0..0.2)]),
+        effect("one_sided_spring.positive", &[weight_n / h * rng.random_range(0.0..10.0)]),
+        effect("one_sided_spring.negative", &[weight_n / h * rng.random_range(0.0..10.0)]),
+        effect(
+            "yielding_spring",
+            &[weight_n / h * rng.random_range(0.1..50.0), lifting_n * rng.random_range(0.0..1.5)],
+        ),
+        effect("corner_indentation.ground", &[wall.lower_width_m * rng.random_range(0.0..0.5)]),
+        effect("corner_indentation.crack", &[wall.upper_width_m * rng.random_range(0.0..0.5)]),
+        effect("impact_dissipation", &factors),
+        effect("vertical_ground_motion", &[around_zero(rng, 0.5)]),
+        effect("record_gain", &[rng.random_range(0.5..1.5)]),
+        effect("record_lag", &[around_zero(rng, 0.1)]),
+        effect("sensor_gain.both", &[rng.random_range(0.5..1.5)]),
+        effect("sensor_offset.upper", &[around_zero(rng, 0.01)]),
+    ];
+    let mut effects = any_effects(rng, wall);
+    effects.extend(all.into_iter().filter(|_| rng.random_bool(0.5)));
+    effects
+}
+
 /// Coefficients and law of impacts, with no coefficient above `most`.
 pub fn any_restitution(rng: &mut ChaCha8Rng, most: f64) -> Restitution {
     Restitution {
