@@ -122,15 +122,14 @@ impl Restraint {
     /// spring holds no more than its force.
     pub fn regime_at(&self, x_c_m: f64, v_c_m_s: f64, plastic_m: f64) -> Regime {
         let gap = if x_c_m.abs() > self.gap_m { Side::of(x_c_m) } else { Side::Between };
-        let elastic_m = self.elastic_m();
-        let plastic_m = plastic_m.max(x_c_m - elastic_m).min(x_c_m + elastic_m);
+        let plastic_m = self.yielding.map_or(plastic_m, |spring| spring.plastic_m(plastic_m, x_c_m));
         let leans = if x_c_m == 0.0 { Side::of(v_c_m_s) } else { Side::of(x_c_m) };
         Regime { slides: Side::of(v_c_m_s), gap, leans, yields: Side::Between, plastic_m }
     }
 
     /// Largest elastic displacement x_y of the yielding spring, m; 0 without one.
     fn elastic_m(&self) -> f64 {
-        self.yielding.map_or(0.0, |spring| spring.force_n / spring.stiffness_n_per_m)
+        self.yielding.map_or(0.0, |spring| spring.elastic_m())
     }
 
     /// The smooth laws of a regime.

@@ -189,6 +189,15 @@ impl Wall {
         std::array::from_fn(|l| own[l] * factors[l])
     }
 
+    /// Plastic displacement of the wall's yielding spring, m, once the top is displaced so far, from that before; the
+    /// turning points of a path are enough to follow it. Without such a spring it stays.
+    pub fn plastic_displacement_m(&self, before_m: f64, top_displacement_m: f64) -> f64 {
+        match self.effects.yielding {
+            Some(spring) => spring.plastic_m(before_m, top_displacement_m),
+            None => before_m,
+        }
+    }
+
     /// How the rotations of this wall are read by the sensors of its effects.
     pub fn reading(&self) -> Reading {
         self.effects.reading

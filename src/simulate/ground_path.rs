@@ -94,9 +94,13 @@ impl GroundPath {
     pub fn place(&self, time_s: f64) -> (usize, f64) {
         let last = self.samples.len().max(1) - 1;
         let mut k = (((time_s - self.origin_s) / self.step_s) as usize).min(last);
-        // The quotient may round up to the next piece.
+        // The quotient may round up to the next piece ...
         if self.start_s(k) > time_s {
             k -= 1;
+        }
+        // ... and what is left of this one may be a rounding.
+        if k < last && self.start_s(k + 1) - time_s <= NEAR_WHOLE * self.step_s {
+            return (k + 1, 0.0);
         }
         (k, time_s - self.start_s(k))
     }

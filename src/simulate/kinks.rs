@@ -40,9 +40,11 @@ fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h:
             first_end(hermite(left(from), left(to), h), rounding_m)
         }
         Kink::Stops { sign } => {
-            // From the displacement since the start, whose differences have the roundings of the velocity alone.
-            let x_c = hermite([0.0, from[1], from[2]], [to[0] - from[0], to[1], to[2]], h);
-            first_end(x_c.derivative().times(sign / h), ROUNDINGS * f64::EPSILON * speed_m_s)
+            // The cubic through velocities and accelerations: the quintic's slope would divide a displacement's roundings
+            // by a step that may be as short as they are.
+            let ([_, v_0, a_0], [_, v_1, a_1]) = (from, to);
+            let v_c = Bernstein([v_0, v_0 + h * a_0 / 3.0, v_1 - h * a_1 / 3.0, v_1]);
+            first_end(v_c.times(sign), ROUNDINGS * f64::EPSILON * speed_m_s)
         }
     };
     let kinks = wall.restraint()?.kinks(&wall.regime());

@@ -27,7 +27,8 @@ pub struct Start {
     /// A state that does not fit is moved onto it: in pattern 3 both bodies take their mean, in pattern 4 the lower
     /// body stands, and a joint open on the other side is about to open or strikes at once.
     pub contact: Option<Contact>,
-    /// Plastic displacement of a yielding spring at the top, m; a wall without one has no use for it.
+    /// Plastic displacement of a yielding spring at the top, m ([`Wall::plastic_displacement_m`] follows it); a wall
+    /// without one has no use for it. Friction needs no memory: a top that stands sticks where it can.
     pub plastic_displacement_m: f64,
 }
 

@@ -38,6 +38,18 @@ pub(crate) struct Yielding {
     pub force_n: f64,
 }
 
+impl Yielding {
+    /// Largest elastic displacement x_y, m.
+    pub fn elastic_m(&self) -> f64 {
+        self.force_n / self.stiffness_n_per_m
+    }
+
+    /// The plastic displacement, m, moved to where the spring holds no more than its force at a displacement.
+    pub fn plastic_m(&self, before_m: f64, x_c_m: f64) -> f64 {
+        before_m.max(x_c_m - self.elastic_m()).min(x_c_m + self.elastic_m())
+    }
+}
+
 /// The ground motion made of a record: gain times the record, later, with a share of it upwards.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct GroundChange {
