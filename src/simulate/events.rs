@@ -32,6 +32,8 @@ impl Event {
 
 /// Two closings nearer than this share of a step are one: roundings could not tell their order.
 const SAME_INSTANT: f64 = 1e-12;
+/// A lift-off located this well, as a share of a step, needs no better: an opening is placed as much later anyway.
+const NEAR_ENOUGH: f64 = 1e-9;
 /// Roundings a rotation gathers over a step of some ten operations.
 const ROUNDINGS: f64 = 8.0;
 /// Corner forces are looked at inside a step where the nearer end is within this share of their size and change of
@@ -148,7 +150,8 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
         }
     }
     // A force that is linear gives false position a positive side within roundings of zero, from which it does not move.
-    while negative.0 - positive.0 > SAME_INSTANT {
+    let located = negative.0 - positive.0 <= NEAR_ENOUGH;
+    while !located && negative.0 - positive.0 > SAME_INSTANT {
         let middle = 0.5 * (positive.0 + negative.0);
         if force_at(middle) < 0.0 {
             negative.0 = middle;
