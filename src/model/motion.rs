@@ -247,6 +247,7 @@ impl Motion {
     /// Of the accelerations without it, θ''_0, the force λ makes θ'' = θ''_0 + M⁻¹ Jᵀ λ with J = (Y_Q, Y_C), so that
     /// λ = -a_C0 / (J M⁻¹ Jᵀ). What can move in one way only stands still.
     #[cold]
+    #[inline(never)]
     fn held(&self, theta: Pair, omega: Pair, ground: Vector) -> (MotionRate, f64) {
         let mut rate = match self.freedom {
             Freedom::Monolithic => self.monolithic_rate(theta[0], omega[0], ground),
@@ -348,13 +349,34 @@ impl Motion {
     /// The balance of [`super::joint`], in the static moments of this file: what a run asks for after every step.
     #[inline]
     pub fn aftermath(&self, theta: Pair, omega: Pair, theta_dd: Pair, ground: Vector) -> Aftermath {
+        if self.moves == Moves::WithTopHeld {
+            return self.aftermath_held(theta, omega, theta_dd, ground);
+        }
+        self.aftermath_holding(theta, omega, theta_dd, ground, 0.0)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn aftermath_held(&self, theta: Pair, omega: Pair, theta_dd: Pair, ground: Vector) -> Aftermath {
+        let holding_n = self.held(theta, omega, ground).1;
+        self.aftermath_holding(theta, omega, theta_dd, ground, holding_n)
+    }
+
+    /// The same under the force by which friction holds the top, N.
+    #[inline]
+    fn aftermath_holding(
+        &self,
+        theta: Pair,
+        omega: Pair,
+        theta_dd: Pair,
+        ground: Vector,
+        holding_n: f64,
+    ) -> Aftermath {
         let t = self.turned(theta);
         let m_dp = self.laws.carriage_mass_kg;
         let [w1, w2] = omega.map(|w| w * w);
         let x_c = self.o_x + t.r_q.x + t.r_c.x - self.e_c;
         let v_c = t.r_q.y * omega[0] + t.r_c.y * omega[1];
-        let holding_n =
-            if self.moves == Moves::WithTopHeld { self.held(theta, omega, ground).1 } else { 0.0 };
         let top_force = self.laws.spring_force_n(x_c) + self.laws.damping_force_n(v_c) + holding_n;
         let with_gravity = Vector::new(ground.x, ground.y + G_M_S2);
         let at_q = with_gravity + t.r_q.turned() * theta_dd[0] - t.r_q * w1;
