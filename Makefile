@@ -8,7 +8,7 @@ include make/examples.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep check test test-browser bench blind lint docs clean
+.PHONY: help sweep monte-carlo fragility check test test-browser bench blind lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -17,6 +17,14 @@ sweep: ## run the parametric sweep of the paper, print medians and checked concl
 	cargo run --release --locked --bin mrbd -- run pipelines/sweep.toml --suite $(SUITE) --out outputs/sweep --force
 	@echo "The page of the results:"
 	@cargo run --release --locked --quiet --bin mrbd -- report outputs/sweep --site inputs/site_mirandola.toml
+
+monte-carlo: ## run façades drawn from the survey under the records at their own scale, print quantiles
+	cargo run --release --locked --bin mrbd -- run pipelines/monte_carlo.toml --suite $(SUITE) --out outputs/monte_carlo --force
+
+fragility: ## run drawn façades under scaled records, fit θ/α > 0.1, θ/α > 0.5 and collapse
+	cargo run --release --locked --bin mrbd -- run pipelines/fragility.toml --suite $(SUITE) --out outputs/fragility --force
+	cargo run --release --locked --quiet --bin mrbd -- fragility outputs/fragility --threshold 0.1 --threshold 0.5 \
+		--out outputs/fragility/curves.csv --nrml outputs/fragility/fragility.xml --imt PGV
 
 check: ## run a smaller sweep and compare its medians with the accepted ones
 	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null

@@ -3,12 +3,14 @@
 //! Threads take runs as they come free, but results leave in the order of the plan, so nothing that is written
 //! depends on the number of threads. No histories are held.
 
+mod growing;
+
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use rayon::prelude::*;
 
-use crate::error::{Error, InputError, Result};
+use crate::error::{InputError, Result};
 use crate::model::Wall;
 use crate::plan::{Plan, Run};
 use crate::simulate::{Accuracy, Outcome, Response, Shaking};
@@ -22,9 +24,28 @@ pub struct Finished {
     pub response: Option<Response>,
     /// Why there is no usable response; none where there is one.
     pub failure: Option<String>,
+    /// Simulations it took: none of a façade that is no wall, several of an incremental analysis.
+    pub simulations: u64,
+    /// What an incremental analysis found beside its last run.
+    pub found: Option<Found>,
+}
+
+/// What an incremental analysis found; the run and its response are those at the intensity it ended with: the lowest
+/// found to exceed the limit, or the last one where none did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// Whether the limit was exceeded.
+    pub exceeded: bool,
+    /// Highest intensity below that at which it was not.
+    pub stood_intensity: f64,
 }
 
 impl Finished {
+    /// A run that nothing came of yet.
+    pub fn planned(run: Run) -> Self {
+        Self { run, response: None, failure: None, simulations: 0, found: None }
+    }
+
     /// The response of a run that was carried to its end, standing or collapsed.
     pub fn usable(&self) -> Option<&Response> {
         self.response.as_ref().filter(|_| self.failure.is_none())
@@ -80,38 +101,45 @@ pub fn threads(count: usize) -> Result<rayon::ThreadPool> {
 /// failed and collapsed ones too.
 ///
 /// `simulate` runs one wall; it is a parameter so that a batch can be tested without the cost.
-///
-/// # Errors
-/// [`Error::Plan`] if the plan is broken.
-pub fn run_all<S>(
-    plan: &Plan,
-    positions: Vec<u64>,
-    simulate: &S,
-    progress: &ProgressBar,
-) -> Result<Vec<Finished>>
+/// Neighbouring positions mostly share the record.
+pub fn run_all<S>(plan: &Plan, positions: Vec<u64>, simulate: &S, progress: &ProgressBar) -> Vec<Finished>
 where
     S: Fn(&Wall, &Shaking, Accuracy) -> Response + Sync,
 {
     let one = |position| {
-        let run = plan.run(position).map_err(|e| Error::Plan { position, message: e.to_string() })?;
-        let finished = run_one(run, simulate);
+        let finished = run_one(plan.run(position), simulate);
         progress.inc(1);
-        Ok(finished)
+        finished
     };
     positions.into_par_iter().map(one).collect()
 }
 
-/// Runs one run; a panic of the simulator is a failure of this run, not of the study.
+/// Runs one run; a façade that is no wall, or a panic of the simulator, is a failure of this run, not of the study.
 pub fn run_one<S>(run: Run, simulate: &S) -> Finished
 where
     S: Fn(&Wall, &Shaking, Accuracy) -> Response,
 {
-    let shaking = run.shaking();
-    let outcome = catch_unwind(AssertUnwindSafe(|| simulate(&run.wall, &shaking, run.accuracy())));
-    match outcome {
-        Ok(response) => Finished { failure: fault_of(&response), response: Some(response), run },
-        Err(panic) => Finished { run, response: None, failure: Some(message_of(panic.as_ref())) },
-    }
+    let planned = Finished::planned(run);
+    let outcome = catch_unwind(AssertUnwindSafe(|| match planned.run.growth() {
+        None => single(planned.clone(), simulate),
+        Some(&growth) => growing::search(planned.clone(), growth, |finished| single(finished, simulate)),
+    }));
+    outcome.unwrap_or_else(|panic| Finished { failure: Some(message_of(panic.as_ref())), ..planned })
+}
+
+/// Simulates a run at the factor it is at.
+fn single<S>(finished: Finished, simulate: &S) -> Finished
+where
+    S: Fn(&Wall, &Shaking, Accuracy) -> Response,
+{
+    let run = &finished.run;
+    let wall = match &run.wall {
+        Ok(wall) => wall,
+        Err(impossible) => return Finished { failure: Some(format!("no wall: {impossible}")), ..finished },
+    };
+    let response = simulate(wall, &run.shaking(), run.accuracy());
+    let simulations = finished.simulations + 1;
+    Finished { failure: fault_of(&response), response: Some(response), simulations, ..finished }
 }
 
 /// Why a response cannot be used; none where it can.

@@ -36,14 +36,6 @@ pub enum Error {
         /// What the drawing library said.
         message: String,
     },
-    /// A run of a checked plan turned out impossible; this is a defect of the program to report.
-    #[error("run {position} of the plan: {message}")]
-    Plan {
-        /// Position in the plan, from 0.
-        position: u64,
-        /// Why it cannot be run.
-        message: String,
-    },
     /// The user or the system asked to stop; everything that was finished is stored.
     #[error("stopped; {done} of {missing} runs were done, and stored; to go on: {again}")]
     Stopped {

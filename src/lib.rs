@@ -42,13 +42,13 @@
 //! | [`solver`] | accelerations | steps and where inside a step an event lies; knows no masonry |
 //! | [`simulate`] | a wall and a shaking | a response: maxima, patterns, energy, or a history |
 //! | [`sampling`] | a survey | façades of a Monte Carlo campaign, drawn one by one |
-//! | [`plan`] | a pipeline | a list of runs, computed one by one: façades, walls, records, ids |
-//! | [`batch`] | a plan | finished runs in order, on all threads |
+//! | [`plan`] | a pipeline: a sweep or drawn façades | a list of runs, computed one by one: façades, walls, records, ids |
+//! | [`batch`] | a plan | finished runs in order, on all threads; limits searched by growing intensities |
 //! | [`campaign`] | a plan and what is done of it | what is missing, in any parts, after any interruption |
 //! | [`store`] | responses | files that appear whole or not at all |
-//! | [`aggregate`] | those files alone | medians and quantiles over the records |
+//! | [`aggregate`] | those files alone | medians and quantiles over the records, or over drawn façades |
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
-//! | [`check`] | medians and accepted medians | what moved, beyond a tolerance that says where it comes from |
+//! | [`check`] | medians and accepted medians, runs and the same runs again | what moved, and what is ill-conditioned |
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
 //! | [`calibrate`] | shaking-table tests | coefficients of impact, and what the tests can tell of them |
 //! | [`comparison`] | one wall as three models | which rotates most under the same records (Fig. 9) |

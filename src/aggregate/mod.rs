@@ -1,6 +1,9 @@
 //! From runs to medians: reads only the Parquet files of a study.
 
+mod answer;
 mod by_record;
+mod distributions;
+mod drawn;
 mod medians;
 mod moved;
 mod outcomes;
@@ -9,11 +12,14 @@ mod scan;
 mod stored;
 mod table;
 
+pub use answer::{Answer, Compared};
 pub use by_record::{ReferenceRun, reference_runs};
+pub use distributions::{Distribution, Distributions};
+pub use drawn::distributions;
 pub use medians::{Case, Measure, Median, Medians, Middle, Moved, VariantNote};
 pub use moved::MOVED_SHARE;
 pub use outcomes::{Ending, endings};
 pub use quantile::{LEVELS, quantiles};
 pub use scan::aggregate;
-pub use stored::stored_numbers;
+pub use stored::{stored_answers, stored_numbers};
 pub use table::{print_medians, write_medians};

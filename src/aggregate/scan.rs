@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::*;
 
 use super::medians::{Case, Measure, Median, Medians, VariantNote};
-use super::moved::moved;
+use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
 use crate::error::{Error, Result};
 use crate::input::pipeline::Parameter;
@@ -16,6 +16,15 @@ use crate::store::run_files;
 /// Columns that tell the cases apart; records are what the quantiles run over.
 const CASE: [&str; 5] = ["variant", "configuration", "parameter", "level", "slenderness"];
 
+/// How the runs of a sweep are compared between variants.
+const COMPARISON: Comparison = Comparison {
+    labels: &["parameter", "level"],
+    numbers: &["slenderness"],
+    outcome: "outcome",
+    usable: "stood",
+    compared: &["theta1_max_over_alpha1", "theta2_max_over_alpha2"],
+};
+
 /// Medians and quantiles over the records of every case of the study in `folder`.
 ///
 /// # Errors
@@ -23,9 +32,9 @@ const CASE: [&str; 5] = ["variant", "configuration", "parameter", "level", "slen
 pub fn aggregate(folder: &Path) -> Result<Medians> {
     let files = run_files(folder)?;
     let read = || -> PolarsResult<Medians> {
-        let variants = variant_notes(&by_variant(scan(&files)?)?)?;
+        let variants = variant_notes(&files)?;
         let moved = match variants.first() {
-            Some(base) => moved(&files, &base.name)?,
+            Some(base) => moved(&files, &base.name, &COMPARISON)?,
             None => Vec::new(),
         };
         Ok(Medians::new(variants, medians(&by_case(scan(&files)?)?)?).with_moved(moved))
@@ -41,11 +50,11 @@ pub(super) fn scan(files: &[PathBuf]) -> PolarsResult<LazyFrame> {
     LazyFrame::scan_parquet_files(paths?.into(), arguments)
 }
 
-fn outcome_is(name: &'static str) -> Expr {
+pub(super) fn outcome_is(name: &'static str) -> Expr {
     col("outcome").cast(DataType::String).eq(lit(name))
 }
 
-fn counts() -> [Expr; 4] {
+pub(super) fn counts() -> [Expr; 4] {
     [
         col("run").min().alias("first_run"),
         len().cast(DataType::UInt64).alias("runs"),
@@ -84,7 +93,9 @@ fn by_variant(runs: LazyFrame) -> PolarsResult<DataFrame> {
         .collect()
 }
 
-fn variant_notes(frame: &DataFrame) -> PolarsResult<Vec<VariantNote>> {
+/// The variants in the order of the plan, as their runs tell them.
+pub(super) fn variant_notes(files: &[PathBuf]) -> PolarsResult<Vec<VariantNote>> {
+    let frame = &by_variant(scan(files)?)?;
     (0..frame.height())
         .map(|i| {
             Ok(VariantNote {
@@ -167,7 +178,7 @@ pub(super) fn count(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<u64
     frame.column(name)?.u64()?.get(i).ok_or_else(|| absent(name))
 }
 
-fn list(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<Vec<f64>> {
+pub(super) fn list(frame: &DataFrame, name: &str, i: usize) -> PolarsResult<Vec<f64>> {
     let values = frame.column(name)?.list()?.get_as_series(i).ok_or_else(|| absent(name))?;
     Ok(values.f64()?.iter().flatten().collect())
 }

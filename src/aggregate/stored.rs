@@ -1,10 +1,12 @@
-//! What is stored of one run.
+//! What is stored of single runs.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use polars::prelude::*;
 
-use super::scan::scan;
+use super::answer::{Answer, Compared};
+use super::scan::{count, scan};
 use crate::error::{Error, Result};
 use crate::store::run_files;
 
@@ -29,6 +31,34 @@ pub fn stored_numbers<const N: usize>(
             *value = rows.column(name)?.f64()?.get(0);
         }
         Ok(Some(values))
+    };
+    read().map_err(|e| Error::table(folder, e))
+}
+
+/// What came of the runs at some positions of the plan, of those that are stored.
+///
+/// # Errors
+/// An input error for a folder without results; [`Error::Table`] for files that cannot be read.
+pub fn stored_answers(
+    folder: &Path,
+    positions: &[u64],
+    compared: &Compared,
+) -> Result<BTreeMap<u64, Answer>> {
+    let files = run_files(folder)?;
+    let read = || -> PolarsResult<BTreeMap<u64, Answer>> {
+        let wanted = DataFrame::new_infer_height(vec![Column::new("run".into(), positions)])?.lazy();
+        let mut columns = vec![col("run"), col(compared.outcome).cast(DataType::String).alias("ended")];
+        columns.extend(compared.numbers.iter().map(|&name| col(name)));
+        let runs = scan(&files)?.select(columns);
+        let frame =
+            wanted.join(runs, [col("run")], [col("run")], JoinArgs::new(JoinType::Inner)).collect()?;
+        let answer = |i: usize| {
+            let number = |&name: &&'static str| Ok(frame.column(name)?.f64()?.get(i));
+            let outcome = frame.column("ended")?.str()?.get(i).unwrap_or_default().to_owned();
+            let numbers = compared.numbers.iter().map(number).collect::<PolarsResult<_>>()?;
+            Ok((count(&frame, "run", i)?, Answer { outcome, numbers }))
+        };
+        (0..frame.height()).map(answer).collect()
     };
     read().map_err(|e| Error::table(folder, e))
 }

@@ -58,7 +58,7 @@ where
             break;
         }
         let positions = blocks.iter().flat_map(|block| block.runs.clone()).collect();
-        let mut runs = pool.install(|| run_all(work.plan, positions, work.simulate, work.progress))?;
+        let mut runs = pool.install(|| run_all(work.plan, positions, work.simulate, work.progress));
         tally.count(&runs);
         for block in blocks.iter().rev() {
             let rest = runs.len() - (block.runs.end - block.runs.start) as usize;

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::tolerance::{middle, reruns, told, tolerances};
-use crate::aggregate::{Measure, Medians};
+use super::tolerance::{reruns, told, with_tolerances};
+use crate::aggregate::VariantNote;
 use crate::error::{Error, InputError, Result};
 use crate::store::write_durably;
 
@@ -20,12 +20,15 @@ pub struct Entry {
     pub variant: String,
     /// How the floor runs.
     pub configuration: String,
-    /// Parameter off its mean.
+    /// Parameter off its mean; empty for drawn façades.
     pub parameter: String,
-    /// Its level.
+    /// Its level; of drawn façades the stripe or limit.
     pub level: String,
-    /// h_tot / b.
-    pub slenderness: f64,
+    /// h_tot / b; none for drawn façades.
+    pub slenderness: Option<f64>,
+    /// Record; empty over all of them.
+    #[serde(default)]
+    pub record: String,
     /// Normalised largest rotation, a column of the run files.
     pub measure: String,
     /// Runs.
@@ -36,19 +39,20 @@ pub struct Entry {
     pub collapsed: u64,
     /// How far that number may move.
     pub collapsed_tolerance: u64,
-    /// Median; none where it is a collapse.
+    /// Median; none where it is a collapse, or a limit never exceeded.
     pub median: Option<f64>,
     /// How far it may move; endless where a rounding decides between standing and collapse.
     pub tolerance: f64,
 }
 
-/// What tells an entry apart.
-pub(super) type Key<'a> = (&'a str, &'a str, &'a str, &'a str, u64, &'a str);
+/// What tells an entry apart, and the entries of different variants together.
+pub(super) type Key<'a> = (&'a str, &'a str, &'a str, &'a str, Option<u64>, &'a str, &'a str);
 
 impl Entry {
     pub(super) fn key(&self) -> Key<'_> {
-        let bits = self.slenderness.to_bits();
-        (&self.variant, &self.configuration, &self.parameter, &self.level, bits, &self.measure)
+        let bits = self.slenderness.map(f64::to_bits);
+        let Self { variant, configuration, parameter, level, record, measure, .. } = self;
+        (variant, configuration, parameter, level, bits, record, measure)
     }
 }
 
@@ -64,37 +68,21 @@ pub struct Baseline {
 }
 
 impl Baseline {
-    /// The medians of the first variant of a study; `folder` is named in errors.
+    /// The medians of the first variant of a study, from `figures` of all its variants; `folder` is named in errors.
     ///
     /// # Errors
     /// An input error for a study without a variant that differs by a tighter tolerance alone: the tolerances of the
     /// baseline come from such variants.
-    pub fn of(medians: &Medians, folder: &Path) -> Result<Self> {
-        let reruns = reruns(&medians.variants);
-        let (Some(base), false) = (medians.variants.first(), reruns.is_empty()) else {
+    pub fn of(variants: &[VariantNote], figures: Vec<Entry>, folder: &Path) -> Result<Self> {
+        let reruns = reruns(variants);
+        let (Some(base), false) = (variants.first(), reruns.is_empty()) else {
             let allowed = "a study whose pipeline has a variant that sets a tighter `tolerance` alone";
             return Err(InputError::file(folder, "no such variant", allowed).into());
         };
-        let rows = medians.rows().iter();
-        let rows = rows.filter(|row| row.case.variant == base.name && Measure::BODIES.contains(&row.measure));
-        let entries = rows.map(|row| {
-            let (tolerance, collapsed_tolerance) = tolerances(medians, &reruns, row);
-            Entry {
-                variant: row.case.variant.clone(),
-                configuration: row.case.configuration.name().to_owned(),
-                parameter: row.case.parameter.name().to_owned(),
-                level: row.case.level.name(row.case.parameter).to_owned(),
-                slenderness: row.case.slenderness,
-                measure: row.measure.column().to_owned(),
-                runs: row.runs,
-                failed: row.failed,
-                collapsed: row.collapsed,
-                collapsed_tolerance,
-                median: middle(row),
-                tolerance,
-            }
-        });
-        let entries = entries.collect();
+        let (bases, mut others): (Vec<Entry>, Vec<Entry>) =
+            figures.into_iter().partition(|entry| entry.variant == base.name);
+        others.retain(|entry| reruns.iter().any(|rerun| rerun.name == entry.variant));
+        let entries = with_tolerances(bases, &others);
         Ok(Self { accepted: Vec::new(), tolerance_source: told(&reruns), entries })
     }
 

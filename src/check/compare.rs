@@ -82,7 +82,11 @@ fn presence(entry: &Entry, was: &str, is: &str) -> Change {
 }
 
 fn case(entry: &Entry) -> String {
-    let Entry { variant, configuration, parameter, level, slenderness, .. } = entry;
+    let Entry { variant, configuration, parameter, level, slenderness, record, .. } = entry;
+    let Some(slenderness) = slenderness else {
+        let parts = [variant, configuration, level, record].into_iter().filter(|part| !part.is_empty());
+        return parts.map(String::as_str).collect::<Vec<_>>().join(", ");
+    };
     format!("{variant}, {configuration}, {parameter} at {level}, h/b {slenderness}")
 }
 

@@ -5,8 +5,12 @@
 
 mod baseline;
 mod compare;
+mod conditioning;
+mod figures;
 mod tolerance;
 
 pub use baseline::{Baseline, Entry};
 pub use compare::{Change, compare};
+pub use conditioning::{Again, Conditioning, conditioning, sampled};
+pub use figures::{figures_of_drawn, figures_of_sweep};
 pub use tolerance::{FLOOR, TIMES};

@@ -5,7 +5,10 @@
 //! differ from the first by a tighter tolerance alone: each places its steps elsewhere. Every median has its own
 //! allowance, so that one that moves does not hide a change of its neighbours.
 
-use crate::aggregate::{Case, Measure, Median, Medians, VariantNote};
+use std::collections::BTreeMap;
+
+use super::baseline::{Entry, Key};
+use crate::aggregate::VariantNote;
 
 /// Least tolerance of a median rotation over α: ten times the error that the solver is allowed (1e-6) in a run.
 pub const FLOOR: f64 = 1e-5;
@@ -32,27 +35,27 @@ pub(super) fn reruns(variants: &[VariantNote]) -> Vec<&VariantNote> {
     rest.iter().filter(|v| v.tolerance < base.tolerance && others(v) == others(base)).collect()
 }
 
-/// How far a median of the base, and its count of collapses, may move.
-pub(super) fn tolerances(medians: &Medians, reruns: &[&VariantNote], row: &Median) -> (f64, u64) {
-    let twins = reruns.iter().filter_map(|variant| twin(medians, &variant.name, &row.case, row.measure));
-    twins.fold((FLOOR, 0), |(median, collapsed), twin| {
-        let distance = match (middle(row), middle(twin)) {
-            (Some(a), Some(b)) => TIMES * (a - b).abs(),
-            (None, None) => 0.0,
-            _ => f64::INFINITY,
-        };
-        (median.max(distance), collapsed.max(row.collapsed.abs_diff(twin.collapsed)))
-    })
+/// The medians of the base with how far each, and its count of collapses, may move, as its `reruns` tell.
+pub(super) fn with_tolerances(bases: Vec<Entry>, reruns: &[Entry]) -> Vec<Entry> {
+    let mut twins: BTreeMap<Key, Vec<&Entry>> = BTreeMap::new();
+    reruns.iter().for_each(|rerun| twins.entry(case_of(rerun)).or_default().push(rerun));
+    let tolerant = |base: &Entry| {
+        let twins = twins.get(&case_of(base)).into_iter().flatten();
+        let (tolerance, collapsed_tolerance) = twins.fold((FLOOR, 0), |(median, collapsed), twin| {
+            let distance = match (base.median, twin.median) {
+                (Some(a), Some(b)) => TIMES * (a - b).abs(),
+                (None, None) => 0.0,
+                _ => f64::INFINITY,
+            };
+            (median.max(distance), collapsed.max(base.collapsed.abs_diff(twin.collapsed)))
+        });
+        Entry { tolerance, collapsed_tolerance, ..base.clone() }
+    };
+    bases.iter().map(tolerant).collect()
 }
 
-/// The median rotation; none for a collapse.
-pub(super) fn middle(row: &Median) -> Option<f64> {
-    match row.middle() {
-        Some(crate::aggregate::Middle::Rotation(value)) => Some(value),
-        _ => None,
-    }
-}
-
-fn twin<'m>(medians: &'m Medians, variant: &str, case: &Case, measure: Measure) -> Option<&'m Median> {
-    medians.get(&Case { variant: variant.to_owned(), ..case.clone() }, measure)
+/// What tells a case apart within its variant.
+fn case_of(entry: &Entry) -> Key<'_> {
+    let (_, configuration, parameter, level, slenderness, record, measure) = entry.key();
+    ("", configuration, parameter, level, slenderness, record, measure)
 }

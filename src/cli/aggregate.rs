@@ -1,16 +1,19 @@
-//! `mrbd aggregate`: medians, tables and findings of a study that was run.
+//! `mrbd aggregate`: medians and quantiles of a study that was run, and what a sweep decides.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::output;
-use crate::aggregate::{Medians, aggregate, print_medians, write_medians};
+use crate::aggregate::{
+    Distributions, Medians, VariantNote, aggregate, distributions, print_medians, write_medians,
+};
 use crate::error::Result;
-use crate::findings::{report, write_findings};
-use crate::store::OutputFolder;
+use crate::findings::{report, report_distributions, write_findings};
+use crate::input::pipeline::Kind;
+use crate::store::{Manifest, OutputFolder};
 
-/// Read the runs of a study, write medians.parquet and findings.csv beside them, print tables and findings.
+/// Read the runs of a study, write medians.parquet (and findings.csv of a sweep) beside them, print tables and findings.
 #[derive(Debug, Args)]
 pub struct AggregateCommand {
     /// Output folder of `mrbd run`.
@@ -26,14 +29,22 @@ impl AggregateCommand {
     /// # Errors
     /// An input error for a folder without results; [`crate::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
-        match self.csv {
-            true => {
-                let medians = aggregate_into(&self.folder)?;
+        match (aggregate_into(&self.folder)?, self.csv) {
+            (Aggregated::Sweep(medians), true) => {
                 output::to_stdout(|out| print_medians(out, &medians).map_err(output::failed))
             }
-            false => aggregate_and_print(&self.folder),
+            (Aggregated::Drawn(study), true) => {
+                output::to_stdout(|out| study.print_csv(out).map_err(output::failed))
+            }
+            (aggregated, false) => print(&aggregated),
         }
     }
+}
+
+/// What a study tells, by its kind.
+enum Aggregated {
+    Sweep(Medians),
+    Drawn(Distributions),
 }
 
 /// Aggregates the study in a folder, writes its medians there and prints them with what they decide.
@@ -41,22 +52,47 @@ impl AggregateCommand {
 /// # Errors
 /// As [`AggregateCommand::execute`].
 pub(super) fn aggregate_and_print(folder: &Path) -> Result<()> {
-    let medians = aggregate_into(folder)?;
-    output::to_stdout(|out| report(out, &medians).map_err(output::failed))
+    print(&aggregate_into(folder)?)
 }
 
-fn aggregate_into(folder: &Path) -> Result<Medians> {
-    let medians = aggregate(folder)?;
-    tell_missing(folder, &medians)?;
-    write_medians(&folder.join("medians.parquet"), &medians)?;
-    write_findings(&folder.join("findings.csv"), &medians)?;
-    Ok(medians)
+fn print(aggregated: &Aggregated) -> Result<()> {
+    output::to_stdout(|out| {
+        let printed = match aggregated {
+            Aggregated::Sweep(medians) => report(out, medians),
+            Aggregated::Drawn(study) => report_distributions(out, study),
+        };
+        printed.map_err(output::failed)
+    })
+}
+
+fn aggregate_into(folder: &Path) -> Result<Aggregated> {
+    let file = folder.join("medians.parquet");
+    match kind_of(folder)? {
+        Kind::Sweep => {
+            let medians = aggregate(folder)?;
+            tell_missing(folder, &medians.variants)?;
+            write_medians(&file, &medians)?;
+            write_findings(&folder.join("findings.csv"), &medians)?;
+            Ok(Aggregated::Sweep(medians))
+        }
+        kind => {
+            let study = distributions(folder, kind)?;
+            tell_missing(folder, &study.variants)?;
+            study.write(&file)?;
+            Ok(Aggregated::Drawn(study))
+        }
+    }
+}
+
+/// The kind of the study in a folder; files without a manifest are read as a sweep's.
+pub(super) fn kind_of(folder: &Path) -> Result<Kind> {
+    Ok(Manifest::read(&folder.join("manifest.json"))?.map_or(Kind::Sweep, |manifest| manifest.kind))
 }
 
 /// Medians of an unfinished study are of the runs there are.
-fn tell_missing(folder: &Path, medians: &Medians) -> Result<()> {
+fn tell_missing(folder: &Path, variants: &[VariantNote]) -> Result<()> {
     let all = OutputFolder::look(folder)?.manifest().runs;
-    let runs: u64 = medians.variants.iter().map(|variant| variant.runs).sum();
+    let runs: u64 = variants.iter().map(|variant| variant.runs).sum();
     if runs < all {
         eprintln!("mrbd: the study is unfinished: medians of {runs} of {all} runs");
     }

@@ -5,10 +5,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::aggregate::kind_of;
 use super::output;
-use crate::aggregate::aggregate;
-use crate::check::{Baseline, Change, compare};
+use crate::aggregate::{aggregate, distributions};
+use crate::check::{Baseline, Change, compare, figures_of_drawn, figures_of_sweep};
 use crate::error::{Error, InputError, Result};
+use crate::input::pipeline::Kind;
 
 /// Compare the medians of a study with a baseline and fail with a table of what moved.
 #[derive(Debug, Args)]
@@ -33,7 +35,17 @@ impl CheckCommand {
     /// [`Error::Moved`] if anything moved beyond its tolerance; input errors for a folder without results, a baseline
     /// that is none or an empty reason; [`Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
-        let now = Baseline::of(&aggregate(&self.folder)?, &self.folder)?;
+        let (variants, figures) = match kind_of(&self.folder)? {
+            Kind::Sweep => {
+                let medians = aggregate(&self.folder)?;
+                (medians.variants.clone(), figures_of_sweep(&medians))
+            }
+            kind => {
+                let study = distributions(&self.folder, kind)?;
+                (study.variants.clone(), figures_of_drawn(&study))
+            }
+        };
+        let now = Baseline::of(&variants, figures, &self.folder)?;
         let accepted = match self.accept && !self.baseline.exists() {
             true => None,
             false => Some(Baseline::load(&self.baseline)?),

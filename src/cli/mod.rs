@@ -5,6 +5,7 @@
 mod aggregate;
 mod calibrate;
 mod check;
+mod check_tolerance;
 mod compare_models;
 mod completions;
 mod effects;
@@ -55,6 +56,7 @@ enum Command {
     Aggregate(aggregate::AggregateCommand),
     #[command(after_help = examples::CHECK)]
     Check(check::CheckCommand),
+    CheckTolerance(check_tolerance::CheckToleranceCommand),
     Fragility(fragility::FragilityCommand),
     Calibrate(calibrate::CalibrateArgs),
     Effects(effects::EffectsCommand),
@@ -80,6 +82,7 @@ impl Cli {
             Command::Slurm(command) => command.execute(),
             Command::Aggregate(command) => command.execute(),
             Command::Check(command) => command.execute(),
+            Command::CheckTolerance(command) => command.execute(),
             Command::Fragility(command) => command.execute(),
             Command::Calibrate(args) => calibrate::execute(&args),
             Command::Effects(command) => command.execute(),

@@ -10,7 +10,7 @@ use crate::batch::{Finished, run_one};
 use crate::error::{Error, InputError, Result};
 use crate::input::pipeline::Pipeline;
 use crate::plan::{Plan, Run};
-use crate::simulate::{Accuracy, FREE_RELEASE_STEP_S, History, Shaking, simulate_observed};
+use crate::simulate::{FREE_RELEASE_STEP_S, History, simulate_observed};
 use crate::store::{COLUMNS, Manifest, OutputFolder, Read, file_sha256, write_history};
 
 /// Results that are compared with what is stored, bit by bit: each depends on the whole run.
@@ -50,12 +50,11 @@ impl ReplayCommand {
         let run = self.find(&plan)?;
         let position = run.position;
         let finished = self.rerun(run)?;
-        match &finished.response {
-            Some(response) if self.json => {
-                output::print(&format!("{:#}", simulate::as_json(&finished.run.wall, response)))?;
-            }
-            Some(response) => output::print(&simulate::summary(&finished.run.wall, response))?,
-            None => {}
+        if let (Ok(wall), Some(response)) = (&finished.run.wall, &finished.response) {
+            output::print(&match self.json {
+                true => format!("{:#}", simulate::as_json(wall, response)),
+                false => simulate::summary(wall, response),
+            })?;
         }
         match finished.failure {
             Some(reason) => {
@@ -67,41 +66,39 @@ impl ReplayCommand {
     }
 
     fn find(&self, plan: &Plan) -> Result<Run> {
-        let broken =
-            |position, e: crate::plan::ImpossibleFacade| Error::Plan { position, message: e.to_string() };
-        let run = |position| plan.run(position).map_err(|e| broken(position, e));
         // An id has 16 digits, more than any position.
         if let (true, Ok(position)) = (self.run.len() < 16, self.run.parse::<u64>())
             && position < plan.len()
         {
-            return run(position);
+            return Ok(plan.run(position));
         }
-        for position in 0..plan.len() {
-            let run = run(position)?;
-            if run.id == self.run {
-                return Ok(run);
-            }
+        if let Some(run) = (0..plan.len()).map(|position| plan.run(position)).find(|run| run.id == self.run) {
+            return Ok(run);
         }
         let allowed = format!("a position from 0 to {}, or an id of the study", plan.len() - 1);
         Err(InputError::option("RUN", format!("{:?}", self.run), allowed).into())
     }
 
+    /// The run again, and its history; that of an incremental analysis is the one of the run it ended with.
     fn rerun(&self, run: Run) -> Result<Finished> {
-        let Some(path) = &self.history else { return Ok(run_one(run, &crate::simulate::simulate)) };
-        let writer = write_history(path)?;
-        let step_s = run.shaking().horizontal.map_or(FREE_RELEASE_STEP_S, |motion| motion.step_s());
-        let history = std::cell::RefCell::new(History::new(step_s));
-        let observed = |wall: &crate::model::Wall, shaking: &Shaking, accuracy: Accuracy| {
-            simulate_observed(wall, shaking, accuracy, &mut *history.borrow_mut())
-        };
-        let finished = run_one(run, &observed);
-        writer.finish(&history.into_inner(), &finished.run.wall.reading())?;
+        let finished = run_one(run, &crate::simulate::simulate);
+        if let (Some(path), Ok(wall)) = (&self.history, &finished.run.wall) {
+            let (run, writer) = (&finished.run, write_history(path)?);
+            let shaking = run.shaking();
+            let step_s = shaking.horizontal.as_ref().map_or(FREE_RELEASE_STEP_S, |motion| motion.step_s());
+            let mut history = History::new(step_s);
+            simulate_observed(wall, &shaking, run.accuracy(), &mut history);
+            writer.finish(&history, &wall.reading())?;
+        }
         Ok(finished)
     }
 }
 
 /// The plan of a study, from the copy of its pipeline and the inputs that the manifest names.
-fn plan_of(folder: &OutputFolder) -> Result<Plan> {
+///
+/// # Errors
+/// Input errors for inputs that are gone or changed since.
+pub(super) fn plan_of(folder: &OutputFolder) -> Result<Plan> {
     let manifest = folder.manifest();
     let path = folder.path().join("plan.toml");
     let text = std::fs::read_to_string(&path)
@@ -111,7 +108,7 @@ fn plan_of(folder: &OutputFolder) -> Result<Plan> {
     pipeline.coefficients = find_input(folder, "coefficients")?;
     pipeline.suite = find_input(folder, "suite")?;
     let plan = Plan::load(&pipeline, None)?;
-    let sha256 = plan.sha256().map_err(|e| Error::Plan { position: 0, message: e.to_string() })?;
+    let sha256 = plan.sha256();
     if sha256 == manifest.plan_sha256 {
         return Ok(plan);
     }

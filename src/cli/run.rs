@@ -14,6 +14,7 @@ use crate::error::{Error, InputError, Result};
 use crate::input::pipeline::Pipeline;
 use crate::overturning;
 use crate::plan::Plan;
+use crate::sampling::Sampling;
 use crate::simulate::simulate;
 use crate::store::{COLUMNS, Earlier, Manifest, OutputFolder, Stage, print_csv};
 
@@ -176,6 +177,14 @@ impl RunCommand {
 fn tell_standing(plan: &Plan, folder: &OutputFolder, standing: &Standing, layout: &Layout) {
     let (suite, path) = (&plan.motions().suite.name, folder.path().display());
     eprintln!("mrbd: {} runs of {:?} under suite {suite:?} into {path}", plan.len(), plan.name());
+    if let Some(drawn) = plan.drawn() {
+        let Sampling { count, seed, design, .. } = drawn.sampling;
+        eprintln!("mrbd: {count} façades, drawn {} from seed {seed}", design.name());
+    }
+    for (configuration, variable, probability) in plan.truncated() {
+        let (floor, percent) = (configuration.name(), 100.0 * probability);
+        eprintln!("mrbd: truncation leaves out {percent:.4} % of {}, {floor} floor", variable.name());
+    }
     for damaged in &standing.damaged {
         eprintln!("mrbd: {} is damaged; its runs are done again", damaged.display());
     }
@@ -213,14 +222,6 @@ fn report(tally: Tally, seconds: f64) {
 /// Every run with every input, by the columns of the result files.
 fn print_plan(plan: &Plan, out: &mut dyn Write) -> Result<()> {
     let inputs = COLUMNS.iter().filter(|column| column.stage == Stage::Input);
-    let mut broken = None;
-    let rows = (0..plan.len()).map_while(|position| match plan.run(position) {
-        Ok(run) => Some(Finished { run, response: None, failure: None }),
-        Err(e) => {
-            broken = Some(Error::Plan { position, message: e.to_string() });
-            None
-        }
-    });
-    print_csv(&mut BufWriter::new(out), inputs, rows).map_err(output::failed)?;
-    broken.map_or(Ok(()), Err)
+    let rows = (0..plan.len()).map(|position| Finished::planned(plan.run(position)));
+    print_csv(&mut BufWriter::new(out), inputs, rows).map_err(output::failed)
 }

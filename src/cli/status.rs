@@ -48,7 +48,8 @@ fn print_progress(
     let (done, all) = (standing.runs(layout), manifest.runs);
     let share = 100.0 * done as f64 / all.max(1) as f64;
     let (plan, suite) = (&manifest.plan, &manifest.suite.name);
-    writeln!(out, "study {plan:?} under suite {suite:?}: {done} of {all} runs done ({share:.1} %)")?;
+    let kind = manifest.kind.name();
+    writeln!(out, "study {plan:?} ({kind}) under suite {suite:?}: {done} of {all} runs done ({share:.1} %)")?;
     let (together, records) = (standing.parts.len(), layout.records().len());
     writeln!(
         out,

@@ -6,6 +6,7 @@
 mod amplitude;
 mod change;
 mod diaphragm;
+mod distributions;
 mod geometry;
 mod report;
 mod sensitivity;
@@ -15,7 +16,9 @@ mod variants;
 mod verdict;
 mod view;
 
+pub use distributions::report_distributions;
 pub use report::{report, write_findings};
+pub use text::aligned;
 pub use verdict::{Answer, Verdict, Vote};
 pub use view::{Point, Slender, View};
 

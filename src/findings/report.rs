@@ -19,7 +19,7 @@ use crate::store::write_durably;
 pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     let Some(base) = medians.variants.first() else { return Ok(()) };
     let view = View::new(medians, &base.name);
-    assumptions(out, medians)?;
+    assumptions(out, &medians.variants)?;
     heading(
         out,
         &format!(
@@ -63,11 +63,19 @@ pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
     write_durably(path, &bytes)
 }
 
-fn heading(out: &mut dyn Write, text: &str) -> io::Result<()> {
+/// An underlined heading.
+///
+/// # Errors
+/// What the stream says.
+pub(super) fn heading(out: &mut dyn Write, text: &str) -> io::Result<()> {
     writeln!(out, "\n{text}\n{}", "-".repeat(text.chars().count()))
 }
 
-fn assumptions(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
+/// The assumptions of every variant and how its runs ended, as a table.
+///
+/// # Errors
+/// What the stream says.
+pub fn assumptions(out: &mut dyn Write, variants: &[VariantNote]) -> io::Result<()> {
     heading(out, "What the source leaves open, and what was assumed")?;
     let head = [
         "variant",
@@ -82,7 +90,7 @@ fn assumptions(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
         "residual",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    rows.extend(medians.variants.iter().map(|v| {
+    rows.extend(variants.iter().map(|v| {
         vec![
             v.name.clone(),
             v.length_m.to_string(),
@@ -101,7 +109,7 @@ fn assumptions(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
         out,
         "residual: the largest energy not accounted for, over the energy that passed through a run."
     )?;
-    let mut suites: Vec<String> = medians.variants.iter().map(suite).collect();
+    let mut suites: Vec<String> = variants.iter().map(suite).collect();
     suites.dedup();
     suites.iter().try_for_each(|suite| writeln!(out, "{}", wrapped(suite, 0)))
 }

@@ -60,7 +60,8 @@ pub struct Known {
     pub bootstrap: Option<BootstrapResult>,
     /// Fit of outcomes; none for incremental analyses, whose rows are not trials at an intensity chosen beforehand.
     pub goodness: Option<Goodness>,
-    /// Shares of the variance of ln capacity (outcomes) or of ln demand about its line (cloud) by kind of cluster.
+    /// Shares of the variance of ln capacity (outcomes; incremental analyses that all ended in failure) or of ln demand about
+    /// its line (cloud) by kind of cluster.
     pub shares: Option<Vec<Share>>,
 }
 
@@ -130,6 +131,11 @@ fn shares(sample: &Sample, method: Method, fitted: &Fitted) -> Option<Vec<Share>
         (_, Some(cloud)) => {
             let (rows, values): (Vec<usize>, Vec<f64>) = residuals(sample, &cloud).into_iter().unzip();
             components(&rows, &values, kinds).map(|found| found.shares(kinds))
+        }
+        // Of capacities that are all known.
+        (Method::Incremental, _) if sample.failures() == sample.trials() => {
+            let rows: Vec<usize> = (0..sample.len()).collect();
+            components(&rows, sample.ln_intensity(), kinds).map(|found| found.shares(kinds))
         }
         _ => None,
     }

@@ -83,33 +83,42 @@ fn unit_of(name: &str) -> Option<(&'static str, Endings)> {
     }
 }
 
-/// The document: one function a curve, all with one limit state.
-pub fn document(measure: &IntensityMeasure, limit_state: &str, curves: &[(String, LogNormal)]) -> String {
+/// The document: functions by their ids, each with one curve a limit state.
+pub fn document(
+    measure: &IntensityMeasure,
+    limit_states: &[String],
+    functions: &[(String, Vec<LogNormal>)],
+) -> String {
     let mut text = String::from(concat!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n",
         "<nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n",
         "  <fragilityModel id=\"mrbd\" assetCategory=\"buildings\" lossCategory=\"structural\">\n",
         "    <description>Log-normal fragility functions of rocking walls</description>\n",
     ));
-    let limit_state = escaped(limit_state);
+    let limit_states: Vec<String> = limit_states.iter().map(|state| escaped(state)).collect();
     // Writing to a String cannot fail.
-    let _ = writeln!(text, "    <limitStates>{limit_state}</limitStates>");
-    for (id, curve) in curves {
-        let _ = write!(text, "{}", function(measure, &limit_state, id, curve));
+    let _ = writeln!(text, "    <limitStates>{}</limitStates>", limit_states.join(" "));
+    for (id, curves) in functions {
+        let _ = write!(text, "{}", function(measure, &limit_states, id, curves));
     }
     text + "  </fragilityModel>\n</nrml>\n"
 }
 
-fn function(measure: &IntensityMeasure, limit_state: &str, id: &str, curve: &LogNormal) -> String {
+fn function(measure: &IntensityMeasure, limit_states: &[String], id: &str, curves: &[LogNormal]) -> String {
     let IntensityMeasure { name, factor } = measure;
-    let [low, high] = [TAIL, 1.0 - TAIL].map(|p| factor * curve.intensity_at(p));
-    let (mean, stddev) = (factor * curve.mean(), factor * curve.standard_deviation());
+    // The limits hold for all curves of a function.
+    let low = curves.iter().map(|curve| factor * curve.intensity_at(TAIL)).fold(f64::INFINITY, f64::min);
+    let high = curves.iter().map(|curve| factor * curve.intensity_at(1.0 - TAIL)).fold(0.0, f64::max);
+    let params = limit_states.iter().zip(curves).map(|(state, curve)| {
+        let (mean, stddev) = (factor * curve.mean(), factor * curve.standard_deviation());
+        format!("      <params ls=\"{state}\" mean=\"{mean:.9e}\" stddev=\"{stddev:.9e}\"/>\n")
+    });
     format!(
         "    <fragilityFunction id=\"{id}\" format=\"continuous\" shape=\"logncdf\">\n\
          \x20     <imls imt=\"{name}\" noDamageLimit=\"{low:.9e}\" minIML=\"{low:.9e}\" maxIML=\"{high:.9e}\"/>\n\
-         \x20     <params ls=\"{limit_state}\" mean=\"{mean:.9e}\" stddev=\"{stddev:.9e}\"/>\n\
-         \x20   </fragilityFunction>\n",
+         {params}    </fragilityFunction>\n",
         id = escaped(id),
+        params = params.collect::<String>(),
     )
 }
 
@@ -126,7 +135,7 @@ mod tests {
     fn published_layout_and_back_by_the_rule_of_openquake() {
         let curve = LogNormal::new(0.25f64.ln(), 0.4).expect("valid");
         let measure = IntensityMeasure::new("PGV", None, Some("pgv_m_s")).expect("known");
-        let text = document(&measure, "collapse", &[("floor=\"parallel\"".into(), curve)]);
+        let text = document(&measure, &["collapse".into()], &[("floor=\"parallel\"".into(), vec![curve])]);
         let order = [
             "<nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">",
             "<fragilityModel id=\"mrbd\" assetCategory=\"buildings\" lossCategory=\"structural\">",

@@ -4,7 +4,9 @@ pub mod assumptions;
 pub mod coefficients;
 pub mod experiment;
 pub mod pipeline;
+mod study;
 pub mod survey;
+mod sweep_table;
 pub(crate) mod toml_file;
 mod wall_file;
 

@@ -6,29 +6,13 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::assumptions::{Assumptions, Changes};
+use super::study::StudyTables;
+pub use super::study::{Cloud, Drawn, Incremental, Kind, Limit, Loading, Stripes, Study};
 use super::survey::Configuration;
+pub use super::sweep_table::{Parameter, ParameterLists, SweepTable};
 use super::toml_file;
 use crate::error::{InputError, Result};
-
-/// A parameter of the façade that a sweep takes through its three levels.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Parameter {
-    /// Thickness b.
-    Thickness,
-    /// Height of the crack h_1 / h_tot.
-    CrackHeight,
-    /// Compressive strength f.
-    Strength,
-    /// Stiffness of the floor k_d.
-    Stiffness,
-    /// Floor mass m_d / m_tot that acts in both directions.
-    DiaphragmMass,
-    /// Floor mass m_dp / m_tot that acts horizontally only.
-    CarriageMass,
-    /// All C_l together.
-    Restitution,
-}
+use crate::sampling::Sampling;
 
 /// A named set of assumptions under which the whole study is run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -37,28 +21,6 @@ pub struct Variant {
     pub name: String,
     /// What it assumes.
     pub assumptions: Assumptions,
-}
-
-/// A one-at-a-time sweep: every parameter of a configuration at three levels, over slendernesses.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SweepTable {
-    /// Slendernesses h_tot / b.
-    pub slenderness: Vec<f64>,
-    /// Parameters by configuration.
-    pub parameters: ParameterLists,
-}
-
-/// Parameters by configuration; an empty or absent list leaves the configuration out.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ParameterLists {
-    /// Parameters of façades whose floor rests on them.
-    #[serde(default)]
-    pub perpendicular: Vec<Parameter>,
-    /// Parameters of façades along which the floor runs.
-    #[serde(default)]
-    pub parallel: Vec<Parameter>,
 }
 
 /// A pipeline file, checked; its paths are resolved against its folder.
@@ -76,8 +38,10 @@ pub struct Pipeline {
     pub coefficients: PathBuf,
     /// Suite of records.
     pub suite: PathBuf,
-    /// The sweep.
-    pub sweep: SweepTable,
+    /// Kind of the study.
+    pub kind: Kind,
+    /// Which façades, and how strongly they are shaken.
+    pub study: Study,
     /// Assumptions to run it under, the one to compare with first; never empty.
     pub variants: Vec<Variant>,
 }
@@ -89,10 +53,17 @@ struct PipelineFile {
     survey: PathBuf,
     coefficients: PathBuf,
     suite: PathBuf,
-    sweep: SweepTable,
     #[serde(default)]
     assumptions: Changes,
     variants: Vec<VariantTable>,
+    #[serde(default)]
+    kind: Kind,
+    sweep: Option<SweepTable>,
+    configurations: Option<Vec<Configuration>>,
+    sampling: Option<Sampling>,
+    cloud: Option<Cloud>,
+    stripes: Option<Stripes>,
+    incremental: Option<Incremental>,
 }
 
 #[derive(Deserialize)]
@@ -119,9 +90,17 @@ impl Pipeline {
     pub fn parse(path: &Path, text: String) -> Result<Self> {
         let file: PipelineFile = toml_file::parse(path, &text)?;
         check_name(path, &file.name)?;
-        file.sweep.check(path)?;
         let beside = |name: PathBuf| path.parent().unwrap_or(Path::new("")).join(name);
         let variants = variants(path, file.assumptions, file.variants)?;
+        let tables = StudyTables {
+            sweep: file.sweep,
+            configurations: file.configurations,
+            sampling: file.sampling,
+            cloud: file.cloud,
+            stripes: file.stripes,
+            incremental: file.incremental,
+        };
+        let study = tables.study(path, file.kind, &variants)?;
         Ok(Self {
             path: path.to_path_buf(),
             text,
@@ -129,45 +108,10 @@ impl Pipeline {
             survey: beside(file.survey),
             coefficients: beside(file.coefficients),
             suite: beside(file.suite),
-            sweep: file.sweep,
+            kind: file.kind,
+            study,
             variants,
         })
-    }
-}
-
-impl SweepTable {
-    /// The parameters of a configuration.
-    pub fn parameters(&self, configuration: Configuration) -> &[Parameter] {
-        match configuration {
-            Configuration::Perpendicular => &self.parameters.perpendicular,
-            Configuration::Parallel => &self.parameters.parallel,
-        }
-    }
-
-    fn check(&self, path: &Path) -> Result<()> {
-        let refuse =
-            |key: &str, found: String, allowed: &str| Err(InputError::key(path, key, found, allowed).into());
-        if self.slenderness.is_empty() {
-            return refuse("sweep.slenderness", "an empty list".into(), "at least one slenderness");
-        }
-        if let Some(wrong) = self.slenderness.iter().find(|x| !(x.is_finite() && **x > 0.0)) {
-            return refuse("sweep.slenderness", wrong.to_string(), "finite numbers above 0");
-        }
-        if !self.slenderness.is_sorted_by(|a, b| a < b) {
-            let found = format!("{:?}", self.slenderness);
-            return refuse("sweep.slenderness", found, "increasing numbers, each once");
-        }
-        if Configuration::ALL.iter().all(|&c| self.parameters(c).is_empty()) {
-            return refuse("sweep.parameters", "no parameters".into(), "at least one parameter");
-        }
-        for configuration in Configuration::ALL {
-            let list = self.parameters(configuration);
-            if list.iter().collect::<BTreeSet<_>>().len() < list.len() {
-                let key = format!("sweep.parameters.{}", configuration.name());
-                return refuse(&key, "a parameter twice".into(), "each parameter once");
-            }
-        }
-        Ok(())
     }
 }
 
@@ -215,9 +159,10 @@ mod tests {
     #[test]
     fn published_sweep_has_the_six_parameters_of_both_configurations() {
         let pipeline = parse(SWEEP).expect("the repository's own pipeline");
-        assert_eq!(pipeline.sweep.slenderness, (4..=12).map(|i| f64::from(2 * i)).collect::<Vec<_>>());
-        assert_eq!(pipeline.sweep.parameters(Configuration::Perpendicular).len(), 6);
-        assert!(pipeline.sweep.parameters(Configuration::Parallel).contains(&Parameter::CarriageMass));
+        let Study::Sweep(sweep) = &pipeline.study else { panic!("a sweep") };
+        assert_eq!(sweep.slenderness, (4..=12).map(|i| f64::from(2 * i)).collect::<Vec<_>>());
+        assert_eq!(sweep.parameters(Configuration::Perpendicular).len(), 6);
+        assert!(sweep.parameters(Configuration::Parallel).contains(&Parameter::CarriageMass));
         assert_eq!(pipeline.survey, Path::new("pipelines/../inputs/survey.toml"));
     }
 

@@ -59,7 +59,12 @@ fn page_of(folder: &Path, site: Option<&Site>) -> Result<Page> {
 
 fn study(folder: &Path, path: &Path, site: Option<&Site>) -> Result<Page> {
     match Manifest::read(path)? {
-        Some(manifest) => sweep::page(folder, &manifest, site),
+        Some(manifest) if !manifest.kind.is_drawn() => sweep::page(folder, &manifest, site),
+        Some(manifest) => {
+            let found = format!("a study of kind {:?}", manifest.kind.name());
+            let allowed = "a sweep; `mrbd aggregate` and `mrbd fragility` tell of drawn façades";
+            Err(InputError::file(folder, found, allowed).into())
+        }
         None => Err(InputError::file(path, "nothing there", RESULTS).into()),
     }
 }

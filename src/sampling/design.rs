@@ -26,6 +26,17 @@ pub enum Design {
     Sobol,
 }
 
+impl Design {
+    /// Name in pipeline files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Design::Plain => "plain",
+            Design::LatinHypercube => "latin_hypercube",
+            Design::Sobol => "sobol",
+        }
+    }
+}
+
 /// A design of a number of points in a number of variables.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Points {
@@ -72,6 +83,11 @@ impl Points {
     /// Number of points.
     pub fn count(&self) -> u64 {
         self.count
+    }
+
+    /// A number in (0, 1) beside the coordinates of a point, at a position that no variable has: independent of all.
+    pub fn further(&self, index: u64, position: usize) -> f64 {
+        unit(bits(self.seed, index, position, Purpose::Draw), 52)
     }
 
     /// Coordinate of a point, above 0 and below 1.

@@ -60,6 +60,11 @@ impl FacadeSampler {
         std::array::from_fn(|variable| self.marginals[variable].quantile(point[variable]))
     }
 
+    /// One more uniform number of a draw, in (0, 1), by its `number` among such: independent whatever the design.
+    pub fn further(&self, index: u64, number: usize) -> f64 {
+        self.points.further(index, Variable::ALL.len() + number)
+    }
+
     /// The façade of a draw. It can be one that no wall is: [`Facade::wall`] tells.
     ///
     /// # Panics

@@ -175,6 +175,12 @@ impl Response {
         [0, 1].map(|i| self.theta_max_rad[i].value.abs() / self.alpha_i_rad[i])
     }
 
+    /// The larger of the two.
+    pub fn theta_max_over_own_alpha(&self) -> f64 {
+        let [lower, upper] = self.theta_max_over_alpha_i();
+        lower.max(upper)
+    }
+
     /// Largest rotations over the slenderness angle of the uncracked wall, without sign.
     pub fn theta_max_over_alpha(&self) -> [f64; 2] {
         self.theta_max_rad.map(|peak| peak.value.abs() / self.alpha_rad)

@@ -33,6 +33,8 @@ pub enum Stage {
 pub enum Encoding {
     /// Few different values: a dictionary.
     Repeating,
+    /// Few different values where nothing is drawn, else every value its own.
+    Drawn,
     /// Every value its own: plain text, split bytes for numbers.
     Distinct,
 }
@@ -57,6 +59,11 @@ impl<R> Column<R> {
     /// A column of inputs: few different values.
     pub const fn input(name: &'static str, unit: &'static str, meaning: &'static str, read: Read<R>) -> Self {
         Self { name, unit, meaning, stage: Stage::Input, encoding: Encoding::Repeating, read }
+    }
+
+    /// A column of numbers that a sweep repeats and a study of drawn façades does not.
+    pub const fn drawn(name: &'static str, unit: &'static str, meaning: &'static str, read: Read<R>) -> Self {
+        Self { name, unit, meaning, stage: Stage::Input, encoding: Encoding::Drawn, read }
     }
 
     /// A column of results: continuous numbers, or counts and names, which repeat.
@@ -97,9 +104,7 @@ impl<R> Column<R> {
                 builder.extend(rows.iter().map(read));
                 Arc::new(builder.finish())
             }
-            (Read::Text(read), Encoding::Distinct) => {
-                Arc::new(rows.iter().map(read).collect::<StringArray>())
-            }
+            (Read::Text(read), _) => Arc::new(rows.iter().map(read).collect::<StringArray>()),
             (Read::Number(read), _) => Arc::new(rows.iter().map(read).collect::<Float64Array>()),
             (Read::Count(read), _) => Arc::new(rows.iter().map(read).collect::<UInt64Array>()),
             (Read::Flag(read), _) => Arc::new(rows.iter().map(read).collect::<BooleanArray>()),
@@ -122,7 +127,7 @@ impl<R> Column<R> {
             (Read::Text(_), Encoding::Repeating) => {
                 DataType::Dictionary(Box::new(DataType::Int32), Box::new(DataType::Utf8))
             }
-            (Read::Text(_), Encoding::Distinct) => DataType::Utf8,
+            (Read::Text(_), _) => DataType::Utf8,
             (Read::Number(_), _) => DataType::Float64,
             (Read::Count(_), _) => DataType::UInt64,
             (Read::Flag(_), _) => DataType::Boolean,

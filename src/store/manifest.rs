@@ -8,18 +8,26 @@ use super::durable::{folder_of, write_durably, write_durably_if_absent};
 use super::schema::SCHEMA_VERSION;
 use crate::error::{Error, InputError, Result};
 use crate::ground::SuiteRecord;
-use crate::input::pipeline::{Pipeline, Variant};
+use crate::input::pipeline::{Kind, Pipeline, Variant};
 use crate::model::G_M_S2;
 use crate::plan::{Plan, RecordHash};
 use serde::{Deserialize, Serialize};
 
 /// Provenance of an output folder: tool, plan, inputs, assumptions.
+///
+/// `kind` tells what the runs are; readers choose by it. `sweep`: the mean façade, one parameter at a time. The others are
+/// of façades drawn from the survey, with a `draw` for each run and neither `parameter` nor `level`: `monte_carlo` under
+/// the records as the suite has them, `cloud` each run at a `factor` of its own, `stripes` at intensities that were chosen
+/// (columns `intensity_measure`, `intensity`), `incremental` at the intensity that first exceeds a `limit`
+/// (`limit_exceeded`, `stood_intensity`). What was asked for stands in `study`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Version of the program.
     pub tool_version: String,
     /// Version of the columns.
     pub schema_version: u32,
+    /// Kind of the study.
+    pub kind: Kind,
     /// Name of the study.
     pub plan: String,
     /// SHA-256 of the list of runs.
@@ -30,6 +38,8 @@ pub struct Manifest {
     pub block_runs: u64,
     /// Seed of random draws; none where nothing is drawn.
     pub seed: Option<u64>,
+    /// What is drawn: configurations, sampling, loading, and the probability that each truncation took; null for a sweep.
+    pub study: serde_json::Value,
     /// The records.
     pub suite: SuiteNote,
     /// Files that were read, with their hashes.
@@ -86,9 +96,8 @@ impl Manifest {
     /// The manifest of a plan stored in blocks of `block_runs`, begun now; `suite_path` is the suite file that was read.
     ///
     /// # Errors
-    /// Input errors if an input file is gone; [`Error::Plan`] if the plan is broken.
+    /// Input errors if an input file is gone.
     pub fn of(plan: &Plan, pipeline: &Pipeline, suite_path: &Path, block_runs: u64) -> Result<Self> {
-        let plan_sha256 = plan.sha256().map_err(|e| Error::Plan { position: 0, message: e.to_string() })?;
         let files = [
             ("pipeline", pipeline.path.as_path()),
             ("survey", &pipeline.survey),
@@ -99,11 +108,13 @@ impl Manifest {
         Ok(Self {
             tool_version: env!("CARGO_PKG_VERSION").to_owned(),
             schema_version: SCHEMA_VERSION,
+            kind: plan.kind(),
             plan: plan.name().to_owned(),
-            plan_sha256,
+            plan_sha256: plan.sha256(),
             runs: plan.len(),
             block_runs,
-            seed: None,
+            seed: plan.drawn().map(|drawn| drawn.sampling.seed),
+            study: study_note(plan),
             suite: SuiteNote::of(plan),
             inputs: files.into_iter().map(|(role, path)| FileNote::of(role, path)).collect::<Result<_>>()?,
             gravity_m_s2: G_M_S2,
@@ -136,10 +147,23 @@ impl Manifest {
         match std::fs::read(path) {
             Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(None),
             Err(e) => Err(Error::io("read", path, e)),
-            Ok(bytes) => match serde_json::from_slice(&bytes) {
-                Ok(manifest) => Ok(Some(manifest)),
-                Err(e) => Err(InputError::file(path, e.to_string(), "the manifest of a study").into()),
-            },
+            Ok(bytes) => Self::parse(path, &bytes).map(Some),
+        }
+    }
+
+    fn parse(path: &Path, bytes: &[u8]) -> Result<Self> {
+        let refuse = |found: String, allowed: String| InputError::file(path, found, allowed).into();
+        let broken = |e: serde_json::Error| refuse(e.to_string(), "the manifest of a study".to_owned());
+        let value: serde_json::Value = serde_json::from_slice(bytes).map_err(broken)?;
+        match value["schema_version"].as_u64() {
+            Some(version) if version != u64::from(SCHEMA_VERSION) => {
+                let by = value["tool_version"].as_str().unwrap_or("another version");
+                let found = format!("results with columns of version {version}, written by mrbd {by}");
+                let allowed =
+                    format!("columns of version {SCHEMA_VERSION}: run the study again with --force");
+                Err(refuse(found, allowed))
+            }
+            _ => serde_json::from_value(value).map_err(broken),
         }
     }
 
@@ -171,15 +195,27 @@ impl Manifest {
         vec![
             pair("tool_version", self.tool_version.clone()),
             pair("schema_version", self.schema_version.to_string()),
+            pair("kind", self.kind.name().to_owned()),
             pair("plan", self.plan.clone()),
             pair("plan_sha256", self.plan_sha256.clone()),
             pair("seed", self.seed.map_or("none".to_owned(), |seed| seed.to_string())),
+            pair("study", self.study.to_string()),
             pair("suite", self.suite.name.clone()),
             pair("suite_generated", self.suite.generated.to_string()),
             pair("gravity_m_s2", self.gravity_m_s2.to_string()),
             pair("variants", self.variants.to_string()),
         ]
     }
+}
+
+/// What is drawn, and what truncations took of it.
+fn study_note(plan: &Plan) -> serde_json::Value {
+    let Some(drawn) = plan.drawn() else { return serde_json::Value::Null };
+    let mut note = serde_json::json!(drawn);
+    for (configuration, variable, probability) in plan.truncated() {
+        note["truncated_probability"][configuration.name()][variable.name()] = probability.into();
+    }
+    note
 }
 
 impl SuiteNote {

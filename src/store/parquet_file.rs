@@ -34,7 +34,8 @@ pub struct ParquetFile<R: 'static> {
 }
 
 impl<R> ParquetFile<R> {
-    /// Begins a file of these columns in a folder; `metadata` are keys and values about the whole file.
+    /// Begins a file of these columns in a folder; `metadata` are keys and values about the whole file; `drawn` says
+    /// whether the rows are of drawn façades.
     ///
     /// # Errors
     /// [`Error::Io`] or [`Error::Table`] if the file cannot be begun.
@@ -42,9 +43,10 @@ impl<R> ParquetFile<R> {
         folder: &Path,
         columns: &'static [Column<R>],
         metadata: &[(String, String)],
+        drawn: bool,
     ) -> Result<Self> {
         let schema = Arc::new(Schema::new(columns.iter().map(Column::field).collect::<Vec<_>>()));
-        let properties = properties(columns, metadata).map_err(|e| Error::table(folder, e))?;
+        let properties = properties(columns, metadata, drawn).map_err(|e| Error::table(folder, e))?;
         let file = durable::unfinished_in(folder)?;
         let writer = ArrowWriter::try_new(file, Arc::clone(&schema), Some(properties))
             .map_err(|e| refused(folder, e))?;
@@ -92,7 +94,7 @@ pub fn write_table<R>(
     metadata: &[(String, String)],
     rows: &[R],
 ) -> Result<()> {
-    let mut file = ParquetFile::create_in(durable::folder_of(path), columns, metadata)?;
+    let mut file = ParquetFile::create_in(durable::folder_of(path), columns, metadata, false)?;
     file.write(rows)?;
     file.finish_as(|_| path.to_path_buf()).map(|_| ())
 }
@@ -111,13 +113,19 @@ fn refused(place: &Path, error: ParquetError) -> Error {
 fn properties<R>(
     columns: &[Column<R>],
     metadata: &[(String, String)],
+    drawn: bool,
 ) -> parquet::errors::Result<WriterProperties> {
     let pairs = metadata.iter().map(|(key, value)| KeyValue::new(key.clone(), value.clone()));
     let mut builder = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(ZSTD_LEVEL)?))
         .set_max_row_group_row_count(Some(ROWS_PER_GROUP))
         .set_key_value_metadata(Some(pairs.collect()));
-    for column in columns.iter().filter(|column| column.encoding == Encoding::Distinct) {
+    let distinct = |column: &&Column<R>| match column.encoding {
+        Encoding::Distinct => true,
+        Encoding::Drawn => drawn,
+        Encoding::Repeating => false,
+    };
+    for column in columns.iter().filter(distinct) {
         let path = ColumnPath::from(column.name);
         builder = builder.set_column_dictionary_enabled(path.clone(), false);
         if matches!(column.read, Read::Number(_)) {

@@ -141,7 +141,8 @@ impl OutputFolder {
 
     fn begin(&self, folder: &Path) -> Result<ParquetFile<Finished>> {
         let columns: &'static [Column<Finished>] = COLUMNS;
-        ParquetFile::create_in(folder, columns, &self.manifest().file_metadata())
+        let manifest = self.manifest();
+        ParquetFile::create_in(folder, columns, &manifest.file_metadata(), manifest.kind.is_drawn())
     }
 
     fn blocks_folder(&self, record: &str) -> PathBuf {

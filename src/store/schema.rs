@@ -1,7 +1,8 @@
 //! The table of all columns: name, unit, meaning, and how each is read off a run.
 //!
 //! This is the one place that says what a result file holds. A value that does not exist (the collapse time of a
-//! wall that stood, any result of a failed run) is null, never a number that stands for it.
+//! wall that stood, any result of a failed run, the wall of a façade that is none) is null, never a number that stands
+//! for it.
 
 use std::borrow::Cow;
 
@@ -9,18 +10,19 @@ use super::column::{Column, Read};
 use crate::batch::Finished;
 use crate::ground::SuiteRecord;
 use crate::input::assumptions::Assumptions;
-use crate::model::{Restitution, WallParameters};
+use crate::model::{Restitution, Wall, WallParameters};
 use crate::simulate::Outcome;
 
 /// Version of the columns; it changes whenever one is added, removed or changes its meaning.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
-fn wall(f: &Finished) -> &WallParameters {
-    f.run.wall.parameters()
+/// The wall; none of a drawn façade that is none.
+fn wall(f: &Finished) -> Option<&WallParameters> {
+    f.run.wall.as_ref().ok().map(Wall::parameters)
 }
 
 fn restitution(f: &Finished) -> &Restitution {
-    &f.run.wall.parameters().restitution
+    &f.run.restitution
 }
 
 fn assumed(f: &Finished) -> &Assumptions {
@@ -52,6 +54,13 @@ macro_rules! number {
     };
 }
 
+/// A number of the wall, null where a drawn façade is none.
+macro_rules! wall_number {
+    (|$w:ident| $value:expr) => {
+        Read::Number(|f| wall(f).map(|$w| $value))
+    };
+}
+
 /// A number read off the response of a run that did not fail; one that is not finite does not exist.
 macro_rules! outcome_number {
     (|$r:ident| $value:expr) => {
@@ -74,9 +83,10 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::<Finished>::input("id", "", "first 16 hexadecimal digits of the SHA-256 of all inputs of the run", text!(|f| &f.run.id)).distinct(),
     Column::input("variant", "", "set of assumptions the study was run under", text!(|f| &f.run.variant.name)),
     Column::input("configuration", "", "how the floor runs: perpendicular (beams rest on the façade) or parallel", text!(|f| f.run.configuration.name())),
-    Column::input("parameter", "", "parameter taken through its levels, the others at their means", text!(|f| f.run.parameter.name())),
-    Column::input("level", "", "level of that parameter: mu_minus_sigma, mu, mu_plus_sigma; lower_bound, best_fit, upper_bound", text!(|f| f.run.level.name(f.run.parameter))),
-    Column::input("parameter_value", "SI unit of the parameter", "value of that parameter; null for the eight coefficients", Read::Number(|f| f.run.parameter.value(&f.run.facade))),
+    Column::input("parameter", "", "parameter taken through its levels, the others at their means; null for a drawn façade, which has a draw", Read::Text(|f| f.run.parameter().map(|parameter| Cow::Borrowed(parameter.name())))),
+    Column::input("level", "", "level of that parameter: mu_minus_sigma, mu, mu_plus_sigma; lower_bound, best_fit, upper_bound", Read::Text(|f| f.run.level().zip(f.run.parameter()).map(|(level, parameter)| Cow::Borrowed(level.name(parameter))))),
+    Column::input("parameter_value", "SI unit of the parameter", "value of that parameter; null for the eight coefficients", Read::Number(|f| f.run.parameter().and_then(|parameter| parameter.value(&f.run.facade)))),
+    Column::input("draw", "", "number of the façade among those drawn, from 0, the same in both configurations, under all records and at all intensities; null where none is drawn", Read::Count(|f| f.run.draw())),
     // The record.
     Column::input("suite", "", "suite of records", text!(|f| &f.run.motions.suite.name)),
     Column::input("suite_generated", "", "whether the suite is generated rather than recorded", Read::Flag(|f| Some(f.run.motions.suite.generated))),
@@ -85,48 +95,52 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::input("record_event", "", "earthquake of the record", text!(|f| &record(f).event)),
     Column::input("record_magnitude", "", "moment magnitude; null where the suite does not say", Read::Number(|f| record(f).about.magnitude)),
     Column::input("record_distance_km", "km", "distance from the epicentre; null where the suite does not say", Read::Number(|f| record(f).about.distance_km)),
-    Column::input("record_scale", "", "factor the record was scaled by", number!(|f| record(f).scale)),
-    Column::input("record_vertical_scale", "", "factor its vertical component was scaled by; null without one", Read::Number(|f| record(f).vertical.as_ref().map(|_| record(f).vertical_scale))),
+    Column::input("record_scale", "", "factor the record was scaled by: of the suite and of the run", number!(|f| record(f).scale * f.run.factor)),
+    Column::input("record_vertical_scale", "", "factor its vertical component was scaled by; null without one", Read::Number(|f| record(f).vertical.as_ref().map(|_| record(f).vertical_scale * f.run.factor))),
     Column::input("record_generated", "", "whether the record is generated rather than recorded", Read::Flag(|f| Some(record(f).generated))),
-    Column::input("record_sha256", "", "SHA-256 of step and samples after scaling", text!(|f| &f.run.record_hash().horizontal)),
+    Column::input("record_sha256", "", "SHA-256 of step and samples after scaling by the suite", text!(|f| &f.run.record_hash().horizontal)),
     Column::input("record_vertical_sha256", "", "the same of the vertical component; null without one", Read::Text(|f| f.run.record_hash().vertical.as_deref().map(Cow::Borrowed))),
     Column::input("record_step_s", "s", "time between samples", number!(|f| record(f).horizontal.step_s())),
     Column::input("record_duration_s", "s", "time of the last sample", number!(|f| record(f).horizontal.duration_s())),
-    // Its intensity, scaled.
-    Column::input("pga_m_s2", "m/s²", "largest absolute ground acceleration", number!(|f| record(f).intensity.pga_m_s2)),
-    Column::input("pga_g", "g", "the same in g", number!(|f| record(f).intensity.pga_g)),
-    Column::input("pgv_m_s", "m/s", "largest absolute ground velocity, by trapezia from rest, not corrected", number!(|f| record(f).intensity.pgv_m_s)),
-    Column::input("pgd_m", "m", "largest absolute ground displacement, by trapezia from rest, not corrected", number!(|f| record(f).intensity.pgd_m)),
-    Column::input("arias_m_s", "m/s", "Arias intensity", number!(|f| record(f).intensity.arias_m_s)),
-    Column::input("cav_m_s", "m/s", "cumulative absolute velocity", number!(|f| record(f).intensity.cav_m_s)),
+    Column::drawn("factor", "", "factor of the run on the record of the suite; 1 for its own scale", number!(|f| f.run.factor)),
+    Column::input("intensity_measure", "", "measure the record is scaled by, one of those below; null where it is not scaled to an intensity", Read::Text(|f| f.run.scaled_to().map(|(measure, _)| Cow::Borrowed(measure.name())))),
+    Column::drawn("intensity", "unit of the measure", "its value; of an incremental analysis the lowest found to exceed the limit, or the last one where none did", Read::Number(|f| f.run.scaled_to().map(|(_, value)| value))),
+    Column::input("limit", "", "limit of an incremental analysis: collapse, or a rotation over α_i; null for other studies", Read::Text(|f| f.run.growth().map(|growth| Cow::Owned(growth.limit.to_string())))),
+    // Its intensity, scaled by the suite and by the run.
+    Column::drawn("pga_m_s2", "m/s²", "largest absolute ground acceleration", number!(|f| f.run.intensity().pga_m_s2)),
+    Column::drawn("pga_g", "g", "the same in g", number!(|f| f.run.intensity().pga_g)),
+    Column::drawn("pgv_m_s", "m/s", "largest absolute ground velocity, by trapezia from rest, not corrected", number!(|f| f.run.intensity().pgv_m_s)),
+    Column::drawn("pgd_m", "m", "largest absolute ground displacement, by trapezia from rest, not corrected", number!(|f| f.run.intensity().pgd_m)),
+    Column::drawn("arias_m_s", "m/s", "Arias intensity", number!(|f| f.run.intensity().arias_m_s)),
+    Column::drawn("cav_m_s", "m/s", "cumulative absolute velocity", number!(|f| f.run.intensity().cav_m_s)),
     Column::input("duration_5_95_s", "s", "time from 5 to 95 % of the Arias intensity", number!(|f| record(f).intensity.duration_5_95_s)),
     Column::input("mean_period_s", "s", "mean period of the Fourier spectrum, 0.25 to 20 Hz (Rathje et al. 2004)", number!(|f| record(f).intensity.mean_period_s)),
-    Column::input("sa_0p5s_m_s2", "m/s²", "pseudo-acceleration at 0.5 s, 5 % damping", number!(|f| record(f).intensity.sa_0p5s_m_s2)),
-    Column::input("sa_1p0s_m_s2", "m/s²", "pseudo-acceleration at 1.0 s, 5 % damping", number!(|f| record(f).intensity.sa_1p0s_m_s2)),
-    Column::input("sa_average_m_s2", "m/s²", "geometric mean of the pseudo-accelerations at 0.2, 0.3, …, 2.0 s, 5 % damping", number!(|f| record(f).intensity.sa_average_m_s2)),
+    Column::drawn("sa_0p5s_m_s2", "m/s²", "pseudo-acceleration at 0.5 s, 5 % damping", number!(|f| f.run.intensity().sa_0p5s_m_s2)),
+    Column::drawn("sa_1p0s_m_s2", "m/s²", "pseudo-acceleration at 1.0 s, 5 % damping", number!(|f| f.run.intensity().sa_1p0s_m_s2)),
+    Column::drawn("sa_average_m_s2", "m/s²", "geometric mean of the pseudo-accelerations at 0.2, 0.3, …, 2.0 s, 5 % damping", number!(|f| f.run.intensity().sa_average_m_s2)),
     // How it acts.
     Column::input("vertical", "", "whether the vertical component of the record acts too", Read::Flag(|f| Some(assumed(f).vertical))),
     Column::input("tail_s", "s", "free motion after the record", number!(|f| assumed(f).tail_s)),
     Column::input("tolerance", "", "error allowed in rotations relative to α_i", number!(|f| assumed(f).tolerance)),
     // The façade.
-    Column::input("slenderness", "", "h_tot / b", number!(|f| f.run.facade.slenderness)),
-    Column::input("crack_height_ratio", "", "h_1 / h_tot", number!(|f| f.run.facade.crack_height_ratio)),
-    Column::input("compressive_strength_pa", "Pa", "compressive strength f of the masonry", number!(|f| f.run.facade.compressive_strength_pa)),
-    Column::input("diaphragm_mass_ratio", "", "m_d / m_tot, m_tot the masses of wall and floor", number!(|f| f.run.facade.diaphragm_mass_ratio)),
-    Column::input("carriage_mass_ratio", "", "m_dp / m_tot", number!(|f| f.run.facade.carriage_mass_ratio)),
+    Column::drawn("slenderness", "", "h_tot / b", number!(|f| f.run.facade.slenderness)),
+    Column::drawn("crack_height_ratio", "", "h_1 / h_tot", number!(|f| f.run.facade.crack_height_ratio)),
+    Column::drawn("compressive_strength_pa", "Pa", "compressive strength f of the masonry", number!(|f| f.run.facade.compressive_strength_pa)),
+    Column::drawn("diaphragm_mass_ratio", "", "m_d / m_tot, m_tot the masses of wall and floor", number!(|f| f.run.facade.diaphragm_mass_ratio)),
+    Column::drawn("carriage_mass_ratio", "", "m_dp / m_tot", number!(|f| f.run.facade.carriage_mass_ratio)),
     Column::input("density_kg_m3", "kg/m³", "density ρ of the masonry", number!(|f| f.run.facade.density_kg_m3)),
     // The wall.
-    Column::input("thickness_m", "m", "thickness b", number!(|f| wall(f).thickness_m)),
-    Column::input("height_m", "m", "height h", number!(|f| wall(f).height_m)),
-    Column::input("crack_height_m", "m", "height of the crack h_1; null for an uncracked wall", Read::Number(|f| wall(f).crack_height_m)),
-    Column::input("length_m", "m", "length L of the strip", number!(|f| wall(f).length_m)),
-    Column::input("mass_kg", "kg", "mass m of the wall", number!(|f| wall(f).mass_kg)),
-    Column::input("lower_width_m", "m", "width b_1 between the rocking corners at the ground", number!(|f| wall(f).lower_width_m)),
-    Column::input("upper_width_m", "m", "width b_2 between the rocking corners at the crack", number!(|f| wall(f).upper_width_m)),
-    Column::input("diaphragm_mass_kg", "kg", "top mass m_d that acts in both directions", number!(|f| wall(f).diaphragm_mass_kg)),
-    Column::input("carriage_mass_kg", "kg", "top mass m_dp that acts horizontally only", number!(|f| wall(f).carriage_mass_kg)),
-    Column::input("stiffness_n_per_m", "N/m", "stiffness k_d of the spring at the top", number!(|f| wall(f).stiffness_n_per_m)),
-    Column::input("eccentricity_m", "m", "horizontal offset e_C of top masses and spring", number!(|f| wall(f).eccentricity_m)),
+    Column::drawn("thickness_m", "m", "thickness b", number!(|f| f.run.facade.thickness_m)),
+    Column::drawn("height_m", "m", "height h", wall_number!(|w| w.height_m)),
+    Column::drawn("crack_height_m", "m", "height of the crack h_1; null for an uncracked wall", Read::Number(|f| wall(f).and_then(|w| w.crack_height_m))),
+    Column::input("length_m", "m", "length L of the strip", number!(|f| f.run.facade.length_m)),
+    Column::drawn("mass_kg", "kg", "mass m of the wall", wall_number!(|w| w.mass_kg)),
+    Column::drawn("lower_width_m", "m", "width b_1 between the rocking corners at the ground", wall_number!(|w| w.lower_width_m)),
+    Column::drawn("upper_width_m", "m", "width b_2 between the rocking corners at the crack", wall_number!(|w| w.upper_width_m)),
+    Column::drawn("diaphragm_mass_kg", "kg", "top mass m_d that acts in both directions", wall_number!(|w| w.diaphragm_mass_kg)),
+    Column::drawn("carriage_mass_kg", "kg", "top mass m_dp that acts horizontally only", wall_number!(|w| w.carriage_mass_kg)),
+    Column::drawn("stiffness_n_per_m", "N/m", "stiffness k_d of the spring at the top", number!(|f| f.run.facade.stiffness_n_per_m)),
+    Column::input("eccentricity_m", "m", "horizontal offset e_C of top masses and spring", wall_number!(|w| w.eccentricity_m)),
     Column::input("restitution_c1", "", "coefficient C_1 of Table 2", number!(|f| restitution(f).coefficients[0])),
     Column::input("restitution_c2", "", "coefficient C_2 of Table 2", number!(|f| restitution(f).coefficients[1])),
     Column::input("restitution_c3", "", "coefficient C_3 of Table 2", number!(|f| restitution(f).coefficients[2])),
@@ -137,19 +151,21 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::input("restitution_c8", "", "coefficient C_8 of Table 2", number!(|f| restitution(f).coefficients[7])),
     Column::input("law", "", "what the coefficients scale: whole (Eq. 7, both velocities) or contact (what the impact can see)", text!(|f| restitution(f).law.name())),
     Column::input("capture_velocity_rad_s", "rad/s", "relative velocity below which a joint that would open stays closed", number!(|f| restitution(f).capture_velocity_rad_s)),
-    Column::input("collapse_rotation_ratio", "", "rotation over α_i at which the wall counts as collapsed", number!(|f| wall(f).collapse_rotation_ratio)),
-    Column::input("initial_theta1_rad", "rad", "rotation of the lower body at the start", number!(|f| wall(f).initial_rotation_rad[0])),
-    Column::input("initial_theta2_rad", "rad", "rotation of the upper body at the start", number!(|f| wall(f).initial_rotation_rad[1])),
-    Column::input("effects", "", "further effects of the model, as written in a wall file; [] for none", Read::Text(|f| serde_json::to_string(&wall(f).effects).ok().map(Cow::Owned))),
-    Column::input("alpha1_rad", "rad", "slenderness angle of the lower body, atan(b_1 / h_1)", number!(|f| f.run.wall.alpha_i_rad()[0])),
-    Column::input("alpha2_rad", "rad", "slenderness angle of the upper body, atan(b_2 / h_2)", number!(|f| f.run.wall.alpha_i_rad()[1])),
-    Column::input("alpha_rad", "rad", "slenderness angle of the uncracked wall, atan(b_1 / h)", number!(|f| f.run.wall.alpha_rad())),
+    Column::input("collapse_rotation_ratio", "", "rotation over α_i at which the wall counts as collapsed", number!(|f| assumed(f).collapse_rotation_ratio)),
+    Column::input("initial_theta1_rad", "rad", "rotation of the lower body at the start", wall_number!(|w| w.initial_rotation_rad[0])),
+    Column::input("initial_theta2_rad", "rad", "rotation of the upper body at the start", wall_number!(|w| w.initial_rotation_rad[1])),
+    Column::input("effects", "", "further effects of the model, as written in a wall file; [] for none", Read::Text(|f| serde_json::to_string(&wall(f)?.effects).ok().map(Cow::Owned))),
+    Column::drawn("alpha1_rad", "rad", "slenderness angle of the lower body, atan(b_1 / h_1)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_i_rad()[0]))),
+    Column::drawn("alpha2_rad", "rad", "slenderness angle of the upper body, atan(b_2 / h_2)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_i_rad()[1]))),
+    Column::drawn("alpha_rad", "rad", "slenderness angle of the uncracked wall, atan(b_1 / h)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_rad()))),
     // How the run ended.
     Column::result("outcome", "", "stood, collapsed or failed", text!(|f| f.outcome())),
     Column::result("reason", "", "why the run failed; null where it did not", Read::Text(|f| f.failure.as_deref().map(Cow::Borrowed))),
     Column::result("collapsed", "", "whether a body passed its collapse rotation; null for a failed run", Read::Flag(|f| f.usable().map(|r| r.collapsed()))),
     Column::result("collapse_time_s", "s", "when it did; null where it did not", Read::Number(|f| f.usable().and_then(|r| time_of(&r.outcome)))),
     Column::result("end_time_s", "s", "end of the run", outcome_number!(|r| r.end_time_s)),
+    Column::result("limit_exceeded", "", "whether an incremental analysis found an intensity that exceeds its limit; null for other studies and failed runs", Read::Flag(|f| f.found.map(|found| found.exceeded))),
+    Column::result("stood_intensity", "unit of the measure", "highest intensity below that at which it did not: the lower end of the bracket", Read::Number(|f| f.found.map(|found| found.stood_intensity))),
     // Largest rotations and displacements; of a collapsed wall, until collapse.
     Column::result("theta1_max_rad", "rad", "largest rotation of the lower body, without sign", outcome_number!(|r| r.theta_max_rad[0].value.abs())),
     Column::result("theta1_max_sign", "", "its sign, +1 towards +x", outcome_number!(|r| sign(r.theta_max_rad[0].value))),
@@ -161,6 +177,7 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::result("theta2_max_time_s", "s", "when it was reached", outcome_number!(|r| r.theta_max_rad[1].time_s)),
     Column::result("theta2_max_over_alpha2", "", "largest rotation of the upper body over its slenderness angle", outcome_number!(|r| r.theta_max_over_alpha_i()[1])),
     Column::result("theta2_max_over_alpha", "", "largest rotation of the upper body over the slenderness angle of the uncracked wall", outcome_number!(|r| r.theta_max_over_alpha()[1])),
+    Column::result("theta_max_over_own_alpha", "", "the larger of θ_1/α_1 and θ_2/α_2 at their largest; that of a collapsed wall is collapse_rotation_ratio or more", outcome_number!(|r| r.theta_max_over_own_alpha())),
     Column::result("top_displacement_m", "m", "largest horizontal displacement of the top relative to the ground, with its sign", outcome_number!(|r| r.top_displacement_m.value)),
     Column::result("top_displacement_time_s", "s", "when it was reached", outcome_number!(|r| r.top_displacement_m.time_s)),
     Column::result("crack_displacement_m", "m", "largest horizontal displacement of the middle of the crack relative to the ground, with its sign", outcome_number!(|r| r.crack_displacement_m.value)),
@@ -214,7 +231,8 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::result("tensions_ground", "", "how often the pivot at the ground came under tension", outcome_count!(|r| r.demand[0].tensions)),
     Column::result("friction_demand_crack", "", "largest |H|/N at the crack while it is in compression", outcome_number!(|r| r.demand[1].friction)),
     Column::result("tensions_crack", "", "how often the pivot at the crack came under tension", outcome_count!(|r| r.demand[1].tensions)),
-    // Effort; of a failed run, until it failed.
+    // Effort; of a failed run, until it failed; of an incremental analysis, of the run that is kept.
+    Column::result("simulations", "", "simulations behind this row: several of an incremental analysis, 0 of a façade that is no wall", Read::Count(|f| Some(f.simulations))),
     Column::result("steps", "", "steps kept", Read::Count(|f| f.response.as_ref().map(|r| r.work.steps))),
     Column::result("rejected_steps", "", "steps tried again at a smaller size", Read::Count(|f| f.response.as_ref().map(|r| r.work.rejected_steps))),
     Column::result("evaluations", "", "evaluations of the equations of motion", Read::Count(|f| f.response.as_ref().map(|r| r.work.evaluations))),

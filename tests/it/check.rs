@@ -23,7 +23,8 @@ fn entry(median: Option<f64>, tolerance: f64) -> Entry {
         configuration: "parallel".to_owned(),
         parameter: "thickness".to_owned(),
         level: "mu".to_owned(),
-        slenderness: 12.0,
+        slenderness: Some(12.0),
+        record: String::new(),
         measure: "theta1_max_over_alpha1".to_owned(),
         runs: 7,
         failed: 0,
@@ -63,7 +64,7 @@ fn regress_counts_and_missing_cases_are_told() {
     assert!(figures(Entry { collapsed: 3, ..was.clone() }).is_empty(), "within its tolerance");
     assert_eq!(figures(Entry { collapsed: 4, ..was.clone() }), ["collapsed"]);
     assert_eq!(figures(Entry { runs: 6, failed: 1, ..was.clone() }), ["runs", "failed"]);
-    let other = changes(was.clone(), Entry { slenderness: 14.0, ..was.clone() });
+    let other = changes(was.clone(), Entry { slenderness: Some(14.0), ..was.clone() });
     assert_eq!(other.iter().map(|c| c.is.as_str()).collect::<Vec<_>>(), ["gone", "new"]);
 }
 

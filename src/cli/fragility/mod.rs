@@ -1,14 +1,17 @@
-//! `mrbd fragility`: fragilities of a table of outcomes.
+//! `mrbd fragility`: fragilities of a table of outcomes, or of a study of drawn façades.
+
+mod asked;
 
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use self::asked::{Asked, State};
 use crate::error::{Error, InputError, Result};
 use crate::fragility::report::{self, GroupAnalysis};
 use crate::fragility::{
-    Bootstrap, Columns, EXPRESSION_ALLOWED, Expression, IntensityMeasure, LogNormal, Method, Outcomes,
-    Settings, analyse, nrml_document, read_groups,
+    Bootstrap, EXPRESSION_ALLOWED, Expression, IntensityMeasure, LogNormal, Method, Settings, analyse,
+    nrml_document, read_groups,
 };
 use crate::store::write_durably;
 
@@ -19,7 +22,13 @@ use crate::store::write_durably;
 /// intervals that take them so are too narrow. Intervals are bias-corrected bootstrap intervals over the clusters,
 /// percentile intervals where the correction does not exist, and `?` where the data set no bound.
 ///
+/// Of a study of drawn façades (kinds monte_carlo, cloud, stripes, incremental) only the intensity need be named, and that
+/// only where the study was not scaled to one: the outcome is collapse, and each --threshold; groups are variant and
+/// configuration, clusters record and draw, unless others are named.
+///
 /// Examples:
+///   mrbd fragility outputs/fragility --threshold 0.1 --threshold 0.5 --out curves.csv
+///   mrbd fragility outputs/monte_carlo --intensity pgv_m_s --nrml collapse.xml --imt PGV
 ///   mrbd fragility results --intensity pgv_m_s --outcome outcome --group configuration --cluster record
 ///   mrbd fragility runs.csv --intensity 'pga_g*9.80665*pgv_over_pga_s' --outcome overturned --json
 ///   mrbd fragility runs.csv --intensity sa_g --outcome theta1_max_over_alpha1 --exceeds 0.5 --out curves.csv
@@ -31,15 +40,24 @@ pub struct FragilityCommand {
     file: PathBuf,
     /// Intensity: a column, or columns and constants joined by * and /.
     #[arg(long, value_name = "EXPRESSION")]
-    intensity: String,
+    intensity: Option<String>,
     /// Outcome: 0 or 1, false or true, stood or collapsed; empty or `failed` is no outcome.
     #[arg(long, value_name = "COLUMN")]
-    outcome: String,
+    outcome: Option<String>,
+    /// Of a study of drawn façades: a rotation over α_i that is a limit too, beside collapse; may be given more than once.
+    #[arg(long, value_name = "X", conflicts_with = "outcome", allow_negative_numbers = true)]
+    threshold: Vec<f64>,
     /// The outcome is a number, and one above X is a failure.
-    #[arg(long, value_name = "X", conflicts_with = "trials", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "X",
+        conflicts_with = "trials",
+        allow_negative_numbers = true,
+        requires = "outcome"
+    )]
     exceeds: Option<f64>,
     /// The outcome is a number of failures, out of the number in this column.
-    #[arg(long, value_name = "COLUMN")]
+    #[arg(long, value_name = "COLUMN", requires = "outcome")]
     trials: Option<String>,
     /// Fit each value of this column apart; may be given more than once.
     #[arg(long, value_name = "COLUMN")]
@@ -48,9 +66,10 @@ pub struct FragilityCommand {
     #[arg(long, value_name = "COLUMN")]
     cluster: Vec<String>,
     /// outcomes: failures at given intensities; incremental: the intensity of collapse, or the highest that was stood;
-    /// cloud: demands against a limit, the outcome being collapse.
-    #[arg(long, value_enum, default_value_t = MethodName::Outcomes)]
-    method: MethodName,
+    /// cloud: demands against a limit, the outcome being collapse. Without it incremental for a study of that kind, and
+    /// outcomes for all else.
+    #[arg(long, value_enum)]
+    method: Option<MethodName>,
     /// Demands of a cloud.
     #[arg(long, value_name = "COLUMN")]
     demand: Option<String>,
@@ -100,62 +119,62 @@ impl FragilityCommand {
     /// # Errors
     /// Input errors of the options and the table; [`Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
-        let columns = self.columns()?;
-        let settings = self.settings()?;
-        let measure = self.measure(&columns.intensity)?;
-        let groups: Vec<GroupAnalysis> = read_groups(&self.file, &columns)?
-            .into_iter()
-            .map(|group| GroupAnalysis {
-                analysis: analyse(&group.sample, &settings),
-                key: group.key,
-                without_outcome: group.without_outcome,
-            })
-            .collect();
-        self.notes(&groups);
+        let asked = self.asked()?;
+        let measure = self.measure(asked.intensity())?;
+        let mut groups = Vec::new();
+        let settings = self.settings(asked.incremental)?;
+        for state in &asked.states {
+            groups.extend(self.analysed(state, &settings)?);
+        }
+        self.notes(&asked, &groups);
         if let Some(path) = &self.out {
-            write_curves(path, &self.group, &groups)?;
+            write_curves(path, &asked.columns, &groups)?;
         }
         if let (Some(path), Some(measure)) = (&self.nrml, &measure) {
-            write_durably(path, nrml_document(measure, &self.limit_state, &self.curves(&groups)).as_bytes())?;
+            let (states, functions) = self.functions(&asked, &groups);
+            write_durably(path, nrml_document(measure, &states, &functions).as_bytes())?;
         }
         super::output::print(&if self.json {
-            format!("{:#}", report::as_json(&self.group, &groups, &settings))
+            format!("{:#}", report::as_json(&asked.columns, &groups, &settings))
         } else {
-            report::table(&self.group, &groups, &settings)
+            report::table(&asked.columns, &groups, &settings)
         })
     }
 
-    fn columns(&self) -> Result<Columns> {
-        let intensity = Expression::parse(&self.intensity)
-            .map_err(|e| InputError::option("--intensity", e.to_string(), EXPRESSION_ALLOWED))?;
-        if self.cluster.len() > 2 {
-            let found = format!("{} columns", self.cluster.len());
-            return Err(InputError::option("--cluster", found, "at most two columns").into());
-        }
-        let outcome = match (&self.exceeds, &self.trials) {
-            (Some(limit), _) => Outcomes::Above(self.outcome.clone(), finite("--exceeds", *limit)?),
-            (None, Some(trials)) => Outcomes::Counts(self.outcome.clone(), trials.clone()),
-            (None, None) => Outcomes::Words(self.outcome.clone()),
-        };
-        let (groups, clusters) = (self.group.clone(), self.cluster.clone());
-        Ok(Columns { intensity, outcome, demand: self.demand.clone(), groups, clusters })
+    /// The groups of a limit state; its name comes last in their keys.
+    fn analysed(&self, state: &State, settings: &Settings) -> Result<Vec<GroupAnalysis>> {
+        let groups = read_groups(&self.file, &state.columns)?.into_iter().map(|group| GroupAnalysis {
+            analysis: analyse(&group.sample, settings),
+            key: group.key.into_iter().chain(state.name.clone()).collect(),
+            without_outcome: group.without_outcome,
+        });
+        Ok(groups.collect())
     }
 
-    fn settings(&self) -> Result<Settings> {
+    fn expression(&self, given: &str) -> Result<Expression> {
+        let refuse = |e: crate::fragility::NotAnExpression| {
+            InputError::option("--intensity", e.to_string(), EXPRESSION_ALLOWED)
+        };
+        Ok(Expression::parse(given).map_err(refuse)?)
+    }
+
+    fn settings(&self, incremental: bool) -> Result<Settings> {
         let within = self.level > 0.0 && self.level < 1.0;
         if !within {
             return Err(InputError::option("--level", self.level.to_string(), "above 0 and below 1").into());
         }
         let bootstrap = Bootstrap { replicates: self.replicates, seed: self.seed };
-        Ok(Settings { method: self.method()?, bootstrap, level: self.level })
+        Ok(Settings { method: self.method(incremental)?, bootstrap, level: self.level })
     }
 
-    fn method(&self) -> Result<Method> {
-        if self.method == MethodName::Cloud && self.trials.is_some() {
+    fn method(&self, incremental: bool) -> Result<Method> {
+        let default = if incremental { MethodName::Incremental } else { MethodName::Outcomes };
+        let method = self.method.unwrap_or(default);
+        if method == MethodName::Cloud && self.trials.is_some() {
             let found = "numbers of failures with --method cloud";
             return Err(InputError::option("--trials", found, "a demand and an outcome a row").into());
         }
-        match (self.method, &self.demand, self.limit) {
+        match (method, &self.demand, self.limit) {
             (MethodName::Outcomes, None, None) => Ok(Method::Outcomes),
             (MethodName::Incremental, None, None) => Ok(Method::Incremental),
             (MethodName::Cloud, Some(_), Some(limit)) if limit > 0.0 && limit.is_finite() => {
@@ -190,17 +209,42 @@ impl FragilityCommand {
         })?))
     }
 
-    /// Curves that exist, by group.
-    fn curves(&self, groups: &[GroupAnalysis]) -> Vec<(String, LogNormal)> {
-        let known = groups.iter().filter_map(|group| {
-            let curve = group.analysis.result.as_ref().ok()?.fitted.curve;
-            Some((report::name_of(&self.group, &group.key), curve))
-        });
-        known.collect()
+    /// Limit states, and the curves of the groups that have one for each of them.
+    fn functions(
+        &self,
+        asked: &Asked,
+        groups: &[GroupAnalysis],
+    ) -> (Vec<String>, Vec<(String, Vec<LogNormal>)>) {
+        let keys = asked.columns.len() - usize::from(asked.has_limits);
+        let mut states: Vec<String> = Vec::new();
+        let mut functions: Vec<(String, Vec<Option<LogNormal>>)> = Vec::new();
+        for group in groups {
+            let name = report::name_of(&asked.columns[..keys], &group.key[..keys]);
+            let state =
+                group.key.get(keys).map_or(self.limit_state.clone(), |limit| asked::state_name(limit));
+            let state = states.iter().position(|known| *known == state).unwrap_or_else(|| {
+                states.push(state);
+                states.len() - 1
+            });
+            let curve = group.analysis.result.as_ref().ok().map(|known| known.fitted.curve);
+            let at = functions.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
+                functions.push((name, Vec::new()));
+                functions.len() - 1
+            });
+            let curves = &mut functions[at].1;
+            curves.resize(curves.len().max(state + 1), None);
+            curves[state] = curve;
+        }
+        let complete = |(name, curves): (String, Vec<Option<LogNormal>>)| {
+            let all = curves.len() == states.len();
+            Some((name, curves.into_iter().collect::<Option<Vec<_>>>().filter(|_| all)?))
+        };
+        let functions = functions.into_iter().filter_map(complete).collect();
+        (states, functions)
     }
 
     /// What a reader of the numbers should know.
-    fn notes(&self, groups: &[GroupAnalysis]) {
+    fn notes(&self, asked: &Asked, groups: &[GroupAnalysis]) {
         let lost: usize = groups.iter().map(|group| group.without_outcome).sum();
         if lost > 0 {
             eprintln!("mrbd: note: {lost} rows without an outcome were not used");
@@ -211,6 +255,9 @@ impl FragilityCommand {
                 "mrbd: note: {unknown} of {} groups tell no fragility and are in no file",
                 groups.len()
             );
+            if asked.has_limits && self.nrml.is_some() {
+                eprintln!("mrbd: note: a fragility model holds only what tells one for every limit");
+            }
         }
         let beyond = groups.iter().filter(|group| group.analysis.extrapolates()).count();
         if beyond > 0 {
@@ -218,7 +265,7 @@ impl FragilityCommand {
                 "mrbd: note: {beyond} medians lie outside the intensities observed: they are extrapolated"
             );
         }
-        if self.cluster.is_empty() {
+        if asked.clusters().is_empty() {
             eprintln!("mrbd: note: without --cluster, outcomes are taken as independent");
         }
     }

@@ -1,0 +1,120 @@
+//! What a study of drawn façades tells: quantiles over façades and records, one row a group and quantity.
+
+use std::borrow::Cow;
+use std::io::Write;
+use std::path::Path;
+
+use super::medians::{Moved, VariantNote};
+use super::quantile::MEDIAN;
+use crate::error::Result;
+use crate::input::pipeline::Kind;
+use crate::store::{Column, Read, write_table};
+
+/// Quantiles of one quantity over the runs of a group.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distribution {
+    /// Name of the set of assumptions.
+    pub variant: String,
+    /// How the floor runs.
+    pub configuration: String,
+    /// Record; none over all of them.
+    pub record: Option<String>,
+    /// Intensity of a stripe; none in other studies.
+    pub intensity: Option<f64>,
+    /// Limit of an incremental analysis; none in other studies.
+    pub limit: Option<String>,
+    /// What is told, a column of the run files.
+    pub quantity: &'static str,
+    /// Runs, failed ones too.
+    pub runs: u64,
+    /// Runs that failed and take no part in the quantiles.
+    pub failed: u64,
+    /// Runs above all numbers: walls that collapsed; in an incremental analysis, walls that never exceeded the limit.
+    pub beyond: u64,
+    /// Quantiles at [`super::LEVELS`]; none where they land among those above all numbers.
+    pub quantiles: [Option<f64>; 7],
+}
+
+impl Distribution {
+    /// The median; none where it lies beyond all numbers, and where nothing was finished.
+    pub fn median(&self) -> Option<f64> {
+        self.quantiles[MEDIAN]
+    }
+
+    /// Share of the finished runs that lie beyond all numbers; none if none was finished.
+    pub fn share_beyond(&self) -> Option<f64> {
+        let finished = self.runs - self.failed;
+        (finished > 0).then(|| self.beyond as f64 / finished as f64)
+    }
+
+    /// The stripe or limit in words; empty in other studies.
+    pub fn stratum(&self, measure: Option<&str>) -> String {
+        match (self.intensity, &self.limit) {
+            (Some(intensity), _) => format!("{} {intensity}", measure.unwrap_or("intensity")),
+            (None, Some(limit)) if limit == "collapse" => limit.clone(),
+            (None, Some(limit)) => format!("theta/alpha {limit}"),
+            (None, None) => String::new(),
+        }
+    }
+}
+
+/// All distributions of a study of drawn façades.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distributions {
+    /// Kind of the study.
+    pub kind: Kind,
+    /// Variants in the order of the plan, the one to compare with first.
+    pub variants: Vec<VariantNote>,
+    /// Runs that come out differently from those of the first variant.
+    pub moved: Vec<Moved>,
+    /// Measure that records are scaled by; none where they are not scaled to an intensity.
+    pub measure: Option<String>,
+    /// In the order of the plan: over all records first, then by record.
+    pub rows: Vec<Distribution>,
+}
+
+macro_rules! text {
+    (|$d:ident| $value:expr) => {
+        Read::Text(|$d| Some(Cow::Borrowed($value)))
+    };
+}
+
+/// Every column of the table of distributions, in order.
+#[rustfmt::skip] // One column a line, so that the table reads as a table.
+const COLUMNS: &[Column<Distribution>] = &[
+    Column::input("variant", "", "set of assumptions", text!(|d| &d.variant)),
+    Column::input("configuration", "", "how the floor runs", text!(|d| &d.configuration)),
+    Column::input("record", "", "record; null over all of them", Read::Text(|d| d.record.as_deref().map(Cow::Borrowed))),
+    Column::input("intensity", "unit of the measure", "intensity of a stripe; null in other studies", Read::Number(|d| d.intensity)),
+    Column::input("limit", "", "limit of an incremental analysis; null in other studies", Read::Text(|d| d.limit.as_deref().map(Cow::Borrowed))),
+    Column::input("quantity", "", "what the quantiles are of, a column of the run files", text!(|d| d.quantity)),
+    Column::result("runs", "", "runs, failed ones too", Read::Count(|d| Some(d.runs))),
+    Column::result("failed", "", "runs that failed; they take no part in the quantiles", Read::Count(|d| Some(d.failed))),
+    Column::result("beyond", "", "runs above all numbers: collapsed walls; in an incremental analysis, walls that never exceeded the limit", Read::Count(|d| Some(d.beyond))),
+    Column::result("share_beyond", "", "the same over finished runs", Read::Number(|d| d.share_beyond())),
+    Column::result("q05", "", "5 % quantile; null where it lies above all numbers", Read::Number(|d| d.quantiles[0])),
+    Column::result("q16", "", "16 % quantile", Read::Number(|d| d.quantiles[1])),
+    Column::result("q25", "", "25 % quantile", Read::Number(|d| d.quantiles[2])),
+    Column::result("median", "", "50 % quantile", Read::Number(|d| d.quantiles[3])),
+    Column::result("q75", "", "75 % quantile", Read::Number(|d| d.quantiles[4])),
+    Column::result("q84", "", "84 % quantile", Read::Number(|d| d.quantiles[5])),
+    Column::result("q95", "", "95 % quantile", Read::Number(|d| d.quantiles[6])),
+];
+
+impl Distributions {
+    /// Writes the table to a Parquet file.
+    ///
+    /// # Errors
+    /// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
+    pub fn write(&self, path: &Path) -> Result<()> {
+        write_table(path, COLUMNS, &[], &self.rows)
+    }
+
+    /// Writes it as CSV.
+    ///
+    /// # Errors
+    /// What the stream says.
+    pub fn print_csv(&self, mut out: impl Write) -> std::io::Result<()> {
+        crate::store::print_csv(&mut out, COLUMNS.iter(), &self.rows)
+    }
+}
