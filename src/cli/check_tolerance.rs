@@ -19,7 +19,7 @@ use crate::store::OutputFolder;
 /// The tolerance of the runs again, over that of the study, if none is asked for.
 const TIGHTER: f64 = 1e-2;
 
-/// Runs a sample of a study's runs again at a tighter tolerance: the share that comes out differently, and the medians.
+/// Run a sample of a study's runs again at a tighter tolerance: the share that comes out differently, and the medians.
 ///
 /// Such runs are ill-conditioned: two impacts nearly coincide, and a tiny change of step decides the later motion. The
 /// sample has one run of each equal stretch of the plan; runs that are not stored yet, or failed, are left out.

@@ -3,6 +3,7 @@
 /// `mrbd run`.
 pub const RUN: &str = "Examples:
   mrbd run pipelines/sweep.toml --dry-run | head
+  mrbd run pipelines/monte_carlo.toml
   mrbd run pipelines/sweep.toml --suite my-records/suite.toml --out outputs/mine
   mrbd run pipelines/sweep.toml --out outputs/mine --resume
   mrbd run pipelines/sweep.toml --out outputs/mine --shard 3/16";
@@ -29,6 +30,11 @@ pub const AGGREGATE: &str = "Examples:
 pub const CHECK: &str = "Examples:
   mrbd check outputs/check --baseline tests/baselines/emilia7.csv
   mrbd check outputs/check --baseline accepted.csv --accept --because reviewed";
+
+/// `mrbd check-tolerance`.
+pub const CHECK_TOLERANCE: &str = "Examples:
+  mrbd check-tolerance outputs/monte_carlo
+  mrbd check-tolerance outputs/monte_carlo --sample 2000 --tolerance 1e-9";
 
 /// `mrbd report`.
 pub const REPORT: &str = "Examples:

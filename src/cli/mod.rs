@@ -56,6 +56,7 @@ enum Command {
     Aggregate(aggregate::AggregateCommand),
     #[command(after_help = examples::CHECK)]
     Check(check::CheckCommand),
+    #[command(after_help = examples::CHECK_TOLERANCE)]
     CheckTolerance(check_tolerance::CheckToleranceCommand),
     Fragility(fragility::FragilityCommand),
     Calibrate(calibrate::CalibrateArgs),
