@@ -130,11 +130,10 @@ fn regress_stripes_and_incremental_analyses_tell_the_same_fragility() {
     );
     let fragility = |text: &str, more: &[&str]| {
         let folder = study(&text.replace("count = 6", "count = 24"));
-        // The second pulse is the first one scaled, so that both are the same here: draws alone are clusters.
         stdout(&mrbd(folder.path(), &["run", "study.toml", "--out", "out"]));
         let told = mrbd(
             folder.path(),
-            &[&["fragility", "out", "--replicates", "200", "--cluster", "draw", "--json"], more].concat(),
+            &[&["fragility", "out", "--replicates", "0", "--json"], more].concat(),
         );
         let json: serde_json::Value = serde_json::from_str(&stdout(&told)).expect("JSON");
         let groups = json["groups"].as_array().expect("groups").clone();
@@ -146,15 +145,10 @@ fn regress_stripes_and_incremental_analyses_tell_the_same_fragility() {
     let stripes = fragility(&strong_stripes(), &["--threshold", "0.2"]);
     let growing = fragility(&incremental, &[]);
     assert_eq!(growing["trials"], 48.0);
-    let interval = |group: &serde_json::Value| {
-        let bounds = &group["bootstrap"]["percentile"]["median"];
-        [bounds[0].as_f64().expect("a bound"), bounds[1].as_f64().expect("a bound")]
-    };
-    let [a, b] = [interval(&stripes), interval(&growing)];
-    assert!(
-        a[0] < b[1] && b[0] < a[1],
-        "intervals of the same walls under the same records overlap: {a:?} {b:?}"
-    );
+    let median = |group: &serde_json::Value| group["median"].as_f64().expect("a median");
+    // The same façades under the same records: only the spacing of the stripes and the width of the brackets differ. A
+    // median between stripes at 0.3 and 0.6 is told by those that fail at one and not at the other, to some of 48.
+    assert!((median(&stripes) / median(&growing) - 1.0).abs() < 0.1, "{stripes} {growing}");
 }
 
 #[test]
