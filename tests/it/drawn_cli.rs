@@ -131,10 +131,8 @@ fn regress_stripes_and_incremental_analyses_tell_the_same_fragility() {
     let fragility = |text: &str, more: &[&str]| {
         let folder = study(&text.replace("count = 6", "count = 24"));
         stdout(&mrbd(folder.path(), &["run", "study.toml", "--out", "out"]));
-        let told = mrbd(
-            folder.path(),
-            &[&["fragility", "out", "--replicates", "0", "--json"], more].concat(),
-        );
+        let told =
+            mrbd(folder.path(), &[&["fragility", "out", "--replicates", "0", "--json"], more].concat());
         let json: serde_json::Value = serde_json::from_str(&stdout(&told)).expect("JSON");
         let groups = json["groups"].as_array().expect("groups").clone();
         let of = |group: &serde_json::Value| {
