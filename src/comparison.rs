@@ -81,6 +81,17 @@ pub struct Finding {
     pub of: usize,
 }
 
+impl Finding {
+    /// ✓ where the claim holds in every case that can be judged, ✗ where it fails in one, - where none can be.
+    pub fn mark(&self) -> &'static str {
+        match (self.holds, self.of) {
+            (_, 0) => "-",
+            (holds, of) if holds == of => "✓",
+            _ => "✗",
+        }
+    }
+}
+
 /// Rows and findings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModelComparison {

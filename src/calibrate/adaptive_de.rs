@@ -99,7 +99,9 @@ impl AdaptiveDe {
         let trials = (0..count)
             .map(|i| trial(state, &ranked, i, rates[i], bounds, generation, draws))
             .collect::<Vec<_>>();
-        let costs = evaluate.costs(generation, &trials)?;
+        // A trial that costs more than its parent is not kept, and nothing is learnt from it.
+        let most = state.found.population.iter().take(count).map(|parent| parent.cost).collect::<Vec<_>>();
+        let costs = evaluate.costs_below(generation, &trials, &most)?;
         state.found.evaluations += count;
         select(state, members(trials, costs), &rates);
         self.shrink(state, generation, draws);

@@ -36,20 +36,22 @@ pub struct Row {
     pub values: Vec<f64>,
     /// Eq. 8; none where the run could not be finished.
     pub wme: Option<f64>,
-    /// `stood`, `collapsed`, `failed` or `impossible` (no such wall).
+    /// `stood`, `collapsed`, `failed`, `abandoned` (hopeless before its end) or `impossible` (no such wall).
     pub outcome: String,
     /// Impacts by change of Table 2.
     pub transitions: [u64; 8],
+    /// Steps of the integration.
+    pub steps: u64,
 }
 
 impl Row {
     /// The row of a simulation; none: the values make no possible wall.
     pub fn of(address: Address, values: &[f64], simulated: Option<&Simulated>) -> Self {
-        let (wme, outcome, transitions) = match simulated {
-            Some(s) => (s.wme, s.outcome, s.transitions),
-            None => (None, "impossible", [0; 8]),
+        let (wme, outcome, transitions, steps) = match simulated {
+            Some(s) => (s.wme, s.outcome, s.transitions, s.steps),
+            None => (None, "impossible", [0; 8], 0),
         };
-        Self { address, values: values.to_vec(), wme, outcome: outcome.to_owned(), transitions }
+        Self { address, values: values.to_vec(), wme, outcome: outcome.to_owned(), transitions, steps }
     }
 }
 
@@ -131,11 +133,15 @@ impl Archive {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).simulated
     }
 
-    /// All simulations, by method in the order of `methods`, test, generation and index.
+    /// All simulations, by method in the order of `methods`, test, generation and index; of one that was abandoned and
+    /// then asked for to its end, the latter.
     pub fn rows(&self, methods: &[String]) -> Vec<Row> {
         let mut rows = self.kept.lock().unwrap_or_else(PoisonError::into_inner).rows.clone();
         let place = |row: &Row| methods.iter().position(|m| *m == row.address.method);
         rows.sort_by(|a, b| (place(a), &a.address).cmp(&(place(b), &b.address)));
+        rows.reverse();
+        rows.dedup_by(|earlier, later| earlier.address == later.address);
+        rows.reverse();
         rows
     }
 
@@ -155,6 +161,7 @@ fn line(row: &Row) -> String {
     let mut text = format!("{}\t{}\t{}\t{}\t{}\t", a.method, a.test, a.generation, a.index, row.outcome);
     let wme = row.wme.map_or_else(|| "-".to_owned(), |wme| format!("{wme:?}"));
     text.push_str(&wme);
+    text.push_str(&format!("\t{}", row.steps));
     text.extend(row.transitions.iter().map(|n| format!("\t{n}")));
     text.extend(row.values.iter().map(|x| format!("\t{x:?}")));
     text.push_str("\t.\n");
@@ -164,7 +171,7 @@ fn line(row: &Row) -> String {
 /// Reads a line back; none for a line that was cut short.
 fn parse_line(text: &str) -> Option<Row> {
     let fields = text.strip_suffix("\t.")?.split('\t').collect::<Vec<_>>();
-    let (head, tail) = fields.split_at_checked(6)?;
+    let (head, tail) = fields.split_at_checked(7)?;
     let (counts, values) = tail.split_at_checked(8)?;
     let counts = counts.iter().map(|n| n.parse().ok()).collect::<Option<Vec<u64>>>()?;
     let address = Address {
@@ -177,6 +184,7 @@ fn parse_line(text: &str) -> Option<Row> {
         address,
         outcome: head[4].to_owned(),
         wme: if head[5] == "-" { None } else { Some(head[5].parse().ok()?) },
+        steps: head[6].parse().ok()?,
         transitions: counts.try_into().ok()?,
         values: values.iter().map(|x| x.parse().ok()).collect::<Option<Vec<f64>>>()?,
     })
@@ -200,7 +208,7 @@ mod tests {
         let address = Address { method: "paper".into(), test: 1, generation: 2, index: 3 };
         let values = vec![0.1 + 0.2, 1.0 / 3.0, 37e3];
         let transitions = [0, 1, 2, 3, 4, 5, 6, 7];
-        Row { address, values, wme: Some(1e-300), outcome: "stood".into(), transitions }
+        Row { address, values, wme: Some(1e-300), outcome: "stood".into(), transitions, steps: 9 }
     }
 
     #[test]

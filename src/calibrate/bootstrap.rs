@@ -1,184 +1,139 @@
-//! Intervals and correlations: which vectors would have won had other stretches of the tests been measured.
+//! Intervals and correlations: where the best vector would lie had other stretches of the tests been measured.
 //!
-//! Every test is cut into blocks of equal length. A replicate draws as many blocks again, with replacement, and the
-//! vector that fits it best wins; the spread of the winners over many replicates is the interval (B. Efron, R. Tibshirani
-//! (1993), "An introduction to the bootstrap", sections 8.6 and 13.3: moving blocks, percentiles).
-//! A replicate costs no simulation: all of them judge the same cloud of simulated vectors. The cloud begins with the
-//! nearly best vectors of the searches, which lie along the valley of the misfit, and grows in rounds by steps between
-//! its members and winners. Two things make intervals too narrow: an error that lasts from one block into the next,
-//! common once a simulation has lost the phase of the measurement; and another valley the searches did not find.
+//! Every test is cut into blocks of equal length. A replicate draws as many blocks again, with replacement (B. Efron,
+//! R. Tibshirani (1993), "An introduction to the bootstrap", sections 8.6 and 13.3: blocks, percentiles), and the vector
+//! moves to where its errors are least. Near the best vector errors are linear in the values, so this is one step of
+//! Newton's method, and a replicate costs no simulation. Errors count as in Eq. 8, by their size; about zero, where the
+//! size has a corner, by their square up to the median (P. J. Huber (1981), "Robust statistics", section 7.6: the curvature
+//! is that of the errors below it).
+//!
+//! Slopes are differences as wide as the intervals, which average the roughness of the misfit. What makes intervals too
+//! narrow all the same: an error that lasts from one block into the next, and another valley that no search found.
 
+use nalgebra::{DMatrix, DVector};
 use rand::{Rng, RngExt};
-use rand_distr::{Distribution, StandardNormal};
-use rayon::prelude::*;
 
-use super::archive::{Address, Archive, Row};
 use super::draws::Draws;
-use super::misfit::{BLOCKS, Errors};
-use super::objective::{prior_factor, simulate};
-use super::parameter::ParameterSpace;
-use super::trial::Test;
+use super::gauss_newton::median_size;
+use super::misfit::BLOCKS;
+use super::search::Bounds;
+use super::slopes::{Fit, sides, slopes};
 use crate::error::Result;
-use crate::simulate::Accuracy;
 
-/// Rounds of refinement.
-const ROUNDS: u32 = 6;
-/// Vectors added to the cloud in a round.
-const PER_ROUND: usize = 64;
-/// Free part of a step, as a share of the bounds: it keeps steps from being confined to a plane.
-const FREE_STEP: f64 = 1e-4;
+/// Half-widths of the first differences, as a share of the bounds.
+const FIRST_DIFFERENCE: f64 = 0.01;
+/// Half-widths of the second, which are standard deviations, are kept within these: below, a burst's roughness shows;
+/// above, curvature does.
+const DIFFERENCES: [f64; 2] = [0.002, 0.1];
 
 /// What the bootstrap needs to know.
-#[derive(Debug, Clone, Copy)]
-pub struct Bootstrap<'a> {
-    /// What makes a wall of a vector.
-    pub space: &'a ParameterSpace,
-    /// All tests.
-    pub tests: &'a [Test],
-    /// Those that count.
-    pub chosen: &'a [usize],
-    /// Accuracy of the simulations.
-    pub accuracy: Accuracy,
-    /// Where simulations are kept.
-    pub archive: &'a Archive,
+#[derive(Debug)]
+pub(super) struct Bootstrap<'a> {
+    /// Bounds of the variables.
+    pub bounds: &'a [Bounds],
+    /// The variables that move.
+    pub free: &'a [usize],
+    /// Block of each error: those of the first test from 0 to [`BLOCKS`] - 1, of the second from there on, ...
+    pub blocks: &'a [usize],
     /// Number of replicates.
     pub replicates: usize,
 }
 
-/// A vector of the cloud and its errors in every chosen test.
+/// Slope and curvature of the misfit from one block's errors.
 #[derive(Debug, Clone)]
-struct Particle {
-    values: Vec<f64>,
-    errors: Vec<Errors>,
+struct Block {
+    slope: DVector<f64>,
+    curvature: DMatrix<f64>,
+    errors: usize,
 }
-
-/// How often each block of each chosen test is drawn.
-type Multiplicities = Vec<[f64; BLOCKS]>;
 
 impl Bootstrap<'_> {
-    /// The winner of every replicate, beginning with the best vector and nearly best ones; only the variables in
-    /// `free` move.
+    /// The vector of every replicate; only the variables in `free` differ from the best one.
     ///
     /// # Errors
-    /// [`crate::Error::Io`] if a simulation cannot be kept.
-    pub fn winners(
+    /// What the simulation meets.
+    pub fn vectors(&self, best: &[f64], draws: &Draws, fit: &mut dyn Fit) -> Result<Vec<Vec<f64>>> {
+        let unmoved = vec![best.to_vec(); self.replicates];
+        if self.free.is_empty() {
+            return Ok(unmoved);
+        }
+        let first = vec![FIRST_DIFFERENCE; best.len()];
+        let Some(vectors) = self.with_differences(0, best, &first, draws, fit)? else { return Ok(unmoved) };
+        let deviation = |v: usize| {
+            let share = vectors.iter().map(|x| (x[v] - best[v]) / self.bounds[v].width());
+            let mean_square = share.map(|x| x * x).sum::<f64>() / vectors.len() as f64;
+            mean_square.sqrt().clamp(DIFFERENCES[0], DIFFERENCES[1])
+        };
+        let second = (0..best.len()).map(deviation).collect::<Vec<_>>();
+        Ok(self.with_differences(2, best, &second, draws, fit)?.unwrap_or(vectors))
+    }
+
+    /// The replicates by slopes of these half-widths; none if the best vector's runs cannot be finished.
+    fn with_differences(
         &self,
+        generation: u32,
         best: &[f64],
-        nearly: &[Vec<f64>],
-        free: &[usize],
+        differences: &[f64],
         draws: &Draws,
-    ) -> Result<Vec<Vec<f64>>> {
-        let replicates = (0..self.replicates)
-            .map(|b| self.multiplicities(&mut draws.of(0, b as u32, 0)))
-            .collect::<Vec<_>>();
-        let start = nearly.iter().map(|other| with_free(best, other, free));
-        let mut cloud = self.simulated(0, std::iter::once(best.to_vec()).chain(start).collect())?;
-        if free.is_empty() || cloud.is_empty() {
-            return Ok(vec![best.to_vec(); self.replicates]);
-        }
-        let judged = |cloud: &[Particle]| -> Vec<Vec<f64>> {
-            replicates.par_iter().map(|times| self.winner(cloud, times)).collect()
+        fit: &mut dyn Fit,
+    ) -> Result<Option<Vec<Vec<f64>>>> {
+        let middle = fit.fitted(generation, &[best.to_vec()])?.pop().flatten();
+        let Some(middle) = middle else { return Ok(None) };
+        let sides = sides(best, differences, self.bounds);
+        let around = fit.fitted(generation + 1, &sides)?;
+        let slopes = slopes(best, &sides, &around, &middle, self.bounds).select_columns(self.free);
+        let blocks = self.blocks_of(&slopes, &middle.residuals);
+        let replicate = |b: usize| {
+            let step = self.step(&blocks, &mut draws.of(0, b as u32, 0));
+            let mut values = best.to_vec();
+            for (step, &v) in step.iter().zip(self.free) {
+                values[v] = self.bounds[v].clamp(best[v] + step * self.bounds[v].width());
+            }
+            values
         };
-        for round in 1..=ROUNDS {
-            let winners = judged(&cloud);
-            let moved = (0..PER_ROUND).map(|k| self.moved(&winners, &cloud, free, round, k, draws)).collect();
-            cloud.extend(self.simulated(round, moved)?);
+        Ok(Some((0..self.replicates).map(replicate).collect()))
+    }
+
+    fn blocks_of(&self, slopes: &DMatrix<f64>, residuals: &[f64]) -> Vec<Block> {
+        let p = slopes.ncols();
+        // Errors that no value moves, those of a wall at rest, tell nothing of the size of the others.
+        let moved = (0..residuals.len()).filter(|&k| slopes.row(k).iter().any(|s| *s != 0.0));
+        let moved = moved.collect::<Vec<_>>();
+        let corner = median_size(&moved.iter().map(|&k| residuals[k]).collect::<Vec<_>>());
+        let empty = Block { slope: DVector::zeros(p), curvature: DMatrix::zeros(p, p), errors: 0 };
+        let count = self.blocks.iter().max().map_or(0, |last| (last / BLOCKS + 1) * BLOCKS);
+        let mut blocks = vec![empty; count];
+        for k in moved {
+            let block = &mut blocks[self.blocks[k]];
+            let slope = slopes.row(k).transpose();
+            block.slope += (residuals[k] / corner).clamp(-1.0, 1.0) * &slope;
+            if residuals[k].abs() <= corner {
+                block.curvature += &slope * slope.transpose() / corner;
+            }
+            block.errors += 1;
         }
-        Ok(judged(&cloud))
+        blocks
     }
 
-    fn multiplicities(&self, rng: &mut impl Rng) -> Multiplicities {
-        let of_test = |_: &usize| {
-            let mut times = [0.0; BLOCKS];
-            (0..BLOCKS).for_each(|_| times[rng.random_range(0..BLOCKS)] += 1.0);
-            times
-        };
-        self.chosen.iter().map(of_test).collect()
-    }
-
-    /// A step from a winner along the difference of two members of the cloud.
-    fn moved(
-        &self,
-        winners: &[Vec<f64>],
-        cloud: &[Particle],
-        free: &[usize],
-        round: u32,
-        k: usize,
-        draws: &Draws,
-    ) -> Vec<f64> {
-        let mut rng = draws.of(round, k as u32, 1);
-        let from = &winners[rng.random_range(0..winners.len())];
-        let mut pick = || &cloud[rng.random_range(0..cloud.len())].values;
-        let (a, b) = (pick(), pick());
-        // The step of ter Braak (2006), which keeps the spread of a cloud of normal shape; shorter from round to round.
-        let gamma = 2.38 / (2.0 * free.len() as f64 * f64::from(round)).sqrt();
-        let mut values = from.clone();
-        for &v in free {
-            let bounds = self.space.parameters[v].bounds;
-            let normal: f64 = StandardNormal.sample(&mut rng);
-            let step = gamma * (a[v] - b[v]) + FREE_STEP * bounds.width() * normal;
-            values[v] = bounds.clamp(from[v] + step);
-        }
-        values
-    }
-
-    fn winner(&self, cloud: &[Particle], times: &Multiplicities) -> Vec<f64> {
-        let cost = |particle: &Particle| {
-            let wme =
-                |(k, errors): (usize, &Errors)| self.tests[self.chosen[k]].target.wme_of(errors, &times[k]);
-            let mean = particle.errors.iter().enumerate().map(wme).sum::<f64>() / times.len() as f64;
-            mean * prior_factor(&self.space.parameters, &particle.values, self.independent_samples())
-        };
-        let costs = cloud.iter().map(cost);
-        let best = costs.enumerate().fold((0, f64::INFINITY), |b, c| if c.1 < b.1 { c } else { b });
-        cloud[best.0].values.clone()
-    }
-
-    fn independent_samples(&self) -> f64 {
-        self.chosen.iter().map(|&k| self.tests[k].target.independent_samples()).sum()
-    }
-
-    /// The vectors whose runs could be finished in every test.
-    fn simulated(&self, round: u32, vectors: Vec<Vec<f64>>) -> Result<Vec<Particle>> {
-        let runs = vectors
-            .par_iter()
-            .enumerate()
-            .map(|(index, values)| self.simulate_all(round, index, values))
-            .collect::<Vec<_>>();
-        let mut cloud = Vec::with_capacity(vectors.len());
-        for (values, (rows, errors)) in vectors.into_iter().zip(runs) {
-            let new = vec![true; rows.len()];
-            self.archive.progress.inc(rows.len() as u64);
-            self.archive.keep(rows, &new)?;
-            if let Some(errors) = errors {
-                cloud.push(Particle { values, errors });
+    /// Newton's step for blocks drawn anew in every test.
+    fn step(&self, blocks: &[Block], rng: &mut impl Rng) -> DVector<f64> {
+        let p = self.free.len();
+        let (mut slope, mut curvature) = (DVector::zeros(p), DMatrix::zeros(p, p));
+        for test in blocks.chunks(BLOCKS) {
+            for _ in 0..BLOCKS {
+                let block = &test[rng.random_range(0..BLOCKS)];
+                slope += &block.slope;
+                curvature += &block.curvature;
             }
         }
-        Ok(cloud)
+        // As many degrees of freedom are lost as variables were fitted.
+        let told = blocks.iter().filter(|block| block.errors > 0).count() as f64;
+        let widened = (told / (told - p as f64).max(1.0)).sqrt();
+        // A direction that no error tells goes anywhere, up to the bounds.
+        let least = 1e-9 * curvature.diagonal().max();
+        let damped = curvature + DMatrix::from_diagonal_element(p, p, least.max(f64::MIN_POSITIVE));
+        damped.cholesky().map_or_else(|| DVector::zeros(p), |factors| factors.solve(&(-widened * slope)))
     }
-
-    fn simulate_all(&self, round: u32, index: usize, values: &[f64]) -> (Vec<Row>, Option<Vec<Errors>>) {
-        let mut rows = Vec::new();
-        let mut errors = Some(Vec::new());
-        for &test in self.chosen {
-            let address =
-                Address { method: "bootstrap".into(), test, generation: round, index: index as u32 };
-            let run = simulate(self.space, &self.tests[test], values, self.accuracy);
-            let finished = run.as_ref().filter(|run| run.wme.is_some()).map(|run| run.errors);
-            errors = errors.zip(finished).map(|(mut all, one)| {
-                all.push(one);
-                all
-            });
-            rows.push(Row::of(address, values, run.as_ref()));
-        }
-        (rows, errors)
-    }
-}
-
-/// A vector with the free variables of another.
-fn with_free(best: &[f64], other: &[f64], free: &[usize]) -> Vec<f64> {
-    let of = |(v, x): (usize, &f64)| if free.contains(&v) { other[v] } else { *x };
-    best.iter().enumerate().map(of).collect()
 }
 
 /// Value below which a share of the values lies, linear between order statistics; NaN of no values.
@@ -205,6 +160,8 @@ pub fn correlation(vectors: &[Vec<f64>], i: usize, j: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::calibrate::slopes::Fitted;
+    use rand_distr::{Distribution, StandardNormal};
 
     #[test]
     fn analytic_quantiles_and_correlations_of_small_sets() {
@@ -213,5 +170,35 @@ mod tests {
         let line = [[0.0, 5.0, 1.0], [1.0, 3.0, 1.0], [2.0, 1.0, 1.0]].map(|x| x.to_vec());
         assert_eq!(correlation(&line, 0, 1), Some(-1.0));
         assert_eq!(correlation(&line, 0, 2), None);
+    }
+
+    /// Normal errors about a constant.
+    struct Constant(Vec<f64>);
+
+    impl Fit for Constant {
+        fn fitted(&mut self, _: u32, candidates: &[Vec<f64>]) -> Result<Vec<Option<Fitted>>> {
+            let fitted = |x: &Vec<f64>| {
+                let residuals = self.0.iter().map(|noise| noise - x[0]).collect::<Vec<_>>();
+                Some(Fitted { cost: residuals.iter().map(|r| r.abs()).sum(), residuals })
+            };
+            Ok(candidates.iter().map(fitted).collect())
+        }
+    }
+
+    #[test]
+    fn analytic_intervals_of_a_constant_are_as_wide_as_theory_says() {
+        let draws = Draws::new(1, "test");
+        let noise = (0..2400).map(|k| StandardNormal.sample(&mut draws.of(0, k, 0))).collect();
+        let blocks = (0..2400).map(|k| k / 100).collect::<Vec<_>>();
+        let bounds = [Bounds { lower: -1.0, upper: 1.0 }];
+        let bootstrap = Bootstrap { bounds: &bounds, free: &[0], blocks: &blocks, replicates: 2000 };
+        let vectors = bootstrap.vectors(&[0.0], &draws, &mut Constant(noise)).expect("no simulation");
+        let values = vectors.iter().map(|x| x[0]).collect::<Vec<_>>();
+        let mean = values.iter().sum::<f64>() / 2000.0;
+        let deviation = (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 1999.0).sqrt();
+        // Huber's estimate with the corner at the median 0.6745 σ: E ψ² = 0.5 + ∫_0^c x²/c² 2φ = 0.657,
+        // E ψ' = 0.5 / c, so √0.657 c / 0.5 = 1.09 σ/√n. The spread of 24 blocks is known to 1/√48, some 15 %.
+        let expected = 1.09 / 2400.0_f64.sqrt();
+        assert!((deviation / expected - 1.0).abs() < 0.4, "{deviation} and {expected}");
     }
 }

@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::store::write_durably;
 
 /// Writes the rows; the columns are `method, test, generation, index`, the parameters by name, `wme, outcome` and the
-/// numbers of impacts `impacts_C_1` … `impacts_C_8`.
+/// `steps` of the integration, and the numbers of impacts `impacts_C_1` … `impacts_C_8`.
 ///
 /// # Errors
 /// [`Error::Table`] or [`Error::Io`] if the file cannot be written.
@@ -64,8 +64,11 @@ fn columns(rows: &[Row], parameters: &[Parameter], tests: &[Test]) -> Vec<NamedC
         "Eq. 8; null where the run could not be finished".into(),
         Arc::new(wme),
     ));
-    let about = "How the run ended: stood, collapsed, failed, impossible (no such wall)";
+    let about =
+        "How the run ended: stood, collapsed, failed, abandoned (hopeless), impossible (no such wall)";
     columns.push(("outcome".into(), "", about.into(), text(&|r| r.outcome.clone())));
+    let steps = rows.iter().map(|r| r.steps).collect::<UInt64Array>();
+    columns.push(("steps".into(), "", "Steps of the integration".into(), Arc::new(steps)));
     for l in 0..8 {
         let counts = rows.iter().map(|r| r.transitions[l]).collect::<UInt64Array>();
         let about = format!("Impacts scaled by C_{}", l + 1);

@@ -93,7 +93,17 @@ impl CmaEs {
         self.p_c.fill(0.0);
     }
 
-    /// Minimises the cost until the budget is spent, or the cost is zero.
+    /// Size of the cloud in its widest direction, as a share of the bounds.
+    pub fn width(&self) -> f64 {
+        self.sigma * self.covariance.clone().symmetric_eigenvalues().max().sqrt()
+    }
+
+    /// The middle of the cloud.
+    pub fn middle(&self, bounds: &[Bounds]) -> Vec<f64> {
+        to_values(&self.mean, bounds)
+    }
+
+    /// Minimises the cost until the budget is spent, the cloud is narrower than `least_width`, or the cost is zero.
     ///
     /// The vectors found are the best of all generations, as many as a generation has.
     ///
@@ -103,6 +113,7 @@ impl CmaEs {
         &mut self,
         bounds: &[Bounds],
         budget: usize,
+        least_width: f64,
         draws: &Draws,
         evaluate: &mut dyn Evaluate,
     ) -> Result<Found> {
@@ -110,18 +121,45 @@ impl CmaEs {
         let costs = evaluate.costs(0, &centre)?;
         let mut found = Found::start(super::search::members(centre, costs));
         let mut round = 0;
-        while found.evaluations + self.lambda <= budget && found.best().cost > 0.0 {
+        let mut hopeless = f64::INFINITY;
+        while found.evaluations + self.lambda <= budget
+            && found.best().cost > 0.0
+            && self.width() > least_width
+        {
             round += 1;
             let points = self.sampled(draws);
             let values = points.iter().map(|x| to_values(x, bounds)).collect::<Vec<_>>();
-            let costs = evaluate.costs(round, &values)?;
+            let penalties = points.iter().map(|x| 1.0 + outside(x)).collect::<Vec<_>>();
+            let costs = self.ranking_costs(round, &values, &penalties, hopeless, evaluate)?;
             found.evaluations += self.lambda;
-            let penalised = points.iter().zip(&costs).map(|(x, cost)| cost * (1.0 + outside(x))).collect();
+            let penalised = penalties.iter().zip(&costs).map(|(p, cost)| cost * p).collect::<Vec<_>>();
+            hopeless = hopeless_cost(&penalised);
             self.learn(&points, penalised);
             keep_best(&mut found, values, costs, self.lambda);
             found.note();
         }
         Ok(found)
+    }
+
+    /// Costs that rank the better half as full costs would: the cloud learns of no others.
+    ///
+    /// Candidates that cost more than the limit are abandoned; if the better half is not below it, all are simulated to
+    /// their end after all.
+    fn ranking_costs(
+        &self,
+        round: u32,
+        values: &[Vec<f64>],
+        penalties: &[f64],
+        hopeless: f64,
+        evaluate: &mut dyn Evaluate,
+    ) -> Result<Vec<f64>> {
+        let most = penalties.iter().map(|p| hopeless / p).collect::<Vec<_>>();
+        let costs = evaluate.costs_below(round, values, &most)?;
+        let below = costs.iter().zip(&most).filter(|(cost, most)| cost <= most).count();
+        if below >= self.constants.weights.len() || hopeless.is_infinite() {
+            return Ok(costs);
+        }
+        evaluate.costs(round, values)
     }
 
     fn sampled(&mut self, draws: &Draws) -> Vec<DVector<f64>> {
@@ -171,6 +209,16 @@ impl CmaEs {
         let sigma = self.sigma * (k.c_sigma / k.d_sigma * (length - 1.0)).exp();
         self.sigma = sigma.clamp(SIGMA_RANGE.0, SIGMA_RANGE.1);
     }
+}
+
+/// Cost of a generation that hardly any of the better half of the next will pass: its upper quartile.
+fn hopeless_cost(penalised: &[f64]) -> f64 {
+    let mut sorted = penalised.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let quartile = sorted[3 * (sorted.len() - 1) / 4];
+    // Where the quartile was abandoned, the dearest that was not.
+    let finite = sorted.iter().rev().find(|cost| cost.is_finite());
+    if quartile.is_finite() { quartile } else { finite.copied().unwrap_or(f64::INFINITY) }
 }
 
 fn to_values(x: &DVector<f64>, bounds: &[Bounds]) -> Vec<f64> {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use super::parameter::ParameterSpace;
+use super::space::ParameterSpace;
 use super::trial::Test;
 use crate::error::{InputError, Result};
 use crate::input::experiment::{CalibrateTable, ExperimentFile, Purpose};
@@ -37,9 +37,13 @@ impl Experiment {
         let space = ParameterSpace::load(path, &file)?;
         let nominal = space.wall(&space.nominal())?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        let tests =
-            file.tests.iter().map(|table| Test::load(folder, table, &nominal)).collect::<Result<Vec<_>>>()?;
         let settings = CalibrateTable { seed: seed.unwrap_or(file.calibrate.seed), ..file.calibrate.clone() };
+        let accuracy = Accuracy { tolerance: settings.tolerance };
+        let tests = file
+            .tests
+            .iter()
+            .map(|table| Test::load(folder, table, &nominal, accuracy))
+            .collect::<Result<Vec<_>>>()?;
         let files = files(path, &file);
         let request = request(&files, &settings)?;
         Ok(Self { path: path.to_path_buf(), space, tests, settings, files, request })
@@ -64,6 +68,7 @@ fn files(path: &Path, file: &ExperimentFile) -> Vec<(String, PathBuf)> {
     files.extend(file.calibrate.coefficients.iter().map(|name| ("coefficients".to_owned(), beside(name))));
     for test in &file.tests {
         files.push((format!("record of {}", test.name), beside(&test.record)));
+        files.extend(test.vertical.iter().map(|name| (format!("vertical of {}", test.name), beside(name))));
         files.push((format!("measured in {}", test.name), beside(&test.measured)));
     }
     files

@@ -8,13 +8,13 @@ use super::archive::Archive;
 use super::capture;
 use super::draws::Draws;
 use super::experiment::Experiment;
-use super::identifiability::Judge;
+use super::identifiability::{BOOTSTRAP, Judge};
 use super::objective::{Objective, simulate};
 use super::paper_de::PaperDe;
 use super::result::{Calibration, MethodResult, TestResult, Vector};
 use super::search::Found;
 use super::similarity::most_similar;
-use super::staged::{RESTARTS, STAGES, Staged, restart_name, stage_name};
+use super::staged::{Staged, stage_names};
 use super::trial::Simulated;
 use crate::error::Result;
 
@@ -28,11 +28,9 @@ pub fn calibrate(experiment: &Experiment, archive: &Archive) -> Result<Calibrati
 
 /// The names of the searches, in the order they are run.
 pub(super) fn method_names(experiment: &Experiment) -> Vec<String> {
-    let of = |method: &str| STAGES.map(|(share, _)| stage_name(method, share));
     let mut names = vec!["paper".to_owned()];
-    names.extend(["adaptive", "joint"].iter().flat_map(|method| of(method)));
-    names.extend((1..=RESTARTS).flat_map(|k| of(&restart_name("refined", k))));
-    names.push("bootstrap".to_owned());
+    names.extend(["adaptive", "joint", "refined"].iter().flat_map(|method| stage_names(method)));
+    names.push(BOOTSTRAP.to_owned());
     names.extend(capture::names(&experiment.settings.capture_study_rad_s));
     names
 }
@@ -54,15 +52,14 @@ impl Flow<'_> {
         let budget = paper_simulations / self.fit.len();
         let joint = self.staged("joint", &self.fit, budget).minimise(&self.middle(), &self.draws("joint"))?;
         let refine = self.staged("refined", &self.fit, self.experiment.settings.refine_vectors);
-        let refined = refine.minimise_again(&joint.best().values, &self.draws("refined"))?;
+        let refined = refine.minimise(&self.elsewhere(), &self.draws("refined"))?;
         let methods = self.methods(&paper, &adaptive, similar, [&joint, &refined]);
         let (vector, joint_from) = cheaper(&methods);
         let vector = self.without_idle(&vector);
         let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
         let per_test = self.better_of(&paper, &adaptive);
         let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
-        let capture_study =
-            capture::study(self.experiment, self.archive, &self.fit, &vector.values, paper_simulations)?;
+        let capture_study = capture::study(self.experiment, self.archive, &self.fit, &vector.values)?;
         let tests = self.tests(&vector, &per_test);
         let base = self.experiment.space.base();
         let seconds = start.elapsed().as_secs_f64();
@@ -119,6 +116,13 @@ impl Flow<'_> {
 
     fn middle(&self) -> Vec<f64> {
         self.experiment.space.bounds().iter().map(|b| b.at(0.5)).collect()
+    }
+
+    /// A vector drawn anywhere between the bounds, so that the second joint search comes from another side.
+    fn elsewhere(&self) -> Vec<f64> {
+        let draws = self.draws("refined start");
+        let bounds = self.experiment.space.bounds();
+        bounds.iter().enumerate().map(|(v, b)| b.at(draws.uniform(0, 0, v as u32))).collect()
     }
 
     fn staged<'o>(&'o self, method: &'o str, chosen: &'o [usize], budget: usize) -> Staged<'o> {
@@ -255,6 +259,7 @@ impl Flow<'_> {
                 simulated_collapse_s: after[k].as_ref().and_then(|s| s.collapse_s),
                 lost_channels: test.target.counted_s().map(|s| s == 0.0),
                 channels_at_rest: test.target.at_rest(),
+                alignment: test.alignment,
                 independent_samples: test.target.independent_samples(),
             }
         };

@@ -4,10 +4,11 @@ use super::archive::{Archive, Row};
 use super::bootstrap::{Bootstrap, correlation, quantile};
 use super::draws::Draws;
 use super::experiment::Experiment;
-use super::objective::simulate;
+use super::misfit::BLOCKS;
+use super::objective::{Objective, simulate};
 use super::parameter::Parameter;
 use super::result::{Estimate, Identifiability, ProfilePoint, Vector};
-use super::staged::{RESTARTS, restart_name};
+use super::staged::stage_names;
 use super::trial::Simulated;
 use crate::error::Result;
 use crate::model::ImpactLaw;
@@ -16,15 +17,15 @@ use crate::model::ImpactLaw;
 const TELLS_NOTHING: f64 = 0.9;
 /// A value this near a bound, as a share of the width, lies on it.
 const ON_BOUND: f64 = 0.01;
-/// Vectors up to this many times the lowest misfit are nearly best: on twin experiments with 1 % noise these lie
-/// within some tenths of a percent of the true values, the size of the errors.
-const NEARLY: f64 = 1.02;
-/// Nearly best vectors the bootstrap begins with.
-const NEARLY_COUNT: usize = 250;
+/// The most that counts of a misfit's share above the noise: beyond, it is the model's and no search's.
+const MOST_ABOVE_NOISE: f64 = 0.1;
 /// Stretches between the bounds a profile is made of.
 const PROFILE_POINTS: usize = 15;
 /// C_7 and C_8, whose impacts end in sticking: under `contact` nothing is left to scale.
 const STICKING: [usize; 2] = [6, 7];
+
+/// Name of the bootstrap's simulations.
+pub(super) const BOOTSTRAP: &str = "bootstrap";
 
 /// Judges the parameters of an experiment.
 #[derive(Debug, Clone, Copy)]
@@ -67,62 +68,49 @@ impl Judge<'_> {
         };
         let free = (0..space.parameters.len()).filter(|&v| idle(&space.parameters[v]).is_none());
         let free = free.collect::<Vec<_>>();
-        let bootstrap = Bootstrap {
-            space,
-            tests: &self.experiment.tests,
-            chosen: self.fit,
-            accuracy: self.experiment.accuracy(),
-            archive: self.archive,
-            replicates: self.experiment.settings.replicates,
+        let told = Told {
+            vectors: self.bootstrapped(&joint.values, &free)?,
+            by_test: self.by_test(per_test),
+            costs: self.joint_costs(),
+            not_excluded: self.above_noise(joint.mean_wme),
         };
-        let draws = Draws::new(self.experiment.settings.seed, "bootstrap");
-        let nearly = nearly_best(self.joint_costs());
-        let winners = bootstrap.winners(&joint.values, &nearly, &free, &draws)?;
-        let costs = self.joint_costs();
-        let by_test = self.by_test(per_test);
-        let estimate = |(v, parameter): (usize, &Parameter)| {
-            self.estimate(v, parameter, joint, idle(parameter), &winners, &by_test, &costs)
-        };
-        let estimates = space.parameters.iter().enumerate().map(estimate).collect::<Vec<_>>();
+        let parameters = space.parameters.iter().enumerate();
+        let estimate = |(v, p): (usize, &Parameter)| told.estimate(v, p, joint.values[v], idle(p));
+        let estimates = parameters.map(estimate).collect::<Vec<_>>();
         let both = |i: usize, j: usize| {
-            if free.contains(&i) && free.contains(&j) { correlation(&winners, i, j) } else { None }
+            if free.contains(&i) && free.contains(&j) { correlation(&told.vectors, i, j) } else { None }
         };
         let all = 0..space.parameters.len();
         let matrix = all.clone().map(|i| all.clone().map(|j| both(i, j)).collect()).collect();
         Ok((estimates, matrix))
     }
 
-    #[allow(clippy::too_many_arguments, reason = "the parts of one estimate, each used once")]
-    fn estimate(
-        &self,
-        v: usize,
-        parameter: &Parameter,
-        joint: &Vector,
-        idle: Option<Identifiability>,
-        winners: &[Vec<f64>],
-        by_test: &[Vec<Option<f64>>],
-        costs: &[(Vec<f64>, f64)],
-    ) -> Estimate {
-        let values = winners.iter().map(|w| w[v]).collect::<Vec<_>>();
-        let interval = [quantile(&values, 0.025), quantile(&values, 0.975)];
-        let bounds = parameter.bounds;
-        let wide = interval[1] - interval[0] > TELLS_NOTHING * bounds.width();
-        let told = if wide { Identifiability::NotToldByTheTests } else { Identifiability::Identified };
-        let value = joint.values[v];
-        let near = ON_BOUND * bounds.width();
-        let by_test = by_test.iter().map(|values| values[v]).collect::<Vec<_>>();
-        Estimate {
-            name: parameter.name.clone(),
-            lower_bound: bounds.lower,
-            upper_bound: bounds.upper,
-            value,
-            identifiability: idle.unwrap_or(told),
-            interval_95: idle.is_none().then_some(interval),
-            on_bound: idle.is_none() && (value - bounds.lower < near || bounds.upper - value < near),
-            spread_over_tests: spread(&by_test),
-            by_test,
-            profile: if idle.is_none() { profile(v, parameter, costs) } else { Vec::new() },
-        }
+    /// The share of the misfit above that of the noise alone: by so much a search may have missed the lowest.
+    fn above_noise(&self, mean_wme: Option<f64>) -> f64 {
+        let noise = self.fit.iter().map(|&k| self.experiment.tests[k].target.noise_wme()).sum::<f64>();
+        let noise = noise / self.fit.len() as f64;
+        mean_wme.map_or(0.0, |wme| (1.0 - noise / wme).clamp(0.0, MOST_ABOVE_NOISE))
+    }
+
+    /// The vectors of the bootstrap's replicates.
+    fn bootstrapped(&self, best: &[f64], free: &[usize]) -> Result<Vec<Vec<f64>>> {
+        let Experiment { space, tests, settings, .. } = self.experiment;
+        let of_test = |(k, &test): (usize, &usize)| {
+            tests[test].target.error_blocks().map(move |block| k * BLOCKS + block).collect::<Vec<_>>()
+        };
+        let blocks = self.fit.iter().enumerate().flat_map(of_test).collect::<Vec<_>>();
+        let bounds = space.bounds();
+        let replicates = settings.replicates;
+        let bootstrap = Bootstrap { bounds: &bounds, free, blocks: &blocks, replicates };
+        let mut objective = Objective {
+            space,
+            tests,
+            chosen: self.fit,
+            accuracy: self.experiment.accuracy(),
+            archive: self.archive,
+            method: BOOTSTRAP,
+        };
+        bootstrap.vectors(best, &Draws::new(settings.seed, BOOTSTRAP), &mut objective)
     }
 
     fn simulated(&self, values: &[f64]) -> Vec<Option<Simulated>> {
@@ -146,8 +134,11 @@ impl Judge<'_> {
 
     /// Every vector that was simulated in all tests to fit, and its mean WME.
     fn joint_costs(&self) -> Vec<(Vec<f64>, f64)> {
-        let mut searches = ["joint", "bootstrap"].map(str::to_owned).to_vec();
-        searches.extend((1..=RESTARTS).map(|k| restart_name("refined", k)));
+        // Of the stages, those over the whole of the tests.
+        let whole = |name: &String| !name.contains(" windows ") && !name.contains(" first ");
+        let mut searches =
+            ["joint", "refined"].iter().flat_map(|m| stage_names(m)).filter(whole).collect::<Vec<_>>();
+        searches.push(BOOTSTRAP.to_owned());
         let mut of_all = self
             .archive
             .rows(&searches)
@@ -164,14 +155,55 @@ impl Judge<'_> {
     }
 }
 
-/// The vectors whose misfit is nearly the lowest, thinned evenly from the cheapest to the dearest.
-fn nearly_best(mut costs: Vec<(Vec<f64>, f64)>) -> Vec<Vec<f64>> {
-    costs.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let lowest = costs.first().map_or(0.0, |(_, cost)| *cost);
-    let near = costs.iter().take_while(|(_, cost)| *cost <= NEARLY * lowest).count();
-    let kept = near.max(NEARLY_COUNT).min(costs.len());
-    let thinned = (0..NEARLY_COUNT.min(kept)).map(|k| k * kept / NEARLY_COUNT.min(kept));
-    thinned.map(|k| costs[k].0.clone()).collect()
+/// What is known of the parameters beside the best vector.
+struct Told {
+    /// The bootstrap's vectors.
+    vectors: Vec<Vec<f64>>,
+    /// Each test's best vector; none for a coefficient that never acts in it.
+    by_test: Vec<Vec<Option<f64>>>,
+    /// Every vector simulated in all tests, and its mean WME.
+    costs: Vec<(Vec<f64>, f64)>,
+    /// Vectors that cost by no more than this share above the lowest are not excluded.
+    not_excluded: f64,
+}
+
+impl Told {
+    /// From the lowest to the highest value of the replicates' middle 95 % and of the vectors that are not excluded: the
+    /// former know the noise, the latter the other valleys of a rough misfit.
+    fn interval(&self, v: usize, value: f64) -> [f64; 2] {
+        let values = self.vectors.iter().map(|w| w[v]).collect::<Vec<_>>();
+        let bootstrapped = [quantile(&values, 0.025).min(value), quantile(&values, 0.975).max(value)];
+        let lowest = self.costs.iter().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
+        let near = self.costs.iter().filter(|(_, cost)| *cost <= (1.0 + self.not_excluded) * lowest);
+        near.fold(bootstrapped, |[a, b], (values, _)| [a.min(values[v]), b.max(values[v])])
+    }
+
+    fn estimate(
+        &self,
+        v: usize,
+        parameter: &Parameter,
+        value: f64,
+        idle: Option<Identifiability>,
+    ) -> Estimate {
+        let interval = self.interval(v, value);
+        let bounds = parameter.bounds;
+        let wide = interval[1] - interval[0] > TELLS_NOTHING * bounds.width();
+        let told = if wide { Identifiability::NotToldByTheTests } else { Identifiability::Identified };
+        let near = ON_BOUND * bounds.width();
+        let by_test = self.by_test.iter().map(|values| values[v]).collect::<Vec<_>>();
+        Estimate {
+            name: parameter.name.clone(),
+            lower_bound: bounds.lower,
+            upper_bound: bounds.upper,
+            value,
+            identifiability: idle.unwrap_or(told),
+            interval_95: idle.is_none().then_some(interval),
+            on_bound: idle.is_none() && (value - bounds.lower < near || bounds.upper - value < near),
+            spread_over_tests: spread(&by_test),
+            by_test,
+            profile: if idle.is_none() { profile(v, parameter, &self.costs) } else { Vec::new() },
+        }
+    }
 }
 
 fn spread(by_test: &[Option<f64>]) -> Option<f64> {

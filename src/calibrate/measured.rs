@@ -10,7 +10,7 @@ use crate::model::Wall;
 /// Samples farther apart than this many median distances leave a gap.
 const GAP_IN_STEPS: f64 = 2.5;
 
-/// Measured rotations of both bodies in the record's time.
+/// Measured rotations of both bodies, in their own time until [`Measured::moved`] into the record's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     /// Times of the samples, s, increasing.
@@ -37,7 +37,7 @@ impl Columns {
 }
 
 impl Measured {
-    /// Reads the measured file of a test.
+    /// Reads the measured file of a test, in its own time.
     ///
     /// Columns: `time_s`, and for each body its rotation (`theta1_rad`, `theta2_rad`) or the reading the test names
     /// (`top_displacement_m` serves as one for θ_2 by itself). Empty cells and `nan` are missing samples.
@@ -46,7 +46,7 @@ impl Measured {
     /// Input errors with file and line: not a table of numbers, times that do not increase, no channel at all.
     pub fn load(path: &Path, test: &TestTable, wall: &Wall) -> Result<Self> {
         let columns = read_columns(path)?;
-        let time_s = times(path, &columns, test.start_s)?;
+        let time_s = times(path, &columns)?;
         let gap_s = test.gap_s.unwrap_or_else(|| GAP_IN_STEPS * median_step(&time_s));
         let channels = Channels { path, columns: &columns, test, wall, time_s: &time_s };
         let theta_rad = channels.rotations()?;
@@ -55,8 +55,16 @@ impl Measured {
             let found = format!("columns {}", columns.names.join(", "));
             return Err(InputError::line(path, 1, found, allowed).into());
         }
-        let collapse_s = test.collapse_s.or_else(|| first_collapse(&time_s, &theta_rad, wall));
-        Ok(Self { time_s, theta_rad, gap_s, collapse_s })
+        Ok(Self { time_s, theta_rad, gap_s, collapse_s: None })
+    }
+
+    /// The same in the record's time, of which `start_s` is the measurement's zero; the collapse is the one given, in the
+    /// record's time, or where a rotation first passes its collapse rotation.
+    #[must_use]
+    pub fn moved(mut self, start_s: f64, collapse_s: Option<f64>, wall: &Wall) -> Self {
+        self.time_s.iter_mut().for_each(|t| *t += start_s);
+        self.collapse_s = collapse_s.or_else(|| first_collapse(&self.time_s, &self.theta_rad, wall));
+        self
     }
 }
 
@@ -89,7 +97,7 @@ fn parse_cell(cell: &str) -> Option<f64> {
     cell.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
-fn times(path: &Path, columns: &Columns, start_s: f64) -> Result<Vec<f64>, InputError> {
+fn times(path: &Path, columns: &Columns) -> Result<Vec<f64>, InputError> {
     let Some(time) = columns.get("time_s") else {
         let found = format!("columns {}", columns.names.join(", "));
         return Err(InputError::line(path, 1, found, "a column time_s"));
@@ -103,7 +111,7 @@ fn times(path: &Path, columns: &Columns, start_s: f64) -> Result<Vec<f64>, Input
         let allowed = "times that increase from line to line";
         return Err(InputError::line(path, i + 2, format!("time_s {}", time[i]), allowed));
     }
-    Ok(time.iter().map(|t| t + start_s).collect())
+    Ok(time.to_vec())
 }
 
 fn median_step(time_s: &[f64]) -> f64 {

@@ -8,12 +8,12 @@
 //!   of α_i would give, so that moving while the measured wall stands is dear but not infinitely so.
 //! - After a measured collapse nothing counts. A simulated wall that collapses stays at the rotation it collapsed at.
 //! - A free-running impact system is nearly chaotic: over long records WME is a rough function of the coefficients,
-//!   with many local minima. Windows that end after some impacts make it smooth.
+//!   with many local minima. Windows that end after some impacts, or begin anew from the measured motion, make it smooth.
 
+use super::comparison::Errors;
 use super::measured::Measured;
-use crate::model::{Contact, Pair, Reading, Wall};
-use crate::simulate::Observer;
-use crate::solver::Quintic;
+use super::stretches::noise_rad;
+use crate::model::{Pair, Wall};
 
 /// Smallest mean |θ_i,exp| of the denominator, in units of α_i.
 const REST_SHARE: f64 = 1e-3;
@@ -23,12 +23,12 @@ pub const BLOCKS: usize = 24;
 
 /// A sample that counts: its time, measured rotations, and weights in s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Sample {
-    time_s: f64,
-    theta_rad: Pair,
+pub(super) struct Sample {
+    pub time_s: f64,
+    pub theta_rad: Pair,
     /// Length of time each channel's sample stands for; 0 where it is missing.
-    weight_s: Pair,
-    block: usize,
+    pub weight_s: Pair,
+    pub block: usize,
 }
 
 /// The measured side of Eq. 8 for one test.
@@ -77,8 +77,8 @@ impl Target {
         Self { samples, measured_rad_s, floor_share_rad, floor_rad_s, independent_samples }
     }
 
-    /// The same up to the time by which a share of the measured motion, ∫|θ|, has passed.
-    pub fn shortened(&self, share: f64) -> Self {
+    /// The samples up to the time by which a share of the measured motion, ∫|θ|, has passed; two at least.
+    pub(super) fn first_samples(&self, share: f64) -> &[Sample] {
         let motion = |s: &Sample| (0..2).map(|i| s.weight_s[i] * s.theta_rad[i].abs()).sum::<f64>();
         let whole = self.samples.iter().map(motion).sum::<f64>();
         let mut passed = 0.0;
@@ -86,9 +86,18 @@ impl Target {
             passed += motion(s);
             passed >= share * whole
         });
-        // Two samples at least, so that there is a stretch of time.
-        let kept = until.map_or(self.samples.len(), |k| (k + 1).max(2)).min(self.samples.len());
-        Self::of_samples(self.samples[..kept].to_vec(), self.floor_share_rad)
+        let kept = until.map_or(self.samples.len(), |k| (k + 1).max(2));
+        &self.samples[..kept.min(self.samples.len())]
+    }
+
+    /// The target of these samples, which may count one twice.
+    pub(super) fn counting(&self, samples: Vec<Sample>) -> Self {
+        Self::of_samples(samples, self.floor_share_rad)
+    }
+
+    /// The samples that count, in order.
+    pub(super) fn samples(&self) -> &[Sample] {
+        &self.samples
     }
 
     /// End of what counts, s.
@@ -117,6 +126,25 @@ impl Target {
             if self.floor_rad_s[i] > 0.0 { weighted(&errors.rad_s[i]) / denominator } else { 0.0 }
         };
         term(0) + term(1)
+    }
+
+    /// Eq. 8 of the true motion, which the measurement's noise alone makes: E|noise| = √(2/π) σ.
+    pub fn noise_wme(&self) -> f64 {
+        let (noise, counted, weights) = (noise_rad(&self.samples), self.counted_s(), self.weights());
+        (0..2).map(|i| std::f64::consts::FRAC_2_PI.sqrt() * noise[i] * counted[i] * weights[i]).sum()
+    }
+
+    /// The block of each error, as [`super::Test`] gives them: θ_1 and θ_2 of each sample by turns.
+    pub(super) fn error_blocks(&self) -> impl Iterator<Item = usize> {
+        self.samples.iter().flat_map(|s| [s.block, s.block])
+    }
+
+    /// 1 / ∫|θ_i,exp|, 1/(rad s), by which each channel's error counts in Eq. 8; 0: the channel is lost.
+    pub(super) fn weights(&self) -> Pair {
+        [0, 1].map(|i| {
+            let denominator = self.measured_rad_s[i].iter().sum::<f64>().max(self.floor_rad_s[i]);
+            if self.floor_rad_s[i] > 0.0 { 1.0 / denominator } else { 0.0 }
+        })
     }
 
     /// Eq. 8.
@@ -176,67 +204,6 @@ fn channel_weights(measured: &Measured, channel: usize, windows_s: &[[f64; 2]]) 
         previous = Some((k, window));
     }
     weights
-}
-
-/// ∫|θ_i,exp - θ_i,num| by channel and block, rad s.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Errors {
-    /// By channel and block.
-    pub rad_s: [[f64; BLOCKS]; 2],
-}
-
-/// Compares a run with its target while it goes.
-#[derive(Debug)]
-pub struct Comparison<'a> {
-    target: &'a Target,
-    reading: Reading,
-    next: usize,
-    errors: Errors,
-}
-
-impl<'a> Comparison<'a> {
-    /// Before the run.
-    pub fn new(target: &'a Target) -> Self {
-        Self { target, reading: Reading::TRUE, next: 0, errors: Errors { rad_s: [[0.0; BLOCKS]; 2] } }
-    }
-
-    /// Compares what sensors read of the rotations.
-    #[must_use]
-    pub fn read_by(self, reading: Reading) -> Self {
-        Self { reading, ..self }
-    }
-
-    /// After the run.
-    pub fn errors(&self) -> Errors {
-        self.errors
-    }
-
-    fn compare_until(&mut self, end_s: f64, theta_at: impl Fn(f64) -> Pair) {
-        while let Some(sample) = self.target.samples.get(self.next).filter(|s| s.time_s < end_s) {
-            let theta = self.reading.of(theta_at(sample.time_s));
-            for (i, blocks) in self.errors.rad_s.iter_mut().enumerate() {
-                let error = (sample.theta_rad[i] - theta[i]).abs();
-                blocks[sample.block] += sample.weight_s[i] * error;
-            }
-            self.next += 1;
-        }
-    }
-}
-
-impl Observer for Comparison<'_> {
-    fn moved(&mut self, start_s: f64, _: Contact, motion: &Quintic) {
-        self.compare_until(start_s + motion.h(), |t| {
-            motion.position(((t - start_s) / motion.h()).clamp(0.0, 1.0))
-        });
-    }
-
-    fn stood(&mut self, _: f64, to_s: f64) {
-        self.compare_until(to_s, |_| [0.0, 0.0]);
-    }
-
-    fn ended(&mut self, _: f64, _: Contact, theta: Pair) {
-        self.compare_until(f64::INFINITY, |_| theta);
-    }
 }
 
 #[cfg(test)]

@@ -2,19 +2,23 @@
 //!
 //! In the order of the flow: an [`Experiment`] is read; for each test the paper's differential evolution ([`PaperDe`])
 //! minimises the WME ([`misfit`]); cosine similarity ([`most_similar`]) picks the one vector for all tests.
-//! Beside it stand an adaptive differential evolution ([`AdaptiveDe`]) on each test and on all tests jointly,
-//! with as many simulations. Then comes what the tests can tell: counts of transitions, bootstrap intervals,
-//! correlations, and the dependence on the capture velocity.
+//! Beside it stands a stronger search ([`Staged`]) in each test and in all tests jointly, with no more simulations:
+//! Gauss-Newton in windows that begin anew from the measured motion and reach ever farther, then [`CmaEs`] on the WME
+//! itself. Then comes what the tests can tell: counts of transitions, bootstrap intervals, correlations, and the
+//! dependence on the capture velocity. [`AdaptiveDe`] is a further search for users of the library.
 
 mod adaptive_de;
+mod alignment;
 mod archive;
 mod bootstrap;
 mod candidates;
 mod capture;
 mod cma_es;
+mod comparison;
 mod draws;
 mod experiment;
 mod flow;
+mod gauss_newton;
 mod generations;
 mod identifiability;
 mod manifest;
@@ -26,13 +30,21 @@ mod paper_de;
 mod parameter;
 mod reading;
 mod report;
+mod resolver;
 mod result;
 mod search;
+mod shaking;
 mod similarity;
+mod slopes;
+mod space;
 mod staged;
+mod start_state;
+mod stretches;
 mod trial;
+mod windows;
 
 pub use adaptive_de::AdaptiveDe;
+pub use alignment::Alignment;
 pub use archive::{Address, Archive, Row};
 pub use bootstrap::{correlation, quantile};
 pub use cma_es::CmaEs;
@@ -44,7 +56,7 @@ pub use measured::Measured;
 pub use objective::{Objective, prior_factor, simulate};
 pub use output::{OutputNames, write_results};
 pub use paper_de::{F, PaperDe, first_generation};
-pub use parameter::{Parameter, ParameterSpace, Target};
+pub use parameter::{Parameter, Target};
 pub use reading::{lower_rotation_rad, upper_rotation_rad};
 pub use report::{print_parameters, summary};
 pub use result::{
@@ -52,5 +64,6 @@ pub use result::{
 };
 pub use search::{Bounds, Evaluate, Found, Member};
 pub use similarity::{MostSimilar, most_similar, sim};
+pub use space::ParameterSpace;
 pub use staged::Staged;
 pub use trial::{Simulated, Test};

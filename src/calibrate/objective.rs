@@ -3,8 +3,10 @@
 use rayon::prelude::*;
 
 use super::archive::{Address, Archive, Row};
-use super::parameter::{Parameter, ParameterSpace};
+use super::parameter::Parameter;
 use super::search::Evaluate;
+use super::slopes::{Fit, Fitted};
+use super::space::ParameterSpace;
 use super::trial::{Simulated, Test};
 use crate::error::Result;
 use crate::simulate::Accuracy;
@@ -27,17 +29,15 @@ pub struct Objective<'a> {
 }
 
 impl Evaluate for Objective<'_> {
-    fn costs(&mut self, generation: u32, candidates: &[Vec<f64>]) -> Result<Vec<f64>> {
-        let jobs = (0..candidates.len() * self.chosen.len()).collect::<Vec<_>>();
+    fn costs_below(&mut self, generation: u32, candidates: &[Vec<f64>], most: &[f64]) -> Result<Vec<f64>> {
+        let jobs = (0..candidates.len()).collect::<Vec<_>>();
         let results = jobs
             .par_iter()
-            .map(|job| {
-                let (index, test) = (job / self.chosen.len(), self.chosen[job % self.chosen.len()]);
-                self.simulate(generation, index, test, &candidates[index])
-            })
+            .map(|&index| self.in_every_test(generation, index, &candidates[index], most[index]))
             .collect::<Vec<_>>();
-        let (rows, new): (Vec<Row>, Vec<bool>) = results.into_iter().unzip();
-        let costs = rows.chunks(self.chosen.len()).map(|rows| self.cost(rows)).collect::<Vec<_>>();
+        let costs = results.iter().map(|(cost, _)| *cost).collect::<Vec<_>>();
+        let runs = results.into_iter().flat_map(|(_, runs)| runs);
+        let (rows, new): (Vec<Row>, Vec<bool>) = runs.unzip();
         let simulations = rows.len() as u64;
         self.archive.keep(rows, &new)?;
         let best = costs.iter().copied().fold(f64::INFINITY, f64::min);
@@ -54,20 +54,85 @@ impl Objective<'_> {
         }
     }
 
-    fn simulate(&self, generation: u32, index: usize, test: usize, values: &[f64]) -> (Row, bool) {
-        let address = Address { method: self.method.to_owned(), test, generation, index: index as u32 };
-        if let Some(row) = self.archive.recall(&address, values) {
-            return (row, false);
+    /// The cost of a candidate and its simulations: one test after another, until the cost is certain to pass `most`.
+    fn in_every_test(
+        &self,
+        generation: u32,
+        index: usize,
+        values: &[f64],
+        most: f64,
+    ) -> (f64, Vec<(Row, bool)>) {
+        let samples = self.chosen.iter().map(|&k| self.tests[k].target.independent_samples()).sum();
+        let factor = prior_factor(&self.space.parameters, values, samples);
+        let count = self.chosen.len() as f64;
+        let most_wme = most * count / factor;
+        let (mut sum, mut rows) = (0.0, Vec::new());
+        for &test in self.chosen {
+            let (row, new) = self.simulate(generation, index, test, values, most_wme - sum);
+            sum += row.wme.unwrap_or(f64::INFINITY);
+            rows.push((row, new));
+            if sum > most_wme || sum.is_infinite() {
+                break;
+            }
         }
-        let simulated = simulate(self.space, &self.tests[test], values, self.accuracy);
-        (Row::of(address, values, simulated.as_ref()), true)
+        let cost = if rows.len() < self.chosen.len() { f64::INFINITY } else { sum / count * factor };
+        (cost, rows)
     }
 
-    fn cost(&self, rows: &[Row]) -> f64 {
-        let wmes = rows.iter().map(|row| row.wme.unwrap_or(f64::INFINITY));
-        let mean = wmes.sum::<f64>() / rows.len() as f64;
+    fn simulate(
+        &self,
+        generation: u32,
+        index: usize,
+        test: usize,
+        values: &[f64],
+        most_wme: f64,
+    ) -> (Row, bool) {
+        let address = Address { method: self.method.to_owned(), test, generation, index: index as u32 };
+        // What was abandoned before is asked for to its end when there is no limit.
+        let usable = |row: &Row| row.outcome != "abandoned" || most_wme.is_finite();
+        if let Some(row) = self.archive.recall(&address, values).filter(usable) {
+            return (row, false);
+        }
+        let run = self.space.wall(values).ok();
+        let run = run.map(|wall| self.tests[test].simulate_below(&wall, self.accuracy, most_wme));
+        (Row::of(address, values, run.as_ref()), true)
+    }
+}
+
+impl Fit for Objective<'_> {
+    fn fitted(&mut self, generation: u32, candidates: &[Vec<f64>]) -> Result<Vec<Option<Fitted>>> {
+        let jobs = candidates.par_iter().enumerate();
+        let results = jobs.map(|(index, values)| self.fit_every_test(generation, index, values));
+        let mut all = Vec::with_capacity(candidates.len());
+        for (fitted, rows) in results.collect::<Vec<_>>() {
+            let new = rows.iter().map(|row| self.archive.recall(&row.address, &row.values).is_none());
+            let new = new.collect::<Vec<_>>();
+            let simulations = rows.len() as u64;
+            self.archive.keep(rows, &new)?;
+            let cost = fitted.as_ref().map_or(f64::INFINITY, |fitted: &Fitted| fitted.cost);
+            self.archive.show_best(&self.label(), cost, simulations);
+            all.push(fitted);
+        }
+        Ok(all)
+    }
+}
+
+impl Objective<'_> {
+    /// The errors of a candidate in every test one after another; none if a run could not be finished.
+    fn fit_every_test(&self, generation: u32, index: usize, values: &[f64]) -> (Option<Fitted>, Vec<Row>) {
+        let (mut rows, mut residuals, mut sum) = (Vec::new(), Vec::new(), Some(0.0));
+        let wall = self.space.wall(values).ok();
+        for &test in self.chosen {
+            let address = Address { method: self.method.to_owned(), test, generation, index: index as u32 };
+            let run = wall.as_ref().map(|wall| self.tests[test].residuals(wall, self.accuracy));
+            let (simulated, errors) = run.map_or((None, Vec::new()), |(s, errors)| (Some(s), errors));
+            residuals.extend(errors);
+            sum = sum.zip(simulated.as_ref().and_then(|s| s.wme)).map(|(sum, wme)| sum + wme);
+            rows.push(Row::of(address, values, simulated.as_ref()));
+        }
         let samples = self.chosen.iter().map(|&k| self.tests[k].target.independent_samples()).sum();
-        mean * prior_factor(&self.space.parameters, &rows[0].values, samples)
+        let factor = prior_factor(&self.space.parameters, values, samples);
+        (sum.map(|sum| Fitted { cost: sum / self.chosen.len() as f64 * factor, residuals }), rows)
     }
 }
 

@@ -39,7 +39,9 @@ impl PaperDe {
             let trials = (0..self.population)
                 .map(|j| trial_vector(&found.population, j, generation, bounds, draws))
                 .collect::<Vec<_>>();
-            let costs = evaluate.costs(generation, &trials)?;
+            // A trial that costs more than its target is not kept, however much more.
+            let most = found.population.iter().map(|t_av| t_av.cost).collect::<Vec<_>>();
+            let costs = evaluate.costs_below(generation, &trials, &most)?;
             found.evaluations += trials.len();
             // (g) The cheaper of trial and target becomes the j-th column of the last generation.
             for (t_av, t_rv) in found.population.iter_mut().zip(members(trials, costs)) {

@@ -102,6 +102,10 @@ fn notes(t: &super::result::TestResult) -> Vec<String> {
             notes.push(format!("    {name} is measured at rest: errors are relative to α/1000"));
         }
     }
+    if let Some(mismatch) = t.alignment.mismatch {
+        let start_s = t.alignment.start_s;
+        notes.push(format!("    the measurement starts at {start_s:.4} s of the record, found by matching (mismatch {mismatch:.3})"));
+    }
     let time = |s: Option<f64>| s.map_or_else(|| "not".to_owned(), |s| format!("at {s:.2} s"));
     if t.measured_collapse_s.is_some() || t.simulated_collapse_s.is_some() {
         let (m, s) = (time(t.measured_collapse_s), time(t.simulated_collapse_s));

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::alignment::Alignment;
+
 /// Everything a calibration found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Calibration {
@@ -129,7 +131,8 @@ pub struct Estimate {
     pub value: f64,
     /// Whether the tests tell it.
     pub identifiability: Identifiability,
-    /// 2.5 and 97.5 % quantiles over bootstrap replicates; null where it is left at 1.
+    /// 2.5 and 97.5 % quantiles over bootstrap replicates, widened to the vectors that the misfit does not exclude; null
+    /// where it is left at 1.
     pub interval_95: Option<[f64; 2]>,
     /// Whether the value lies on a bound, which then decides it.
     pub on_bound: bool,
@@ -164,6 +167,8 @@ pub struct TestResult {
     pub lost_channels: [bool; 2],
     /// Channels (θ_1, θ_2) measured at rest, whose denominator is the floor.
     pub channels_at_rest: [bool; 2],
+    /// How the clocks of record and measurement were brought together.
+    pub alignment: Alignment,
     /// How many samples of the measurement are independent.
     pub independent_samples: f64,
 }

@@ -43,7 +43,15 @@ pub trait Evaluate {
     ///
     /// # Errors
     /// What keeping the results meets; a candidate that cannot be simulated is no error but costs infinity.
-    fn costs(&mut self, generation: u32, candidates: &[Vec<f64>]) -> Result<Vec<f64>>;
+    fn costs(&mut self, generation: u32, candidates: &[Vec<f64>]) -> Result<Vec<f64>> {
+        self.costs_below(generation, candidates, &vec![f64::INFINITY; candidates.len()])
+    }
+
+    /// The same where a candidate whose cost is certain to be more than its `most` may be abandoned: it costs infinity.
+    ///
+    /// # Errors
+    /// As [`Evaluate::costs`].
+    fn costs_below(&mut self, generation: u32, candidates: &[Vec<f64>], most: &[f64]) -> Result<Vec<f64>>;
 }
 
 /// How a search went.

@@ -2,13 +2,16 @@
 
 use std::path::Path;
 
+use super::alignment::{Alignment, aligned};
+use super::comparison::{Comparison, Errors};
 use super::measured::Measured;
-use super::misfit::{Comparison, Errors, Target};
+use super::misfit::Target;
+use super::shaking::{read_shaking, until};
+use super::windows::{Window, windows};
 use crate::error::{InputError, Result};
-use crate::ground::{Accelerogram, ReadOptions, read};
 use crate::input::experiment::{Purpose, TestTable};
 use crate::model::Wall;
-use crate::simulate::{Accuracy, Outcome, Response, Shaking, simulate_observed};
+use crate::simulate::{Accuracy, History, Outcome, Response, Simulator};
 
 /// One test of an experiment.
 #[derive(Debug, Clone)]
@@ -17,94 +20,167 @@ pub struct Test {
     pub name: String,
     /// Whether the search sees it.
     pub purpose: Purpose,
-    /// The ground motion, up to the end of what counts.
-    pub shaking: Shaking,
-    /// What was measured.
+    /// What was measured, in the record's time.
+    pub measured: Measured,
+    /// What of it counts.
     pub target: Target,
     /// When the measured wall collapsed, s.
     pub collapse_s: Option<f64>,
+    /// How the clocks of record and measurement were brought together.
+    pub alignment: Alignment,
+    /// The ground motion, up to the end of what counts, made ready for the wall as given.
+    simulator: Simulator,
+    windows: Vec<Window>,
 }
 
 /// What one simulation of one test gave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulated {
-    /// Eq. 8; none where the run could not be finished.
+    /// Eq. 8; none where the run could not be finished or was abandoned.
     pub wme: Option<f64>,
-    /// `stood`, `collapsed` or `failed`.
+    /// `stood`, `collapsed`, `failed`, or `abandoned` when Eq. 8 had passed what was worth while.
     pub outcome: &'static str,
-    /// When the simulated wall collapsed, s.
+    /// When the simulated wall collapsed, s; in windows, the last of them that did.
     pub collapse_s: Option<f64>,
     /// Impacts that were changes of Table 2, C_1 … C_8 in order.
     pub transitions: [u64; 8],
     /// The errors by block.
     pub errors: Errors,
+    /// Steps of the integration.
+    pub steps: u64,
 }
 
 impl Test {
     /// Reads a test of an experiment; its paths are relative to `folder`.
     ///
     /// # Errors
-    /// Input errors of the record or the measured file, or if nothing that was measured counts.
-    pub fn load(folder: &Path, table: &TestTable, wall: &Wall) -> Result<Self> {
-        let options = ReadOptions { step_s: table.record_step_s, ..ReadOptions::default() };
-        let record = read(&folder.join(&table.record), &options)?.accelerogram.scaled(table.scale);
+    /// Input errors of the records or the measured file, or if nothing that was measured counts.
+    pub fn load(folder: &Path, table: &TestTable, wall: &Wall, accuracy: Accuracy) -> Result<Self> {
+        let shaking = read_shaking(folder, table)?;
         let path = folder.join(&table.measured);
         let measured = Measured::load(&path, table, wall)?;
+        let (measured, alignment) = aligned(&path, table, measured, wall, &shaking, accuracy)?;
         let target = Target::new(&measured, &table.windows_s, wall).ok_or_else(|| {
             let allowed = "samples in the record's time, inside windows_s, before a collapse, \
                            not all parted by gaps";
             InputError::file(&path, format!("nothing that counts in test {:?}", table.name), allowed)
         })?;
-        let shaking = shaking(&record, target.end_s());
-        let collapse_s = measured.collapse_s;
-        Ok(Self { name: table.name.clone(), purpose: table.purpose, shaking, target, collapse_s })
+        Ok(Self {
+            name: table.name.clone(),
+            purpose: table.purpose,
+            collapse_s: measured.collapse_s,
+            alignment,
+            simulator: Simulator::new(wall, &until(&shaking, target.end_s()), accuracy),
+            windows: vec![Window::whole(&target)],
+            target,
+            measured,
+        })
+    }
+
+    /// The same test in windows from each `reach`-th stretch without impacts, see [`windows`]; between impacts the wall
+    /// moves as the measured one.
+    #[must_use]
+    pub fn in_windows(&self, reach: usize, wall: &Wall, accuracy: Accuracy) -> Self {
+        let windows = windows(&self.target, &self.simulator.with_wall(wall, accuracy), reach);
+        let samples = windows.iter().flat_map(|w| w.samples.iter().copied()).collect();
+        Self { target: self.target.counting(samples), windows, ..self.clone() }
     }
 
     /// The same test up to the time by which a share of the measured motion has passed.
     #[must_use]
     pub fn shortened(&self, share: f64) -> Self {
-        let target = self.target.shortened(share);
-        let shaking = match &self.shaking.horizontal {
-            Some(record) => shaking(record, target.end_s()),
-            None => self.shaking.clone(),
-        };
-        Self { target, shaking, ..self.clone() }
+        let target = self.target.counting(self.target.first_samples(share).to_vec());
+        Self { windows: vec![Window::whole(&target)], target, ..self.clone() }
+    }
+
+    /// Rotations of a wall in the free-running test up to the end of what counts, a row every `step_s` seconds.
+    pub fn history(&self, wall: &Wall, accuracy: Accuracy, step_s: f64) -> History {
+        let simulator = self.simulator.with_wall(wall, accuracy);
+        let mut history = History::new(step_s);
+        simulator.run_from(&simulator.release(), self.target.end_s(), &mut history);
+        history
+    }
+
+    /// How many windows it is simulated in.
+    pub fn window_count(&self) -> usize {
+        self.windows.len()
     }
 
     /// Runs a wall through the test and compares.
     pub fn simulate(&self, wall: &Wall, accuracy: Accuracy) -> Simulated {
-        let mut comparison = Comparison::new(&self.target).read_by(wall.reading());
-        let response = simulate_observed(wall, &self.shaking, accuracy, &mut comparison);
-        self.compared(&response, comparison.errors())
+        self.simulate_below(wall, accuracy, f64::INFINITY)
     }
 
-    fn compared(&self, response: &Response, errors: Errors) -> Simulated {
-        let wme = match response.outcome {
-            Outcome::Failed { .. } => None,
-            _ => Some(self.target.wme(&errors)).filter(|wme| wme.is_finite()),
+    /// The same with the signed error of every sample as it weighs in Eq. 8, θ_1 and θ_2 by turns.
+    pub(super) fn residuals(&self, wall: &Wall, accuracy: Accuracy) -> (Simulated, Vec<f64>) {
+        let mut residuals = Vec::new();
+        let simulated = self.run(wall, accuracy, f64::INFINITY, Some(&mut residuals));
+        (simulated, residuals)
+    }
+
+    /// The same, abandoned as soon as Eq. 8 is certain to be more than `most_wme`.
+    pub fn simulate_below(&self, wall: &Wall, accuracy: Accuracy, most_wme: f64) -> Simulated {
+        self.run(wall, accuracy, most_wme, None)
+    }
+
+    fn run(
+        &self,
+        wall: &Wall,
+        accuracy: Accuracy,
+        most_wme: f64,
+        mut residuals: Option<&mut Vec<f64>>,
+    ) -> Simulated {
+        let simulator = self.simulator.with_wall(wall, accuracy);
+        let weights = self.target.weights();
+        let mut sum = Simulated {
+            wme: None,
+            outcome: "stood",
+            collapse_s: None,
+            transitions: [0; 8],
+            errors: Errors::NONE,
+            steps: 0,
         };
-        let collapse_s = match response.outcome {
-            Outcome::Collapsed { time_s } => Some(time_s),
-            _ => None,
-        };
-        let transitions = response.impacts.table2;
-        Simulated { wme, outcome: response.outcome.name(), collapse_s, transitions, errors }
+        let mut wme = 0.0;
+        for window in &self.windows {
+            let comparison = Comparison::new(&window.samples, weights, most_wme - wme);
+            let mut comparison = comparison.read_by(wall.reading());
+            if residuals.is_some() {
+                comparison = comparison.keeping_residuals();
+            }
+            let response = match &window.start {
+                None => simulator.run_from(&simulator.release(), window.end_s, &mut comparison),
+                Some(start) => simulator.run_from(start, window.end_s, &mut comparison),
+            };
+            wme += comparison.wme();
+            sum.add(&response, &comparison.errors());
+            if let Some(residuals) = &mut residuals {
+                residuals.extend(comparison.into_residuals());
+            }
+            if sum.outcome == "failed" {
+                return sum;
+            }
+            if wme > most_wme {
+                sum.outcome = "abandoned";
+                return sum;
+            }
+        }
+        sum.wme = Some(self.target.wme(&sum.errors)).filter(|wme| wme.is_finite());
+        sum
     }
 }
 
-/// The record cut where nothing counts any more, or free motion added until there.
-///
-/// What comes after a time does not change what came before it, so the cut changes no result.
-fn shaking(record: &Accelerogram, end_s: f64) -> Shaking {
-    let step_s = record.step_s();
-    let samples = record.acceleration_m_s2();
-    let needed = (end_s / step_s).ceil() as usize + 2;
-    let kept = if needed < samples.len() {
-        // A part of a valid record, two samples at least, is valid.
-        Accelerogram::new(step_s, samples[..needed].to_vec()).unwrap_or_else(|_| record.clone())
-    } else {
-        record.clone()
-    };
-    let tail_s = (end_s - kept.duration_s()).max(0.0);
-    Shaking { horizontal: Some(kept), vertical: None, tail_s }
+impl Simulated {
+    fn add(&mut self, response: &Response, errors: &Errors) {
+        match response.outcome {
+            Outcome::Stood => {}
+            Outcome::Collapsed { time_s } => {
+                self.outcome = "collapsed";
+                self.collapse_s = Some(time_s);
+            }
+            Outcome::Failed { .. } => self.outcome = "failed",
+        }
+        self.errors.add(errors);
+        self.transitions.iter_mut().zip(response.impacts.table2).for_each(|(sum, n)| *sum += n);
+        self.steps += response.work.steps;
+    }
 }

@@ -18,8 +18,8 @@ use crate::error::{InputError, Result};
 /// Finds C_1 to C_8 (or any other number of the wall file) that minimise the
 /// weighted mean error between measured and simulated rotations: by the
 /// differential evolution of the paper for each test and cosine similarity for
-/// all tests, and beside it by CMA-ES, for each test and for all tests jointly,
-/// with as many simulations. Says which of them the tests can tell.
+/// all tests, and beside it by Gauss-Newton and CMA-ES, for each test and for all
+/// tests jointly, with no more simulations. Says which of them the tests can tell.
 ///
 /// Examples:
 ///   mrbd calibrate experiment.toml --out calibrated

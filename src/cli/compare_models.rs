@@ -16,9 +16,11 @@ pub fn execute(pipeline: &Path, suite: Option<&Path>, out: Option<&Path>) -> Res
     let comparison = compare(pipeline, suite)?;
     let default = Path::new("outputs").join(&comparison.name);
     write(&comparison, out.unwrap_or(&default))?;
-    for Finding { law, claim, holds, of } in &comparison.findings {
-        eprintln!("{law:<8} {holds:>3} of {of:<3} {claim}");
+    for finding in &comparison.findings {
+        let Finding { law, claim, holds, of } = finding;
+        eprintln!("{} {law:<8} {holds:>3} of {of:<3} {claim}", finding.mark());
     }
+    eprintln!("✓ in every case that can be judged, ✗ not in all of them, - in none to judge");
     output::to_stdout(|out| print_rows(out, &comparison.rows).map_err(output::failed))
 }
 

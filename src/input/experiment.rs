@@ -49,7 +49,7 @@ pub struct CalibrateTable {
     pub settle_generations: usize,
     /// Generations after which the paper's search ends anyway.
     pub most_generations: u32,
-    /// Vectors of each of two last joint searches, beyond those of the comparison at equal numbers of simulations.
+    /// Vectors of a second joint search from another beginning, beyond the comparison at equal numbers of simulations.
     pub refine_vectors: usize,
     /// Capture velocities at which the joint search is repeated, rad/s; empty: none.
     pub capture_study_rad_s: Vec<f64>,
@@ -72,7 +72,7 @@ impl Default for CalibrateTable {
             most_generations: 60,
             refine_vectors: 1500,
             capture_study_rad_s: vec![1e-4, 1e-3, 1e-2],
-            replicates: 200,
+            replicates: 1000,
         }
     }
 }
@@ -102,14 +102,18 @@ pub struct TestTable {
     /// Factor on the record.
     #[serde(default = "one")]
     pub scale: f64,
+    /// Vertical record of the table, at the same step; absent: none.
+    pub vertical: Option<PathBuf>,
+    /// Factor on the vertical record; absent: that on the horizontal one.
+    pub vertical_scale: Option<f64>,
     /// Measured channels (CSV).
     pub measured: PathBuf,
     /// Whether the search sees the test.
     #[serde(default, rename = "use")]
     pub purpose: Purpose,
-    /// Time of the record at which the measured time is zero, s.
+    /// Time of the record at which the measured time is zero, s, or `"match"`: found from the first motion.
     #[serde(default)]
-    pub start_s: f64,
+    pub start_s: StartTime,
     /// The first seconds of the measurement, at rest, whose mean is taken off every channel; 0: nothing is.
     #[serde(default)]
     pub rest_s: f64,
@@ -124,6 +128,35 @@ pub struct TestTable {
     pub lower_reading: Option<Reading>,
     /// Reading of a displacement of the upper body, from which θ_2 follows.
     pub upper_reading: Option<Reading>,
+}
+
+/// When a measurement started.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StartTime {
+    /// Time of the record at which the measured time is zero, s.
+    Given(f64),
+    /// Where the first simulated motion fits best.
+    Match,
+}
+
+impl Default for StartTime {
+    fn default() -> Self {
+        StartTime::Given(0.0)
+    }
+}
+
+impl<'de> Deserialize<'de> for StartTime {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        let refuse = |found: String| {
+            serde::de::Error::custom(format!("start_s: found {found}, allowed: finite seconds, or \"match\""))
+        };
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::Float(start_s) if start_s.is_finite() => Ok(StartTime::Given(start_s)),
+            toml::Value::Integer(start_s) => Ok(StartTime::Given(start_s as f64)),
+            toml::Value::String(word) if word == "match" => Ok(StartTime::Match),
+            other => Err(refuse(other.to_string())),
+        }
+    }
 }
 
 /// A horizontal displacement relative to the table, m.
@@ -254,7 +287,14 @@ impl TestTable {
         };
         require("name", format!("{:?}", self.name), !self.name.trim().is_empty(), "a name")?;
         require("scale", self.scale.to_string(), self.scale.is_finite(), "a finite number")?;
-        require("start_s", self.start_s.to_string(), self.start_s.is_finite(), "a finite number")?;
+        let vertical_scale = self.vertical_scale;
+        let holds = vertical_scale.is_none_or(|x| x.is_finite() && self.vertical.is_some());
+        require(
+            "vertical_scale",
+            format!("{vertical_scale:?}"),
+            holds,
+            "a finite number, beside a vertical record",
+        )?;
         let rest_holds = self.rest_s.is_finite() && self.rest_s >= 0.0;
         require("rest_s", self.rest_s.to_string(), rest_holds, "a finite number of seconds, 0 or more")?;
         let gap_holds = self.gap_s.is_none_or(|gap| gap.is_finite() && gap > 0.0);

@@ -84,9 +84,13 @@ impl Simulator {
 
     /// The whole run, from the wall's initial rotations at rest.
     pub fn run(&self, observer: &mut impl Observer) -> Response {
+        self.run_from(&self.release(), self.end_s(), observer)
+    }
+
+    /// Where the whole run starts: with the wall's initial rotations, at rest.
+    pub fn release(&self) -> Start {
         let theta = self.wall.wall().parameters().initial_rotation_rad;
-        let start = Start { time_s: 0.0, state: State { theta, omega: [0.0; 2] }, ..Start::default() };
-        self.run_from(&start, self.end_s(), observer)
+        Start { state: State { theta, omega: [0.0; 2] }, ..Start::default() }
     }
 
     /// A window of a run: from a given start to `end_s`, or to a collapse. A window after the record is free motion.

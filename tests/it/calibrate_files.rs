@@ -51,6 +51,62 @@ fn analytic_other_start_times_offsets_rates_and_gaps_leave_no_misfit() {
     assert!((counted[0] - (whole - 0.4)).abs() < 0.05, "{counted:?} of {whole}: the gap does not count");
 }
 
+/// A test whose clock is 12.3456 s late, at half the rate, with noise of some 1e-4 rad; its start is to be matched by a
+/// wall of this file.
+fn matched(wall: &str) -> mrbd::error::Result<Experiment> {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let lines = "start_s = \"match\"\n";
+    let twin = Twin { scales: vec![0.7], test_lines: lines.into(), ..Twin::of(ImpactLaw::Contact) };
+    let path = twin.write(folder.path());
+    std::fs::copy(folder.path().join(wall), folder.path().join("matching.toml")).expect("copied");
+    std::fs::rename(folder.path().join("matching.toml"), folder.path().join("wall.toml")).expect("renamed");
+    let measured = folder.path().join("measured_0.csv");
+    let text = std::fs::read_to_string(&measured).expect("the measured file");
+    let mut out = vec![HEADER.to_owned()];
+    for line in text.lines().skip(1).step_by(2) {
+        let cells = line.split(',').map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>();
+        let noise = 1e-4 * (1e3 * cells[0]).sin();
+        out.push(format!("{:?},{:?},{:?}", cells[0] + 12.3456, cells[1] + noise, cells[2] - noise));
+    }
+    std::fs::write(&measured, out.join("\n")).expect("writable");
+    Experiment::load(&path, None)
+}
+
+#[test]
+fn analytic_another_start_time_is_found_by_matching_the_first_motion() {
+    let found = matched("true.toml").expect("a beginning that fits").tests[0].alignment;
+    // A tenth of a sample of the record; halving ends at a microsecond.
+    assert!(found.matched && (found.start_s + 12.3456).abs() < 5e-4, "{found:?}");
+}
+
+#[test]
+fn rejects_a_start_time_that_the_wall_as_given_cannot_match() {
+    // Its first visible motion comes after impacts that other coefficients would have made different.
+    let refused = matched("wall.toml").expect_err("C_l = 1 does not fit");
+    assert_eq!(refused.exit_code(), 2);
+    assert!(refused.to_string().contains("the least mismatch is"), "{refused}");
+}
+
+#[test]
+fn analytic_a_vertical_record_acts() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let twin = Twin {
+        scales: vec![0.7],
+        test_lines: "vertical = \"up.csv\"\n".into(),
+        ..Twin::of(ImpactLaw::Contact)
+    };
+    let path = twin.write(folder.path());
+    let wme = |up: f64| {
+        let rows = (0..=1200)
+            .map(|k| format!("{:.3},{:?}\n", 0.005 * f64::from(k), up * (0.02 * f64::from(k)).sin()));
+        let text = std::iter::once("time_s,acceleration_m_s2\n".to_owned()).chain(rows).collect::<String>();
+        std::fs::write(folder.path().join("up.csv"), text).expect("writable");
+        wme_of_truth(&Experiment::load(&path, None).expect("a valid experiment"))
+    };
+    // The twin was simulated without one: none leaves no misfit, two metres a second squared some.
+    assert!(wme(0.0) < 1e-9 && wme(2.0) > 0.01, "{} {}", wme(0.0), wme(2.0));
+}
+
 #[test]
 fn analytic_a_lost_channel_and_missing_samples_drop_their_part_of_the_sum() {
     let (_folder, experiment) = rewritten("", |k, t, [theta1, theta2]| {
@@ -139,6 +195,8 @@ fn rejects_faults_of_experiments_with_file_and_key() {
     assert!(experiment("\"C_1\"", impossible).contains("bounds of corners.lower_width_m: found 0.4"));
     assert!(experiment("start_s = 0.0", "use = \"hold-out\"").contains("at least one test with use"));
     assert!(experiment("start_s = 0.0", "use = \"train\"").contains("train"));
+    assert!(experiment("start_s = 0.0", "start_s = \"soon\"").contains("finite seconds, or \"match\""));
+    assert!(experiment("start_s = 0.0", "vertical_scale = 2.0").contains("beside a vertical record"));
     assert!(experiment("start_s = 0.0", "windows_s = [[2.0, 1.0]]").contains("tests[0].windows_s"));
     assert!(experiment("start_s = 0.0", "windows_s = [[90.0, 91.0]]").contains("nothing that counts"));
     assert!(experiment("record.csv", "none.csv").contains("none.csv"));

@@ -9,8 +9,9 @@ const N: usize = 8;
 struct Function(fn(&[f64]) -> f64);
 
 impl Evaluate for Function {
-    fn costs(&mut self, _: u32, candidates: &[Vec<f64>]) -> Result<Vec<f64>> {
-        Ok(candidates.iter().map(|x| (self.0)(x)).collect())
+    fn costs_below(&mut self, _: u32, candidates: &[Vec<f64>], most: &[f64]) -> Result<Vec<f64>> {
+        let cost = |x: &[f64], most: f64| Some((self.0)(x)).filter(|cost| *cost <= most);
+        Ok(candidates.iter().zip(most).map(|(x, most)| cost(x, *most).unwrap_or(f64::INFINITY)).collect())
     }
 }
 
@@ -60,7 +61,7 @@ fn analytic_every_search_finds_the_minimum_of_a_sphere() {
     assert!(found.best().cost < 1e-10, "{}", found.best().cost);
     assert_eq!(found.evaluations, 8000);
     let mut cloud = CmaEs::new(&[0.9; N], &unit(), 0.3, 12);
-    let found = cloud.minimise(&unit(), 3000, &draws, &mut Function(sphere)).expect("no simulation");
+    let found = cloud.minimise(&unit(), 3000, 0.0, &draws, &mut Function(sphere)).expect("no simulation");
     // Linear convergence by about a tenth every 10 n evaluations.
     assert!(found.best().cost < 1e-16, "{}", found.best().cost);
 }
@@ -69,7 +70,7 @@ fn analytic_every_search_finds_the_minimum_of_a_sphere() {
 fn analytic_the_cloud_goes_down_a_slanting_valley_further_than_differential_evolution() {
     let draws = Draws::new(5, "valley");
     let mut cloud = CmaEs::new(&[0.5; N], &unit(), 0.3, 24);
-    let cma = cloud.minimise(&unit(), 6000, &draws, &mut Function(valley)).expect("no simulation");
+    let cma = cloud.minimise(&unit(), 6000, 0.0, &draws, &mut Function(valley)).expect("no simulation");
     let de = paper().minimise(&unit(), &draws, &mut Function(valley)).expect("no simulation");
     // The valley's floor falls by 1 for each unit of a variable: 0.01 is a hundredth of the bounds in all.
     assert!(cma.best().cost < 0.01, "{}", cma.best().cost);

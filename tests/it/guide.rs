@@ -19,9 +19,19 @@ fn shell_blocks(page: &str) -> Vec<&str> {
 
 #[test]
 fn regress_the_commands_of_the_guide_run_as_they_stand() {
-    let page = text("docs/commands.md");
+    run_as_they_stand("docs/commands.md", 15);
+}
+
+#[test]
+fn regress_the_commands_of_the_calibration_run_as_they_stand() {
+    run_as_they_stand("docs/calibration.md", 3);
+}
+
+/// Runs the blocks of a page one after another, more than `least` of them.
+fn run_as_they_stand(page: &str, least: usize) {
+    let page = text(page);
     let blocks = shell_blocks(&page);
-    assert!(blocks.len() > 15, "{} blocks", blocks.len());
+    assert!(blocks.len() > least, "{} blocks", blocks.len());
     let folder = tempfile::tempdir().expect("a temporary folder");
     let program = Path::new(env!("CARGO_BIN_EXE_mrbd")).parent().expect("a folder");
     let path = format!("{}:{}", program.display(), std::env::var("PATH").expect("a path"));

@@ -11,9 +11,8 @@ use super::stored::{Stored, StoredTest};
 use super::wme;
 use crate::calibrate::{Experiment, Measured};
 use crate::error::Result;
-use crate::input::experiment::{ExperimentFile, TestTable};
 use crate::model::Wall;
-use crate::simulate::{History, simulate_observed};
+use crate::simulate::History;
 
 /// Measured rotations: dark grey under the simulated ones.
 const MEASURED: Colour = PALETTE[6];
@@ -24,7 +23,6 @@ const STEP_S: f64 = 0.01;
 pub struct Again {
     experiment: Experiment,
     wall: Wall,
-    measured: Vec<Measured>,
 }
 
 impl Again {
@@ -36,12 +34,7 @@ impl Again {
             return None;
         }
         let wall = experiment.space.wall(&stored.joint.values).ok()?;
-        let nominal = experiment.space.wall(&experiment.space.nominal()).ok()?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let tables = ExperimentFile::load(&path).ok()?.tests;
-        let load = |table: &TestTable| Measured::load(&folder.join(&table.measured), table, &nominal).ok();
-        let measured = tables.iter().map(load).collect::<Option<_>>()?;
-        Some(Self { experiment, wall, measured })
+        Some(Self { experiment, wall })
     }
 }
 
@@ -70,7 +63,7 @@ pub fn section(again: Option<&Again>, stored: &Stored) -> Result<Section> {
 fn figure(again: &Again, index: usize, test: &StoredTest) -> Result<Figure> {
     let simulated = simulated(again, index);
     let alpha = again.wall.alpha_i_rad();
-    let measured = &again.measured[index];
+    let measured = &again.experiment.tests[index].measured;
     let mut panels = Vec::new();
     let bodies = if again.wall.is_cracked() { 2 } else { 1 };
     for (body, &alpha) in alpha.iter().enumerate().take(bodies) {
@@ -104,10 +97,7 @@ fn key(label: &str, colour: Colour) -> Key {
 }
 
 fn simulated(again: &Again, index: usize) -> History {
-    let mut history = History::new(STEP_S);
-    let test = &again.experiment.tests[index];
-    simulate_observed(&again.wall, &test.shaking, again.experiment.accuracy(), &mut history);
-    history
+    again.experiment.tests[index].history(&again.wall, again.experiment.accuracy(), STEP_S)
 }
 
 /// Measured samples, broken where samples are missing; none for a channel that is lost.
