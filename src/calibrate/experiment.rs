@@ -8,6 +8,7 @@ use super::space::ParameterSpace;
 use super::trial::Test;
 use crate::error::{InputError, Result};
 use crate::input::experiment::{CalibrateTable, ExperimentFile, Purpose};
+use crate::model::Wall;
 use crate::simulate::Accuracy;
 
 /// An experiment ready to be calibrated.
@@ -35,14 +36,16 @@ impl Experiment {
     pub fn load(path: &Path, seed: Option<u64>) -> Result<Self> {
         let file = ExperimentFile::load(path)?;
         let space = ParameterSpace::load(path, &file)?;
-        let nominal = space.wall(&space.nominal())?;
+        // With C_l as in its file, which a start time is matched by.
+        let given =
+            Wall::new(space.base().clone()).map_err(|e| InputError::key(path, e.key, e.found, e.allowed))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let settings = CalibrateTable { seed: seed.unwrap_or(file.calibrate.seed), ..file.calibrate.clone() };
         let accuracy = Accuracy { tolerance: settings.tolerance };
         let tests = file
             .tests
             .iter()
-            .map(|table| Test::load(folder, table, &nominal, accuracy))
+            .map(|table| Test::load(folder, table, &given, accuracy))
             .collect::<Result<Vec<_>>>()?;
         let files = files(path, &file);
         let request = request(&files, &settings)?;
