@@ -9,7 +9,7 @@ use crate::ground::Site;
 
 /// Make one HTML page of a folder of results: figures, conclusions, assumptions, provenance.
 ///
-/// For a sweep, a calibration, a comparison of models, an overturning spectrum, or a history of `mrbd simulate`.
+/// For a sweep, drawn façades, a calibration, a comparison of models, an overturning spectrum, or a history of `mrbd simulate`.
 /// The page is DIR/report.html, or FILE.html beside a history; it needs no network and nothing but itself, its links lead to the files beside it.
 #[derive(Debug, Args)]
 pub struct ReportCommand {

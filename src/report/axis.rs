@@ -64,6 +64,11 @@ impl Axis {
         ((along(value) - from) / (to - from)).clamp(0.0, 1.0)
     }
 
+    /// The values at its start and its end.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.from, self.to]
+    }
+
     /// Whether a value lies on the axis.
     pub fn holds(&self, value: f64) -> bool {
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
@@ -103,14 +108,13 @@ impl Axis {
     }
 }
 
-/// A number beside an axis.
+/// A number beside an axis; very small and very large ones to two digits.
 fn number(value: f64) -> String {
-    let size = value.abs();
-    if size != 0.0 && !(1e-3..1e6).contains(&size) {
-        format!("{value:.0e}").replace('-', "−")
-    } else {
-        tick(value)
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        return tick(value);
     }
+    let text = format!("{value:.1e}");
+    text.replacen(".0e", "e", 1).replace('-', "−")
 }
 
 fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
@@ -130,6 +134,7 @@ mod tests {
     fn analytic_ticks_are_round_and_few() {
         assert_eq!(texts(&Axis::linear("", 0.0, 1.0), 5), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
         assert_eq!(texts(&Axis::linear("", -3.0, 7.0), 6), ["−2", "0", "2", "4", "6"]);
+        assert_eq!(texts(&Axis::linear("", 1e7, 2e7), 2), ["1e7", "1.5e7", "2e7"]);
         assert_eq!(
             texts(&Axis::log_holding("", [0.01, 1.0]), 8),
             ["0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1"]

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::page::Page;
 use super::provenance::read_json;
-use super::{calibration, comparison, history, overturning, sweep};
+use super::{calibration, comparison, drawn, history, overturning, sweep};
 use crate::error::{Error, InputError, Result};
 use crate::ground::Site;
 use crate::store::{Manifest, write_durably};
@@ -59,12 +59,8 @@ fn page_of(folder: &Path, site: Option<&Site>) -> Result<Page> {
 
 fn study(folder: &Path, path: &Path, site: Option<&Site>) -> Result<Page> {
     match Manifest::read(path)? {
-        Some(manifest) if !manifest.kind.is_drawn() => sweep::page(folder, &manifest, site),
-        Some(manifest) => {
-            let found = format!("a study of kind {:?}", manifest.kind.name());
-            let allowed = "a sweep; `mrbd aggregate` and `mrbd fragility` tell of drawn façades";
-            Err(InputError::file(folder, found, allowed).into())
-        }
+        Some(manifest) if manifest.kind.is_drawn() => drawn::page(folder, &manifest, site),
+        Some(manifest) => sweep::page(folder, &manifest, site),
         None => Err(InputError::file(path, "nothing there", RESULTS).into()),
     }
 }

@@ -58,7 +58,6 @@ pub struct Dot {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Layer {
     /// Between two ordinates: an interval along the abscissa. Points are (x, lower y, upper y).
-    #[allow(dead_code, reason = "a block that pages of fragilities are made with")]
     Band { colour: Colour, points: Vec<(f64, f64, f64)> },
     /// Points joined by lines, with a name told under the pointer.
     Line { colour: Colour, width: u32, dashed: bool, name: String, points: Vec<(f64, f64)> },

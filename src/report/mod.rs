@@ -9,6 +9,7 @@
 //! | `folder` | which kind of results a folder holds, and its page |
 //! | `sweep` | the paper's figures 12 and 14 to 20 from the medians and runs of a sweep |
 //! | `run` | one run: histories, and the wall in motion |
+//! | `drawn` | drawn façades: fragilities with intervals and data, quantiles, draws against the survey |
 //! | `history` | a history file |
 //! | `calibration` | measured against simulated, intervals, convergence (Figs. 6 to 8) |
 //! | `comparison` | three models of a wall under the same records (Fig. 9) |
@@ -31,6 +32,7 @@ mod calibration;
 mod colours;
 mod comparison;
 mod curves;
+mod drawn;
 mod folder;
 mod graph;
 mod history;

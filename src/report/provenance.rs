@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
 use super::page::{Link, address};
-use crate::aggregate::Medians;
+use crate::aggregate::VariantNote;
 use crate::error::{InputError, Result};
 use crate::store::{FileNote, Manifest, file_sha256, run_files};
 
@@ -109,7 +109,7 @@ pub fn read_json<T: DeserializeOwned>(path: &Path, allowed: &str) -> Result<T> {
 }
 
 /// What a reader must know before the figures: generated records, assumptions, failed runs.
-pub fn notes(manifest: &Manifest, medians: &Medians) -> Vec<String> {
+pub fn notes(manifest: &Manifest, variants: &[VariantNote]) -> Vec<String> {
     let suite = &manifest.suite;
     let mut notes = vec![if suite.generated {
         format!(
@@ -122,13 +122,13 @@ pub fn notes(manifest: &Manifest, medians: &Medians) -> Vec<String> {
             suite.name
         )
     }];
-    if let Some(base) = medians.variants.first() {
+    if let Some(base) = variants.first() {
         notes.push(format!(
             "Assumed where the paper is silent (variant “{}”): strip of {} m, density {} kg/m³, impact law “{}”, capture velocity {:e} rad/s.",
             base.name, base.length_m, base.density_kg_m3, base.law, base.capture_velocity_rad_s
         ));
     }
-    let failed: u64 = medians.variants.iter().map(|variant| variant.failed).sum();
+    let failed: u64 = variants.iter().map(|variant| variant.failed).sum();
     if failed > 0 {
         notes.push(format!("{failed} runs failed and take no part in the medians."));
     }

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use super::page::{Number, Page, Section};
 use super::provenance;
-use crate::aggregate::{Medians, aggregate, write_medians};
+use crate::aggregate::{Medians, VariantNote, aggregate, write_medians};
 use crate::error::{InputError, Result};
 use crate::findings::{FINDINGS, Verdict, View};
 use crate::ground::Site;
@@ -31,13 +31,13 @@ pub fn page(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<P
     if manifest.suite.records.len() > 1 {
         sections.push(by_record::section(folder, &view, &links)?);
     }
-    sections.push(spectra::section(spectra::suite_of(folder, manifest).as_ref(), site)?);
-    sections.extend([findings(&medians, &view), assumptions(&medians)]);
+    sections.push(records(folder, manifest, site)?);
+    sections.extend([findings(&medians, &view), assumptions(&medians.variants)]);
     Ok(Page {
         title: format!("Sweep “{}”", manifest.plan),
         lead: lead(manifest),
         numbers: numbers(&medians, &view),
-        notes: provenance::notes(manifest, &medians),
+        notes: provenance::notes(manifest, &medians.variants),
         sections,
         provenance: provenance::of(manifest),
         files: provenance::files(links),
@@ -84,12 +84,21 @@ fn findings(medians: &Medians, view: &View) -> Section {
     }
 }
 
-fn assumptions(medians: &Medians) -> Section {
+/// The spectra of a study's records, against the code of a site where one is given.
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub(super) fn records(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<Section> {
+    spectra::section(spectra::suite_of(folder, manifest).as_ref(), site)
+}
+
+/// What every variant assumes, and how its runs ended.
+pub(super) fn assumptions(variants: &[VariantNote]) -> Section {
     Section {
         id: "assumptions".into(),
         title: "What the paper leaves open, and what was assumed".into(),
         text: vec!["The first variant is the one the figures show.".into()],
-        tables: vec![tables::assumptions(medians)],
+        tables: vec![tables::assumptions(variants)],
         ..Section::default()
     }
 }

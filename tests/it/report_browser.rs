@@ -6,7 +6,9 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-use crate::report_kinds::{calibration_page, comparison_page, history_page, overturning_page};
+use crate::report_kinds::{
+    STRIPES, calibration_page, comparison_page, drawn_page, history_page, overturning_page,
+};
 use crate::report_pages::{run_page, sweep_page};
 
 /// Chromium without a window, a profile or the network.
@@ -207,5 +209,12 @@ fn regress_overturning_page_in_chromium() {
 #[ignore = "needs chromium: make test-browser"]
 fn regress_history_page_in_chromium() {
     let (_folder, page) = history_page("parquet");
+    figures_work(&page);
+}
+
+#[test]
+#[ignore = "needs chromium: make test-browser"]
+fn regress_drawn_page_in_chromium() {
+    let (_folder, page) = drawn_page(STRIPES);
     figures_work(&page);
 }

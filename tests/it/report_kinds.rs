@@ -63,6 +63,60 @@ pub fn history_page(extension: &str) -> (tempfile::TempDir, PathBuf) {
     (folder, page)
 }
 
+/// The page of a study of façades drawn from the survey, `tables` telling its kind.
+pub fn drawn_page(tables: &str) -> (tempfile::TempDir, PathBuf) {
+    let folder = study(SMALL);
+    let pipeline = format!(
+        "name = \"drawn\"\nsurvey = \"survey.toml\"\ncoefficients = \"coefficients.toml\"\nsuite = \"suite.toml\"\n\
+         {tables}\n[sampling]\ncount = 12\n[[variants]]\nname = \"base\"\n[[variants]]\nname = \"contact\"\nset = {{ law = \"contact\" }}\n"
+    );
+    fs::write(folder.path().join("drawn.toml"), pipeline).expect("written");
+    stdout(&mrbd(folder.path(), &["run", "drawn.toml"]));
+    let page = report(folder.path(), "outputs/drawn");
+    (folder, page)
+}
+
+pub const STRIPES: &str = "kind = \"stripes\"\n[stripes]\nmeasure = \"pgv_m_s\"\nlevels = [0.1, 0.4, 1.6]";
+
+#[test]
+fn analytic_the_page_of_stripes_has_their_shares_and_the_draws() {
+    let (folder, path) = drawn_page(STRIPES);
+    let page = fs::read_to_string(&path).expect("the page");
+    for part in
+        ["generated, not measured", "probability", "pgv_m_s", "collapse", "|θᵢ|/αᵢ &gt; 0.05", "12 façades"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+    // Each floor: a point a stripe and limit, of 12 façades under 2 records.
+    let points = page.matches(" of 24 near ").count();
+    assert_eq!(points, 2 * 2 * 3, "two floors, two limits, three stripes");
+    // Fragility and spectra; quantiles of each floor and stripe; draws of the variables that vary, m_dp/m_tot under one floor.
+    assert_eq!(panels(&page), 2 + 1 + 2 * 3 + (6 + 7));
+    assert!(followed_links(&path).1 >= 10);
+    let survey = folder.path().join("survey.toml");
+    let text = fs::read_to_string(&survey).expect("the survey");
+    fs::write(&survey, text + "\n# another one\n").expect("written");
+    let page = fs::read_to_string(report(folder.path(), "outputs/drawn")).expect("the page");
+    assert!(page.contains("or is another one now: its distributions cannot be drawn"));
+}
+
+#[test]
+fn regress_pages_of_every_kind_of_drawn_study() {
+    let incremental = "kind = \"incremental\"\nconfigurations = [\"parallel\"]\n[incremental]\nlimits = [\"collapse\", 0.1]\n\
+                       measure = \"pga_g\"\nfrom = 0.2\nto = 4.0\ngrowth = 1.5\nbracket = 1.2";
+    let cloud = "kind = \"cloud\"\n[cloud]\nfrom = 0.2\nto = 3.0";
+    for (tables, title) in [
+        ("kind = \"monte_carlo\"", "Monte Carlo study “drawn”"),
+        (cloud, "Cloud of runs “drawn”"),
+        (incremental, "Incremental analyses “drawn”"),
+    ] {
+        let (_folder, path) = drawn_page(tables);
+        let page = fs::read_to_string(&path).expect("the page");
+        assert!(page.contains(title) && !page.contains("NaN"), "{title}");
+        assert!(followed_links(&path).1 >= 8, "{title}");
+    }
+}
+
 #[test]
 fn regress_a_calibration_page_draws_its_tests_again_while_they_are_the_same() {
     let (folder, path) = calibration_page();

@@ -56,7 +56,7 @@ pub fn by_variant(medians: &Medians) -> Table {
 }
 
 /// The assumptions of every variant and how its runs ended.
-pub fn assumptions(medians: &Medians) -> Table {
+pub fn assumptions(variants: &[VariantNote]) -> Table {
     let row = |v: &VariantNote| {
         let residual = v.energy_residual.map_or("–".to_owned(), |residual| format!("{residual:.0e}"));
         [
@@ -92,6 +92,6 @@ pub fn assumptions(medians: &Medians) -> Table {
                 .into(),
         prose: false,
         head: heads(&names),
-        rows: medians.variants.iter().map(row).collect(),
+        rows: variants.iter().map(row).collect(),
     }
 }

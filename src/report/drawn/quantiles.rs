@@ -1,0 +1,132 @@
+//! Quantiles of the response over façades, record by record; over records too, along the intensity of stripes.
+
+use super::super::axis::Axis;
+use super::super::colours::Mark;
+use super::super::colours::PALETTE;
+use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::page::{Figure, Key, Section};
+use super::{medians, titled};
+use crate::aggregate::{Distribution, Distributions, VariantNote};
+use crate::error::Result;
+use crate::input::pipeline::Kind;
+
+/// Places of the 16, 50 and 84 % quantiles among those that are told.
+const LOW: usize = 1;
+const MIDDLE: usize = 3;
+const HIGH: usize = 5;
+
+/// Quantities and their names in the legend.
+fn quantities(kind: Kind) -> &'static [(&'static str, &'static str)] {
+    match kind {
+        Kind::Incremental => &[("intensity", "intensity that reaches the limit")],
+        _ => &[
+            ("theta1_max_over_alpha1", "|θ₁|/α₁, lower body"),
+            ("theta2_max_over_alpha2", "|θ₂|/α₂, upper body"),
+        ],
+    }
+}
+
+/// The section: a panel a floor (and limit, or stripe).
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
+    let own: Vec<&Distribution> =
+        study.rows.iter().filter(|row| row.variant == base.name && row.record.is_some()).collect();
+    let mut groups: Vec<(String, String)> = Vec::new();
+    for row in &own {
+        let group = (row.configuration.clone(), row.stratum(study.measure.as_deref()));
+        if !groups.contains(&group) {
+            groups.push(group);
+        }
+    }
+    let x = axis(study, &own);
+    let panel = |(configuration, stratum): &(String, String)| {
+        let own: Vec<&Distribution> = own
+            .iter()
+            .copied()
+            .filter(|row| {
+                row.configuration == *configuration && row.stratum(study.measure.as_deref()) == *stratum
+            })
+            .collect();
+        panel(study.kind, &format!("{configuration} floor {stratum}"), &own, &x)
+    };
+    let key = |(index, (_, label)): (usize, &(&str, &str))| Key {
+        label: (*label).to_owned(),
+        colour: PALETTE[index].hex(),
+        mark: Mark::Circle,
+    };
+    let mut section = titled("quantiles", "The response, record by record");
+    section.figures.push(Figure {
+        id: "quantiles-by-record".into(),
+        title: "16, 50 and 84 % of the façades".into(),
+        legend: quantities(study.kind).iter().enumerate().map(key).collect(),
+        panels: groups.iter().map(panel).collect::<Result<_>>()?,
+        caption: "Bars from the 16 % to the 84 % quantile over the façades, points at the median. A bar to the end of the axis: the quantile lies among walls that collapsed, or never reached the limit.".into(),
+        links: medians(),
+        ..Figure::default()
+    });
+    Ok(section)
+}
+
+fn axis(study: &Distributions, own: &[&Distribution]) -> Axis {
+    let label = match study.kind {
+        Kind::Incremental => study.measure.as_deref().unwrap_or("intensity"),
+        _ => "max |θᵢ|/αᵢ",
+    };
+    let shown = own.iter().filter(|row| quantities(study.kind).iter().any(|(name, _)| *name == row.quantity));
+    // Rotations below a thousandth of α are rest.
+    Axis::log_holding(
+        label,
+        shown.flat_map(|row| row.quantiles[LOW..=HIGH].iter().flatten()).map(|v| v.max(1e-3)),
+    )
+}
+
+fn panel(kind: Kind, title: &str, own: &[&Distribution], x: &Axis) -> Result<String> {
+    let mut records: Vec<&str> = Vec::new();
+    for row in own {
+        let record = row.record.as_deref().unwrap_or("");
+        if !records.contains(&record) {
+            records.push(record);
+        }
+    }
+    let quantities = quantities(kind);
+    let mut layers = Vec::new();
+    for (index, (name, label)) in quantities.iter().enumerate() {
+        let offset = if quantities.len() > 1 { 0.36 * index as f64 - 0.18 } else { 0.0 };
+        let rows = own.iter().filter(|row| row.quantity == *name);
+        let place = |row: &Distribution| {
+            let at = records.iter().position(|record| row.record.as_deref() == Some(record));
+            at.unwrap_or(0) as f64 + offset
+        };
+        let end = x.ends()[1];
+        let value = |quantile: Option<f64>| quantile.unwrap_or(end);
+        let spans = rows.clone().map(|row| {
+            let y = place(row);
+            [(value(row.quantiles[LOW]), y), (value(row.quantiles[HIGH]), y)]
+        });
+        let told =
+            |quantile: Option<f64>| quantile.map_or("beyond".to_owned(), |value| format!("{value:.4}"));
+        let dots = rows.clone().map(|row| {
+            let [low, middle, high] = [LOW, MIDDLE, HIGH].map(|at| told(row.quantiles[at]));
+            let record = row.record.as_deref().unwrap_or("");
+            let tip = format!(
+                "{record}: {label}\n16 % {low}\nmedian {middle}\n84 % {high}\n{} of {} beyond",
+                row.beyond, row.runs
+            );
+            Dot { x: value(row.quantiles[MIDDLE]), y: place(row), tip }
+        });
+        let colour = PALETTE[index];
+        layers.push(Layer::Spans { colour, width: 4, spans: spans.collect() });
+        layers.push(Layer::Dots { colour, mark: Mark::Circle, size: 6, hollow: false, dots: dots.collect() });
+    }
+    let names = records.iter().map(|&record| record.to_owned()).collect();
+    Graph {
+        title: title.trim().to_owned(),
+        format: Format::Half,
+        x: x.clone(),
+        y: Axis::names("", names),
+        layers,
+    }
+    .svg()
+}

@@ -1,0 +1,163 @@
+//! The façades that were drawn, against the distributions of the survey.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use super::super::axis::Axis;
+use super::super::colours::{Mark, PALETTE};
+use super::super::graph::{Format, Graph, Layer};
+use super::super::page::{Figure, Key, Link, Section};
+use super::titled;
+use crate::aggregate::VariantNote;
+use crate::error::Result;
+use crate::fragility::Table;
+use crate::input::survey::{Configuration, Survey};
+use crate::sampling::{FacadeSampler, Marginal, Sampling, Variable};
+use crate::store::{Manifest, file_sha256};
+
+/// Bars of a histogram.
+const BARS: usize = 24;
+/// Points of a density.
+const POINTS: u32 = 160;
+
+/// The section: a figure a floor, a panel a variable that varies.
+///
+/// # Errors
+/// Whatever reading the runs and drawing meet.
+pub fn section(folder: &Path, manifest: &Manifest, base: &VariantNote, links: &[Link]) -> Result<Section> {
+    let mut section = titled("samples", "The façades drawn, against the survey");
+    let names: Vec<&str> = Variable::ALL.iter().map(|variable| variable.name()).collect();
+    let columns = [&["variant", "configuration", "draw"][..], &names].concat();
+    let table = Table::read(folder, &columns)?;
+    let survey = survey(manifest);
+    if survey.is_none() {
+        section.text.push(
+            "The survey is no longer where the study read it, or is another one now: its distributions cannot be drawn.".into(),
+        );
+    }
+    for configuration in Configuration::ALL {
+        let rows = one_row_a_draw(&table, base, configuration)?;
+        if rows.is_empty() {
+            continue;
+        }
+        let sampler = survey
+            .as_ref()
+            .and_then(|(survey, sampling)| FacadeSampler::new(survey, configuration, sampling).ok());
+        section.figures.push(figure(&table, &rows, configuration, sampler.as_ref(), links)?);
+    }
+    Ok(section)
+}
+
+/// The survey and how it was sampled, if the file is still where it was and still the same.
+fn survey(manifest: &Manifest) -> Option<(Survey, Sampling)> {
+    let file = manifest.inputs.iter().find(|input| input.role == "survey")?;
+    let path = Path::new(&file.path);
+    let same = file_sha256(path).is_ok_and(|sha256| sha256 == file.sha256);
+    let sampling = serde_json::from_value(manifest.study.get("sampling")?.clone()).ok()?;
+    same.then(|| Survey::load(path).ok()).flatten().map(|survey| (survey, sampling))
+}
+
+/// Rows of the first variant, each draw once.
+fn one_row_a_draw(table: &Table, base: &VariantNote, configuration: Configuration) -> Result<Vec<usize>> {
+    let (variants, floors, draws) =
+        (table.labels("variant")?, table.labels("configuration")?, table.labels("draw")?);
+    let mut seen = BTreeSet::new();
+    let own = |&row: &usize| {
+        variants[row] == base.name && floors[row] == configuration.name() && seen.insert(draws[row].as_str())
+    };
+    Ok((0..table.rows()).filter(own).collect())
+}
+
+fn figure(
+    table: &Table,
+    rows: &[usize],
+    configuration: Configuration,
+    sampler: Option<&FacadeSampler>,
+    links: &[Link],
+) -> Result<Figure> {
+    let mut panels = Vec::new();
+    for variable in Variable::ALL {
+        let all = table.numbers(variable.name())?;
+        let values: Vec<f64> = rows.iter().filter_map(|&row| all[row]).collect();
+        let varies = values.iter().any(|value| *value != values[0]);
+        if varies {
+            panels.push(panel(variable, &values, sampler.map(|sampler| sampler.marginal(variable)))?);
+        }
+    }
+    let key = |label: &str, index: usize| Key {
+        label: label.into(),
+        colour: PALETTE[index].hex(),
+        mark: Mark::None,
+    };
+    Ok(Figure {
+        id: format!("samples-{}", configuration.name()),
+        title: format!("{} floor: {} façades", configuration.name(), rows.len()),
+        legend: vec![key("drawn", 5), key("survey", 1)],
+        panels,
+        caption: "Bars: density of the values that were drawn. Line: the log-normal distribution of the survey, cut where the study cuts it.".into(),
+        links: links.to_vec(),
+        ..Figure::default()
+    })
+}
+
+/// How a variable is shown: its name with a unit that people use, and the factor to that unit.
+fn shown(variable: Variable) -> (&'static str, f64) {
+    match variable {
+        Variable::Thickness => ("thickness b, m", 1.0),
+        Variable::Slenderness => ("slenderness h/b", 1.0),
+        Variable::CrackHeight => ("height of the crack h₁/h", 1.0),
+        Variable::Strength => ("compressive strength f, MPa", 1e-6),
+        Variable::Stiffness => ("stiffness of the floor k_d, MN/m", 1e-6),
+        Variable::DiaphragmMass => ("mass of the floor m_d/m_tot", 1.0),
+        Variable::CarriageMass => ("horizontal mass of the floor m_dp/m_tot", 1.0),
+    }
+}
+
+fn panel(variable: Variable, values: &[f64], survey: Option<&Marginal>) -> Result<String> {
+    let (label, factor) = shown(variable);
+    let mut sorted: Vec<f64> = values.iter().map(|value| factor * value).collect();
+    sorted.sort_by(f64::total_cmp);
+    // The longest tail is not shown: it would press everything else together.
+    let low = sorted[0];
+    let high = sorted[(sorted.len() - 1).min(sorted.len() * 995 / 1000)];
+    let width = ((high - low) / BARS as f64).max(f64::MIN_POSITIVE);
+    let bar = |k: usize| {
+        let (from, to) = (low + k as f64 * width, low + (k + 1) as f64 * width);
+        let count = sorted.iter().filter(|v| **v >= from && **v < to).count();
+        (from, to, count as f64 / sorted.len() as f64 / width)
+    };
+    let bars: Vec<_> = (0..BARS).map(bar).collect();
+    let density = survey.map(|marginal| density(marginal, factor, [low, high])).unwrap_or_default();
+    let heights = bars.iter().map(|bar| bar.2).chain(density.iter().map(|point| point.1));
+    Graph {
+        title: String::new(),
+        format: Format::Half,
+        x: Axis::linear(label, low, high),
+        y: Axis::holding("density", heights),
+        layers: vec![
+            Layer::Bars { colour: PALETTE[5], solid: false, bars },
+            Layer::Line {
+                colour: PALETTE[1],
+                width: 3,
+                dashed: false,
+                name: "survey".into(),
+                points: density,
+            },
+        ],
+    }
+    .svg()
+}
+
+/// The density of a distribution in the unit that is shown, from its quantiles.
+fn density(marginal: &Marginal, factor: f64, [low, high]: [f64; 2]) -> Vec<(f64, f64)> {
+    if !marginal.varies() {
+        return Vec::new();
+    }
+    let step = 1.0 / f64::from(POINTS);
+    let point = |k: u32| {
+        let u = (f64::from(k) + 0.5) * step;
+        let quantile = |u: f64| factor * marginal.quantile(u);
+        (quantile(u), 0.8 * step / (quantile(u + 0.4 * step) - quantile(u - 0.4 * step)))
+    };
+    (0..POINTS).map(point).filter(|(x, _)| (low..=high).contains(x)).collect()
+}
