@@ -64,6 +64,7 @@ pub mod campaign;
 pub mod check;
 pub mod cli;
 pub mod comparison;
+pub mod diagnose;
 pub mod error;
 pub mod findings;
 pub mod fragility;

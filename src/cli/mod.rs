@@ -8,6 +8,7 @@ mod check;
 mod check_tolerance;
 mod compare_models;
 mod completions;
+mod diagnose;
 mod effects;
 mod examples;
 mod fragility;
@@ -60,6 +61,7 @@ enum Command {
     CheckTolerance(check_tolerance::CheckToleranceCommand),
     Fragility(fragility::FragilityCommand),
     Calibrate(calibrate::CalibrateArgs),
+    Diagnose(diagnose::DiagnoseArgs),
     Effects(effects::EffectsCommand),
     Records(records::RecordsArgs),
     #[command(after_help = examples::REPORT)]
@@ -86,6 +88,7 @@ impl Cli {
             Command::CheckTolerance(command) => command.execute(),
             Command::Fragility(command) => command.execute(),
             Command::Calibrate(args) => calibrate::execute(&args),
+            Command::Diagnose(args) => diagnose::execute(&args),
             Command::Effects(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),

@@ -1,0 +1,106 @@
+//! `mrbd diagnose`: where model and measurement disagree, and which effect would make them agree.
+
+use std::num::NonZero;
+use std::path::PathBuf;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::Value;
+
+use super::output;
+use crate::diagnose::{Experiment, OutputNames, Progress, check_data, diagnose, write_results};
+use crate::error::{InputError, Result};
+
+/// Find where model and measurement disagree, and name the missing effect.
+///
+/// Cuts the tests into short windows, simulates each from a fitted state, and
+/// tries every effect of the catalogue (mrbd effects) and their pairs within
+/// what was known of the wall ([prior] of the experiment). Judged on tests with
+/// use = "hold-out". Answers none, recalibrated, named, class, place_only,
+/// unknown or no_power.
+///
+/// Examples:
+///   mrbd diagnose experiment.toml --out diagnosed
+///   mrbd simulate diagnosed/wall.updated.toml --record record.csv
+#[derive(Debug, Args)]
+#[command(verbatim_doc_comment)]
+pub struct DiagnoseArgs {
+    /// Experiment file (TOML): wall, what was known of it, tests.
+    experiment: PathBuf,
+    /// Folder for the results; empty, or of an earlier diagnosis.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Threads; without it one for each processor. Results do not depend on it.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZero<usize>>,
+}
+
+struct Bar(ProgressBar);
+
+impl Progress for Bar {
+    fn step(&self, what: &str, hypotheses: usize) {
+        self.0.set_length(hypotheses as u64);
+        self.0.set_position(0);
+        self.0.reset_eta();
+        self.0.set_message(what.to_owned());
+    }
+
+    fn fitted(&self) {
+        self.0.inc(1);
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Input errors of the experiment and what it names, and of the output folder; failures to write.
+pub fn execute(args: &DiagnoseArgs) -> Result<()> {
+    let experiment = Experiment::load(&args.experiment)?;
+    let threads = args.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
+        InputError::option("--threads", e.to_string(), "a number of threads the system grants")
+    })?;
+    let names = OutputNames::prepare(&args.out)?;
+    let bar = Bar(ProgressBar::new(1).with_style(style()));
+    let summary = pool.install(|| -> Result<Value> {
+        check_data(&experiment)?;
+        let diagnosis = diagnose(&experiment, &bar)?;
+        write_results(&names, &experiment, &diagnosis)
+    })?;
+    bar.0.finish_and_clear();
+    eprintln!("{}", told(&summary));
+    output::to_stdout(|out| writeln!(out, "{}", names.diagnosis.display()).map_err(output::failed))
+}
+
+fn style() -> ProgressStyle {
+    let style = ProgressStyle::with_template("{msg}: {pos} of {len}  {bar:30}  {elapsed}, {eta} left");
+    // A template that does not parse would be a slip of this file; the plain bar then does.
+    style.unwrap_or_else(|_| ProgressStyle::default_bar())
+}
+
+/// The answer in a few lines.
+fn told(summary: &Value) -> String {
+    let mut lines = vec![format!("verdict: {}", summary["verdict"].as_str().unwrap_or("?"))];
+    for effect in summary["effects"].as_array().into_iter().flatten() {
+        let name = effect["name"].as_str().unwrap_or("a law outside the catalogue");
+        lines.push(format!("  {name} at {}", effect["place"].as_str().unwrap_or("?")));
+        for (key, value) in effect["parameters"].as_object().into_iter().flatten() {
+            let interval = &effect["interval"][key];
+            let [value, low, high] = [value, &interval[0], &interval[1]].map(|v| v.as_f64().unwrap_or(f64::NAN));
+            lines.push(format!("    {key} = {value:.5} (90 %: {low:.5} to {high:.5})"));
+        }
+    }
+    let equivalent = summary["equivalent"].as_array().into_iter().flatten().filter_map(Value::as_str);
+    let equivalent = equivalent.collect::<Vec<_>>();
+    if !equivalent.is_empty() {
+        lines.push(format!("  these tests cannot tell apart: {}", equivalent.join(", ")));
+    }
+    let error = |when: &str| summary["windowed_error"][when].as_f64().unwrap_or(f64::NAN);
+    lines.push(format!(
+        "windowed error, in noise: {:.2} before, {:.2} recalibrated, {:.2} after",
+        error("before"),
+        error("recalibrated"),
+        error("after")
+    ));
+    lines.join("\n")
+}

@@ -1,0 +1,71 @@
+//! An experiment, read whole for a diagnosis.
+
+use std::path::{Path, PathBuf};
+
+use super::hypothesis::{ACTING, Nuisance};
+use super::scale::Scales;
+use super::test_data::TestData;
+use super::wall_number::{WALL_NUMBERS, wall_number};
+use crate::calibrate::Test;
+use crate::error::{InputError, Result};
+use crate::input::experiment::ExperimentFile;
+use crate::input::load_wall;
+use crate::model::Wall;
+
+/// Wall, what was known of it, tests.
+#[derive(Debug)]
+pub struct Experiment {
+    /// The experiment file.
+    pub path: PathBuf,
+    /// The wall file.
+    pub wall_path: PathBuf,
+    /// The wall before the diagnosis.
+    pub wall: Wall,
+    /// What was uncertain of it.
+    pub nuisances: Vec<Nuisance>,
+    /// What was measured.
+    pub tests: Vec<TestData>,
+    /// The same tests, for the error over whole runs (Eq. 8).
+    pub whole: Vec<Test>,
+    /// Sizes that matter.
+    pub scales: Scales,
+}
+
+impl Experiment {
+    /// Reads an experiment and every file it names.
+    ///
+    /// # Errors
+    /// Input errors with file, key or line, what was found and what is allowed.
+    pub fn load(path: &Path) -> Result<Self> {
+        let file = ExperimentFile::load(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let wall_path = folder.join(&file.wall);
+        let wall = load_wall(&wall_path)?;
+        if !wall.is_cracked() {
+            let allowed = "a wall of two bodies: wall.crack_height_m given";
+            return Err(InputError::key(&wall_path, "wall.crack_height_m", "no crack", allowed).into());
+        }
+        let nuisances = nuisances(path, &file)?;
+        let tests = file.tests.iter().map(|t| TestData::load(folder, t, &wall)).collect::<Result<Vec<_>>>()?;
+        let whole = file.tests.iter().map(|t| Test::load(folder, t, &wall)).collect::<Result<Vec<_>>>()?;
+        let scales = Scales::of(&wall, &tests);
+        Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales })
+    }
+}
+
+fn nuisances(path: &Path, file: &ExperimentFile) -> Result<Vec<Nuisance>, InputError> {
+    let mut found = Vec::new();
+    for (key, &sd) in &file.prior {
+        let number = |key: &str| wall_number(key).map(|n| Nuisance::Number(n, sd));
+        match key.as_str() {
+            "restitution" => found.extend((0..ACTING).map(|l| Nuisance::Coefficient(l, sd))),
+            "corner_widths" => found.extend(["lower_width_m", "upper_width_m"].iter().filter_map(|k| number(k))),
+            key => found.push(number(key).ok_or_else(|| {
+                let known = WALL_NUMBERS.iter().map(|n| n.key).collect::<Vec<_>>().join(", ");
+                let allowed = format!("restitution, corner_widths, {known}, with or without the table's name");
+                InputError::key(path, format!("prior.{key}"), "no number of a wall that can be uncertain", allowed)
+            })?),
+        }
+    }
+    Ok(found)
+}

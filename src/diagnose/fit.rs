@@ -1,0 +1,239 @@
+//! Fits a hypothesis to windows: its numbers, and the state at the start of every window, together.
+//!
+//! Multiple shooting: the states are eliminated window by window (an orthogonal projection of residuals and
+//! sensitivities), which leaves normal equations in the few numbers of the hypothesis; after each step the states follow.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::hypothesis::Hypothesis;
+use super::replay::Replay;
+use super::robust::{LAST_BOUND, bounds, loss, weight};
+use super::test_data::TestData;
+use super::window_fit::{WindowFit, fit_window, newton_step, state_jacobian};
+use super::windows::Window;
+
+/// Most steps at each bound of the loss.
+const MOST_STEPS: usize = 10;
+/// Gain in the loss not worth another step.
+const LITTLE: f64 = 1.0;
+/// Damping of a step (Levenberg and Marquardt): first, factor, tries.
+const FIRST_DAMPING: f64 = 1e-4;
+const DAMPING_FACTOR: f64 = 10.0;
+const TRIES: usize = 5;
+/// A sensitivity is taken over a change of the residuals of this many standard deviations of the noise ...
+const CHANGE: f64 = 0.3;
+/// ... and over these shares of a number's scale.
+const CHANGE_SHARES: [f64; 2] = [1e-6, 0.05];
+
+/// A fitted hypothesis.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// Its numbers, in the order of [`Hypothesis::unknowns`].
+    pub values: Vec<f64>,
+    /// Every window.
+    pub windows: Vec<WindowFit>,
+    /// Loss and prior together.
+    pub cost: f64,
+    /// Covariance of the numbers from the curvature; none where they leave no trace.
+    pub covariance: Option<DMatrix<f64>>,
+}
+
+/// Windows of some tests.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem<'a> {
+    /// All tests of the experiment.
+    pub tests: &'a [TestData],
+    /// The windows that count.
+    pub windows: &'a [Window],
+}
+
+/// One window, linear about a state and values.
+struct Linear {
+    jx: DMatrix<f64>,
+    jp: DMatrix<f64>,
+    r: DVector<f64>,
+    /// Jp and r without what the state can do.
+    jp_left: DMatrix<f64>,
+    r_left: DVector<f64>,
+}
+
+impl Problem<'_> {
+    /// The states as measured.
+    pub fn measured_states(&self) -> Vec<Vec<f64>> {
+        self.windows.iter().map(|w| w.measured.clone()).collect()
+    }
+
+    /// Fits the states alone, from given ones; none if there is no such wall.
+    pub fn states(&self, h: &Hypothesis, values: &[f64], x: &[Vec<f64>], steps: usize, thorough: bool) -> Option<Fit> {
+        let replay = Replay::new(self.tests, &h.physics(values)?);
+        let fit = |(window, x): (&Window, &Vec<f64>)| fit_window(&replay, window, x, steps, thorough);
+        let windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
+        let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
+        found.cost = cost(h, &found, LAST_BOUND);
+        Some(found)
+    }
+
+    /// Fits numbers and states, from given ones.
+    pub fn fit(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
+        let mut fit = start;
+        let moving = self.windows.iter().zip(&fit.windows).filter(|(w, _)| w.moves);
+        for bound in bounds(moving.map(|(_, f)| f.reduced()).collect()) {
+            fit = self.descend(h, fit, bound);
+            let x = fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
+            let again = self.states(h, &fit.values, &x, 2, true)?;
+            fit = Fit { covariance: fit.covariance, ..again };
+        }
+        Some(fit)
+    }
+
+    fn descend(&self, h: &Hypothesis, mut fit: Fit, bound: f64) -> Fit {
+        if h.unknowns.is_empty() {
+            return fit;
+        }
+        fit.cost = cost(h, &fit, bound);
+        let mut changes = h.unknowns.iter().map(|u| 1e-3 * u.scale).collect::<Vec<_>>();
+        let mut damping = FIRST_DAMPING;
+        for _ in 0..MOST_STEPS {
+            let Some(linear) = self.linear(h, &fit, &changes) else { return fit };
+            changes = next_changes(h, &linear);
+            let (a, g) = normal_equations(h, &fit, &linear, bound);
+            fit.covariance = a.clone().cholesky().map(|c| c.inverse());
+            let before = fit.cost;
+            for _ in 0..TRIES {
+                if let Some(next) = self.step(h, &fit, &linear, (&a, &g), damping, bound)
+                    && next.cost < fit.cost
+                {
+                    fit = Fit { covariance: fit.covariance.take(), ..next };
+                    damping = (damping / DAMPING_FACTOR).max(1e-9);
+                    break;
+                }
+                damping *= DAMPING_FACTOR;
+            }
+            if before - fit.cost < LITTLE {
+                break;
+            }
+        }
+        fit
+    }
+
+    /// Every window, linear about the fit; none if a neighbour is no wall.
+    fn linear(&self, h: &Hypothesis, fit: &Fit, changes: &[f64]) -> Option<Vec<Linear>> {
+        let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
+        let neighbours = h.unknowns.iter().zip(changes).enumerate().map(|(i, (unknown, change))| {
+            let change = if fit.values[i] + change <= unknown.upper { *change } else { -change };
+            let mut values = fit.values.clone();
+            values[i] += change;
+            Some((Replay::new(self.tests, &h.physics(&values)?), change))
+        });
+        let neighbours = neighbours.collect::<Option<Vec<_>>>()?;
+        let linear = |(window, state): (&Window, &WindowFit)| {
+            let r = replay.residual(window, &state.x);
+            let jx = state_jacobian(&replay, window, &state.x, r.len());
+            let column = |(other, change): &(Replay, f64)| (other.residual(window, &state.x) - &r) / *change;
+            let jp = DMatrix::from_columns(&neighbours.iter().map(column).collect::<Vec<_>>());
+            let (mut jp_left, mut r_left) = (jp.clone(), r.clone());
+            if jx.ncols() > 0 {
+                let q = jx.clone().qr().q();
+                r_left -= &q * (q.transpose() * &r);
+                jp_left -= &q * (q.transpose() * &jp);
+            }
+            Linear { jx, jp, r, jp_left, r_left }
+        };
+        Some(self.windows.par_iter().zip(&fit.windows).map(linear).collect())
+    }
+
+    /// One damped step of the numbers; the states go with it as the linear windows say, and once more from there.
+    fn step(
+        &self,
+        h: &Hypothesis,
+        fit: &Fit,
+        linear: &[Linear],
+        (a, g): (&DMatrix<f64>, &DVector<f64>),
+        damping: f64,
+        bound: f64,
+    ) -> Option<Fit> {
+        let mut damped = a.clone();
+        for i in 0..damped.nrows() {
+            damped[(i, i)] *= 1.0 + damping;
+        }
+        let dp = -damped.cholesky()?.solve(g);
+        let within = |(i, u): (usize, &super::hypothesis::Unknown)| (fit.values[i] + dp[i]).clamp(u.lower, u.upper);
+        let values = h.unknowns.iter().enumerate().map(within).collect::<Vec<_>>();
+        let dp = DVector::from_iterator(values.len(), values.iter().zip(&fit.values).map(|(new, old)| new - old));
+        let replay = Replay::new(self.tests, &h.physics(&values)?);
+        let follow = |((window, state), linear): ((&Window, &WindowFit), &Linear)| {
+            followed(&replay, window, state, linear, &dp)
+        };
+        let windows = self.windows.par_iter().zip(&fit.windows).zip(linear).map(follow).collect();
+        let mut next = Fit { values, windows, cost: 0.0, covariance: None };
+        next.cost = cost(h, &next, bound);
+        Some(next)
+    }
+}
+
+/// The state of a window after a step dp of the numbers: as the linear window says, and a step with its old Jacobian.
+fn followed(replay: &Replay, window: &Window, state: &WindowFit, linear: &Linear, dp: &DVector<f64>) -> WindowFit {
+    let freedom = state.freedom;
+    let plus = |x: &[f64], dx: &DVector<f64>| x.iter().zip(dx.iter()).map(|(x, d)| x + d).collect::<Vec<_>>();
+    let at = |x: Vec<f64>| {
+        let r = replay.residual(window, &x);
+        (WindowFit { squares: r.norm_squared(), x, freedom }, r)
+    };
+    let (stay, r_stay) = at(state.x.clone());
+    if linear.jx.ncols() == 0 {
+        return stay;
+    }
+    let mut best = stay;
+    let mut r = r_stay;
+    if let Some(dx) = newton_step(&linear.jx, &(&linear.r + &linear.jp * dp)) {
+        let (moved, r_moved) = at(plus(&state.x, &dx));
+        if moved.squares < best.squares {
+            (best, r) = (moved, r_moved);
+        }
+    }
+    if let Some(dx) = newton_step(&linear.jx, &r) {
+        let (again, _) = at(plus(&best.x, &dx));
+        if again.squares < best.squares {
+            best = again;
+        }
+    }
+    best
+}
+
+fn cost(h: &Hypothesis, fit: &Fit, bound: f64) -> f64 {
+    let windows = fit.windows.iter().map(|w| w.freedom * loss(w.reduced(), bound)).sum::<f64>();
+    windows + h.prior_penalty(&fit.values)
+}
+
+fn normal_equations(h: &Hypothesis, fit: &Fit, linear: &[Linear], bound: f64) -> (DMatrix<f64>, DVector<f64>) {
+    let count = h.unknowns.len();
+    let (mut a, mut g) = (DMatrix::zeros(count, count), DVector::zeros(count));
+    for (window, linear) in fit.windows.iter().zip(linear) {
+        let w = weight(window.reduced(), bound);
+        a += linear.jp_left.transpose() * &linear.jp_left * w;
+        g += linear.jp_left.transpose() * &linear.r_left * w;
+    }
+    for (i, unknown) in h.unknowns.iter().enumerate() {
+        if let Some(sd) = unknown.prior_sd {
+            a[(i, i)] += 1.0 / (sd * sd);
+            g[i] += (fit.values[i] - unknown.start) / (sd * sd);
+        }
+        // A number without a trace stays where it is.
+        a[(i, i)] += 1e-12 / (unknown.scale * unknown.scale);
+    }
+    (a, g)
+}
+
+/// Changes of the numbers over which the next sensitivities are taken: small beside the noise in most windows.
+fn next_changes(h: &Hypothesis, linear: &[Linear]) -> Vec<f64> {
+    let of = |(i, unknown): (usize, &super::hypothesis::Unknown)| {
+        let size = |l: &Linear| (l.jp_left.column(i).norm_squared() / l.r.len() as f64).sqrt();
+        let mut sizes = linear.iter().map(size).collect::<Vec<_>>();
+        sizes.sort_by(f64::total_cmp);
+        let upper = sizes[sizes.len() * 9 / 10];
+        let [least, most] = CHANGE_SHARES.map(|share| share * unknown.scale);
+        if upper > 0.0 { (CHANGE / upper).clamp(least, most) } else { most }
+    };
+    h.unknowns.iter().enumerate().map(of).collect()
+}

@@ -1,0 +1,313 @@
+//! The seven steps of a diagnosis.
+
+use rayon::prelude::*;
+
+use super::candidates::candidates;
+use super::experiment::Experiment;
+use super::fit::Problem;
+use super::hypothesis::{Addition, Hypothesis, Nuisance};
+use super::search::{Data, Tried, try_hypothesis, untouched};
+use super::verdict::{
+    EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, is_noise, joint_error, kinds, moved_unknown, names,
+};
+use super::windows::{Window, windows};
+use crate::error::{InputError, Result};
+use crate::input::experiment::Purpose;
+
+/// Single additions whose pairs with all others are tried.
+const PAIRED: usize = 2;
+/// Gain of the best single addition below which pairs are not tried.
+const WORTH_PAIRS: f64 = 60.0;
+/// Share of what speaks against the wall that a place must take away to be told.
+const PLACE_SHARE: f64 = 0.3;
+/// Rivals fitted once more from finer starts.
+const POLISHED: usize = 3;
+/// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
+const KNOWN: f64 = 0.02;
+/// Windows in motion below which no effect could be told.
+const LEAST_MOVING: usize = 6;
+
+/// Told how far a diagnosis is.
+pub trait Progress: Sync {
+    /// A step begins, of so many hypotheses.
+    fn step(&self, what: &str, hypotheses: usize);
+    /// One of them is fitted.
+    fn fitted(&self);
+}
+
+/// What a diagnosis found.
+#[derive(Debug)]
+pub struct Diagnosis {
+    /// The answer.
+    pub verdict: Verdict,
+    /// Windows to fit and held out.
+    pub windows: [Vec<Window>; 2],
+    /// The wall as it was given.
+    pub before: Tried,
+    /// Its uncertain numbers fitted.
+    pub recalibrated: Tried,
+    /// The wall of the answer.
+    pub after: Tried,
+    /// What cannot be told from it.
+    pub equivalent: Vec<String>,
+    /// Where a force is missing, when no law is named.
+    pub place: Option<&'static str>,
+    /// Everything tried, best first.
+    pub tried: Vec<Tried>,
+}
+
+impl Diagnosis {
+    /// The windows as data of fits.
+    pub fn data<'a>(&'a self, experiment: &'a Experiment) -> Data<'a> {
+        data(experiment, &self.windows)
+    }
+}
+
+fn data<'a>(experiment: &'a Experiment, windows: &'a [Vec<Window>; 2]) -> Data<'a> {
+    let problem = |windows: &'a Vec<Window>| Problem { tests: &experiment.tests, windows };
+    Data { fit: problem(&windows[0]), held_out: problem(&windows[1]) }
+}
+
+/// Diagnoses an experiment.
+///
+/// # Errors
+/// An input error if no window of a test to fit starts in a pattern beyond doubt.
+pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Diagnosis> {
+    let (fit, held_out) = windows(&experiment.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
+    let windows: [Vec<Window>; 2] = [fit, held_out];
+    let no_window = || {
+        let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
+        InputError::file(&experiment.path, "no window that starts in a pattern beyond doubt", allowed)
+    };
+    if windows[0].is_empty() {
+        return Err(no_window().into());
+    }
+    let search = Search { experiment, data: data(experiment, &windows), progress };
+    let found = search.run().ok_or_else(no_window)?;
+    let Found { verdict, before, recalibrated, after, equivalent, place, tried } = found;
+    Ok(Diagnosis { verdict, before, recalibrated, after, equivalent, place, tried, windows })
+}
+
+struct Search<'a, P> {
+    experiment: &'a Experiment,
+    data: Data<'a>,
+    progress: &'a P,
+}
+
+struct Found {
+    verdict: Verdict,
+    before: Tried,
+    recalibrated: Tried,
+    after: Tried,
+    equivalent: Vec<String>,
+    place: Option<&'static str>,
+    tried: Vec<Tried>,
+}
+
+impl<P: Progress> Search<'_, P> {
+    fn hypothesis(&self, nuisances: &[Nuisance], additions: &[Addition]) -> Hypothesis {
+        Hypothesis::new(self.experiment.wall.parameters(), &self.experiment.scales, nuisances, additions)
+    }
+
+    fn run(&self) -> Option<Found> {
+        let nuisances = &self.experiment.nuisances;
+        self.progress.step("the wall as given", 2);
+        let before = untouched(&self.data, self.hypothesis(&[], &[]))?;
+        self.progress.fitted();
+        let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before, &[])?;
+        self.progress.fitted();
+        let additions = candidates(self.experiment.wall.parameters());
+        let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
+        let singles = self.try_all("single effects", nuisances, &before, &sets);
+        let singles = self.polished(nuisances, &before, singles);
+        Some(self.judge(before, recalibrated, singles))
+    }
+
+    /// Fits every set of additions, and orders them by what speaks against them.
+    fn try_all(&self, what: &str, nuisances: &[Nuisance], from: &Tried, sets: &[Vec<Addition>]) -> Vec<Tried> {
+        self.progress.step(what, sets.len());
+        let try_one = |additions: &Vec<Addition>| {
+            let tried = try_hypothesis(&self.data, self.hypothesis(nuisances, additions), from, &[]);
+            self.progress.fitted();
+            tried
+        };
+        self.ordered(sets.par_iter().filter_map(try_one).collect())
+    }
+
+    fn ordered(&self, mut tried: Vec<Tried>) -> Vec<Tried> {
+        tried.sort_by(|a, b| against(&self.data, a).total_cmp(&against(&self.data, b)));
+        tried
+    }
+
+    /// Fits the best few once more, from about what was found with the wall's own numbers back where they were.
+    fn polished(&self, nuisances: &[Nuisance], from: &Tried, mut tried: Vec<Tried>) -> Vec<Tried> {
+        let count = tried.len().min(POLISHED);
+        self.progress.step("the best again", count);
+        let again = |old: &Tried| {
+            let h = self.hypothesis(nuisances, &old.hypothesis.additions);
+            let about = |factor: f64| {
+                let mut values = old.fit.values.clone();
+                for (i, u) in h.unknowns.iter().enumerate() {
+                    values[i] = if i < h.nuisances { u.start } else { u.start + factor * (values[i] - u.start) };
+                    values[i] = values[i].clamp(u.lower, u.upper);
+                }
+                values
+            };
+            let tries = [0.9, 0.95, 1.0, 1.05, 1.1].map(about);
+            let fits = tries.par_iter().filter_map(|values| {
+                let one = std::slice::from_ref(values);
+                super::search::refit(&self.data, h.clone(), from, one)
+            });
+            let best = fits.min_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
+            self.progress.fitted();
+            best.filter(|new| new.fit.cost < old.fit.cost).unwrap_or_else(|| old.clone())
+        };
+        let best = tried[..count].iter().map(again).collect::<Vec<_>>();
+        tried.splice(..count, best);
+        self.ordered(tried)
+    }
+
+    fn judge(&self, before: Tried, recalibrated: Tried, singles: Vec<Tried>) -> Found {
+        let data = &self.data;
+        let gap = joint_error(data, &before);
+        let moving = data.fit.windows.iter().filter(|w| w.moves).count();
+        let found = |verdict, after: Tried, equivalent, place, tried| Found {
+            verdict,
+            before: before.clone(),
+            recalibrated: recalibrated.clone(),
+            after,
+            equivalent,
+            place,
+            tried,
+        };
+        let Some(gap) = gap.filter(|_| moving >= LEAST_MOVING) else {
+            return found(Verdict::NoPower, before.clone(), Vec::new(), None, singles);
+        };
+        let best_gain = singles.iter().find(|t| kinds(t).is_some());
+        let gain = best_gain.map_or(0.0, |t| against(data, &recalibrated) - against(data, t));
+        if gain < WORTH_A_NAME {
+            if is_noise(data, &before) {
+                return found(Verdict::None, before.clone(), Vec::new(), None, singles);
+            }
+            if is_noise(data, &recalibrated) || closes(data, &recalibrated, gap) {
+                return self.recalibrated(found, &before, &recalibrated, singles, gap);
+            }
+        }
+        if let Some(named) = self.named(&singles, gap) {
+            let (verdict, after, equivalent) = named;
+            return found(verdict, after, equivalent, None, singles);
+        }
+        let mut tried = singles;
+        if gain > WORTH_PAIRS {
+            let pairs = self.pairs(&tried, &before);
+            if let Some((verdict, after, equivalent)) = self.named(&pairs, gap) {
+                tried.extend(pairs);
+                return found(verdict, after, equivalent, None, self.ordered(tried));
+            }
+            tried.extend(pairs);
+        }
+        let place = self.place(&recalibrated, &tried);
+        let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
+        found(verdict, recalibrated.clone(), Vec::new(), place, tried)
+    }
+
+    /// The best hypothesis that closes the gap and is an answer, with what cannot be told from it.
+    fn named(&self, tried: &[Tried], gap: f64) -> Option<(Verdict, Tried, Vec<String>)> {
+        let closing = tried.iter().filter(|t| closes(&self.data, t, gap)).collect::<Vec<_>>();
+        let best = closing.iter().find(|t| kinds(t).is_some())?;
+        let own = kinds(best);
+        let limit = against(&self.data, best) + EQUIVALENT;
+        let as_good = closing.iter().filter(|t| against(&self.data, t) < limit && kinds(t) != own);
+        let others = as_good.filter(|t| !t.hypothesis.additions.contains(&Addition::Placebo)).collect::<Vec<_>>();
+        // A number of the wall that does clearly better than every effect: a symptom, no answer.
+        let first = closing.first().filter(|t| kinds(t).is_none());
+        if first.is_some_and(|t| against(&self.data, best) - against(&self.data, t) > EQUIVALENT) {
+            return None;
+        }
+        let mut equivalent = Vec::new();
+        if !others.is_empty() {
+            for name in names(best).into_iter().chain(others.iter().flat_map(|t| names(t))) {
+                if !equivalent.contains(&name) {
+                    equivalent.push(name);
+                }
+            }
+        }
+        let verdict = if equivalent.is_empty() { Verdict::Named } else { Verdict::Class };
+        Some((verdict, (*best).clone(), equivalent))
+    }
+
+    /// A gap that the wall's own numbers close: an answer, unless what moved had not been known and effects do as well.
+    fn recalibrated(
+        &self,
+        found: impl Fn(Verdict, Tried, Vec<String>, Option<&'static str>, Vec<Tried>) -> Found,
+        before: &Tried,
+        recalibrated: &Tried,
+        singles: Vec<Tried>,
+        gap: f64,
+    ) -> Found {
+        let unknown = moved_unknown(&self.experiment.nuisances, recalibrated);
+        if unknown.is_empty() {
+            return found(Verdict::Recalibrated, recalibrated.clone(), Vec::new(), None, singles);
+        }
+        let known = |n: &Nuisance| match *n {
+            Nuisance::Number(number, sd) => Nuisance::Number(number, sd.min(KNOWN)),
+            Nuisance::Coefficient(l, sd) => Nuisance::Coefficient(l, sd.min(KNOWN)),
+        };
+        let nuisances = self.experiment.nuisances.iter().map(known).collect::<Vec<_>>();
+        let sets = candidates(self.experiment.wall.parameters());
+        let sets = sets.into_iter().filter(|a| a.kind().is_some()).map(|a| vec![a]).collect::<Vec<_>>();
+        let instead = self.try_all("effects in place of what was not known", &nuisances, before, &sets);
+        let Some((_, after, mut equivalent)) = self.named(&instead, gap) else {
+            return found(Verdict::Recalibrated, recalibrated.clone(), Vec::new(), None, singles);
+        };
+        if equivalent.is_empty() {
+            equivalent = names(&after);
+        }
+        equivalent.extend(unknown.iter().map(|n| match n {
+            Nuisance::Number(number, _) => names_of_number(number.key),
+            Nuisance::Coefficient(..) => "impact_dissipation".to_owned(),
+        }));
+        equivalent.dedup();
+        found(Verdict::Class, after, equivalent, None, instead)
+    }
+
+    fn pairs(&self, singles: &[Tried], before: &Tried) -> Vec<Tried> {
+        let answers = singles.iter().filter(|t| kinds(t).is_some()).collect::<Vec<_>>();
+        let mut sets: Vec<Vec<Addition>> = Vec::new();
+        let mut starts = Vec::new();
+        for first in answers.iter().take(PAIRED) {
+            let one = first.hypothesis.additions[0];
+            for second in &answers {
+                let two = second.hypothesis.additions[0];
+                let same_kind = one.kind() == two.kind();
+                if !same_kind && !sets.iter().any(|set| set.contains(&one) && set.contains(&two)) {
+                    sets.push(vec![one, two]);
+                    starts.push(*first);
+                }
+            }
+        }
+        self.progress.step("pairs of effects", sets.len());
+        let try_one = |(set, first): (&Vec<Addition>, &&Tried)| {
+            let h = self.hypothesis(&self.experiment.nuisances, set);
+            let tried = super::search::try_second(&self.data, h, first, before);
+            self.progress.fitted();
+            tried
+        };
+        let tried = sets.par_iter().zip(&starts).filter_map(try_one).collect();
+        let tried = self.ordered(tried);
+        self.polished(&self.experiment.nuisances, before, tried)
+    }
+
+    /// The place whose effects take away a good part of what speaks against the wall, if there is one.
+    fn place(&self, recalibrated: &Tried, tried: &[Tried]) -> Option<&'static str> {
+        let whole = against(&self.data, recalibrated);
+        let best = tried.iter().find(|t| kinds(t).is_some())?;
+        let share = (whole - against(&self.data, best)) / whole;
+        (share > PLACE_SHARE).then(|| best.hypothesis.additions[0].place())
+    }
+}
+
+fn names_of_number(key: &str) -> String {
+    let last = key.rsplit('.').next().unwrap_or(key);
+    last.trim_end_matches("_n_per_m").trim_end_matches("_kg").trim_end_matches("_m").to_owned()
+}

@@ -1,0 +1,37 @@
+//! Diagnosis: where model and measurement disagree, which effect would make them agree, and whether it does.
+//!
+//! In the order of the flow: an [`Experiment`] is read and its data checked ([`check_data`]); tests are cut into short
+//! [`windows`] that start where the measured [`pattern`] is beyond doubt; each window is simulated from a fitted state
+//! ([`replay`], [`window_fit`]), so that neither the past nor noisy derivatives enter; a [`hypothesis`], the wall with
+//! what is uncertain of it and what is added to it, is fitted to all windows together ([`fit`]) and judged on tests held
+//! out ([`search`], [`score`]); the catalogue is tried ([`flow`]) and a [`verdict`] reached; what is found is written
+//! ([`output`]).
+
+pub mod candidates;
+pub mod check_data;
+pub mod experiment;
+pub mod fit;
+pub mod flow;
+pub mod hypothesis;
+pub mod interval;
+pub mod noise;
+pub mod output;
+pub mod pattern;
+pub mod replay;
+pub mod robust;
+pub mod scale;
+pub mod score;
+pub mod search;
+pub mod smooth;
+pub mod test_data;
+pub mod updated_wall;
+pub mod verdict;
+pub mod wall_number;
+pub mod window_fit;
+pub mod windows;
+
+pub use check_data::check_data;
+pub use experiment::Experiment;
+pub use flow::{Diagnosis, Progress, diagnose};
+pub use output::{OutputNames, write_results};
+pub use verdict::Verdict;

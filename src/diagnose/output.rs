@@ -1,0 +1,218 @@
+//! The output folder of a diagnosis.
+//!
+//! ```text
+//! diagnosis.json       the verdict, with everything it rests on
+//! wall.updated.toml    the wall with the effect added, for every other command
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use super::experiment::Experiment;
+use super::flow::Diagnosis;
+use super::hypothesis::Unknown;
+use super::interval::intervals;
+use super::score::windowed_error;
+use super::search::{Data, Tried};
+use super::updated_wall::updated_wall;
+use super::verdict::{Verdict, against, joint_error, names};
+use super::window_fit::WindowFit;
+use super::windows::Window;
+use crate::error::{Error, InputError, Result};
+use crate::model::Wall;
+use crate::simulate::Accuracy;
+use crate::store::write_durably;
+
+/// Kind of the folder in its manifest and its report.
+pub const KIND: &str = "diagnosis";
+/// Standard deviations from doing nothing at which an effect is detected: it is then so large by chance once in a
+/// thousand times.
+const DETECTED: f64 = 3.3;
+
+/// Where things go in the output folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputNames {
+    /// The verdict.
+    pub diagnosis: PathBuf,
+    /// The wall with the effect added.
+    pub wall: PathBuf,
+}
+
+impl OutputNames {
+    /// Makes a folder ready: it must be empty, not exist, or hold an earlier diagnosis only.
+    ///
+    /// # Errors
+    /// Input errors for a folder that cannot be written or holds other files.
+    pub fn prepare(folder: &Path) -> Result<Self> {
+        let refuse = |found: String, allowed: &str| InputError::option("--out", found, allowed);
+        std::fs::create_dir_all(folder)
+            .map_err(|e| refuse(format!("{}: {e}", folder.display()), "a folder that can be written"))?;
+        let names =
+            Self { diagnosis: folder.join("diagnosis.json"), wall: folder.join("wall.updated.toml") };
+        let entries = std::fs::read_dir(folder).map_err(|e| Error::io("read", folder, e))?;
+        let entries = entries.filter_map(std::result::Result::ok).map(|entry| entry.path()).collect::<Vec<_>>();
+        if !entries.is_empty() && !entries.contains(&names.diagnosis) {
+            let found = format!("{}, which holds other files", folder.display());
+            return Err(refuse(found, "an empty folder, or one of an earlier diagnosis").into());
+        }
+        Ok(names)
+    }
+}
+
+/// Writes what a diagnosis found; the files are whole or absent.
+///
+/// # Errors
+/// [`Error::Io`] if the disk refuses; input errors of a wall file that changed meanwhile.
+pub fn write_results(names: &OutputNames, experiment: &Experiment, diagnosis: &Diagnosis) -> Result<Value> {
+    let summary = summary(experiment, diagnosis);
+    let kept = match diagnosis.verdict {
+        Verdict::Named | Verdict::Class | Verdict::Recalibrated => &diagnosis.after,
+        _ => &diagnosis.before,
+    };
+    write_durably(&names.wall, updated_wall(experiment, kept)?.as_bytes())?;
+    let text = serde_json::to_string_pretty(&summary).unwrap_or_default();
+    write_durably(&names.diagnosis, text.as_bytes())?;
+    Ok(summary)
+}
+
+/// Everything the verdict rests on.
+fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
+    let data = diagnosis.data(experiment);
+    let answered = matches!(diagnosis.verdict, Verdict::Named | Verdict::Class);
+    let effects = if answered { effects(&data, &diagnosis.after) } else { Vec::new() };
+    let unknown = json!({"kind": null, "place": diagnosis.place, "parameters": {}, "interval": {}});
+    let effects = if diagnosis.verdict == Verdict::PlaceOnly { vec![unknown] } else { effects };
+    let rivals = diagnosis.tried.iter().map(|tried| rival(experiment, &data, tried)).collect::<Vec<_>>();
+    json!({
+        "kind": KIND,
+        "verdict": diagnosis.verdict,
+        "place": diagnosis.place.or(answered.then(|| diagnosis.after.hypothesis.additions[0].place())),
+        "effects": effects,
+        "equivalent": diagnosis.equivalent,
+        "wall": numbers(&data, &diagnosis.after, 0..diagnosis.after.hypothesis.nuisances),
+        "tests": tests(experiment, diagnosis),
+        "windowed_error": {
+            "before": joint_error(&data, &diagnosis.before),
+            "recalibrated": joint_error(&data, &diagnosis.recalibrated),
+            "after": joint_error(&data, &diagnosis.after),
+        },
+        "windows": {"fit": data.fit.windows.len(), "held_out": data.held_out.windows.len()},
+        "could_hide": could_hide(diagnosis),
+        "rivals": rivals,
+        "program": concat!("mrbd ", env!("CARGO_PKG_VERSION")),
+        "experiment": experiment.path,
+    })
+}
+
+/// The effects of an answer with their numbers and 90 % intervals.
+fn effects(data: &Data, after: &Tried) -> Vec<Value> {
+    let h = &after.hypothesis;
+    let intervals = intervals(data, after);
+    let mut from = h.nuisances;
+    let mut all = Vec::new();
+    for (index, addition) in h.additions.iter().enumerate() {
+        let count = h.unknowns.iter().filter(|u| u.belongs_to(index)).count();
+        let range = from..from + count;
+        from += count;
+        let of = |f: &dyn Fn(usize) -> Value| {
+            range.clone().map(|i| (h.unknowns[i].key.clone(), f(i))).collect::<serde_json::Map<_, _>>()
+        };
+        all.push(json!({
+            "kind": addition.kind(),
+            "name": addition.name(),
+            "place": addition.place(),
+            "parameters": of(&|i| json!(after.fit.values[i])),
+            "interval": of(&|i| json!(intervals[i])),
+        }));
+    }
+    all
+}
+
+/// Fitted numbers of the wall with their standard deviations, and what they were.
+fn numbers(_: &Data, tried: &Tried, range: std::ops::Range<usize>) -> Vec<Value> {
+    let h = &tried.hypothesis;
+    range
+        .map(|i| {
+            let Unknown { key, unit, start, prior_sd, .. } = &h.unknowns[i];
+            json!({"key": key, "unit": unit, "before": start, "prior_sd": prior_sd,
+                   "after": tried.fit.values[i], "sd": sd(tried, i)})
+        })
+        .collect()
+}
+
+fn sd(tried: &Tried, i: usize) -> Option<f64> {
+    tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt())
+}
+
+/// One hypothesis that was tried, with the figures of every other.
+fn rival(experiment: &Experiment, data: &Data, tried: &Tried) -> Value {
+    let h = &tried.hypothesis;
+    let added = h.nuisances..h.unknowns.len();
+    let [fit, held_out] = tried.errors(data);
+    let [against_fit, against_held_out] = tried.against(data);
+    let wme = |purpose| mean_wme(experiment, tried, purpose);
+    json!({
+        "name": h.additions.iter().map(|a| a.name()).collect::<Vec<_>>().join(" + "),
+        "kinds": names(tried),
+        "place": h.additions.first().map(|a| a.place()),
+        "parameters": added.map(|i| json!({"key": h.unknowns[i].key, "unit": h.unknowns[i].unit,
+            "value": tried.fit.values[i], "sd": sd(tried, i)})).collect::<Vec<_>>(),
+        "windowed_error": {"fit": fit, "held_out": held_out},
+        "against": {"fit": against_fit, "held_out": against_held_out, "all": against(data, tried)},
+        "wme": {"fit": wme(crate::input::experiment::Purpose::Fit), "held_out": wme(crate::input::experiment::Purpose::HoldOut)},
+    })
+}
+
+/// Mean of Eq. 8 over whole runs of the tests of a purpose; none if a run failed or there is no such test.
+fn mean_wme(experiment: &Experiment, tried: &Tried, purpose: crate::input::experiment::Purpose) -> Option<f64> {
+    let wall = tried.hypothesis.physics(&tried.fit.values)?.wall;
+    let of = |test: &&crate::calibrate::Test| test.purpose == purpose;
+    let all = experiment.whole.iter().filter(of).map(|t| whole_wme(t, &wall)).collect::<Option<Vec<_>>>()?;
+    (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+}
+
+fn whole_wme(test: &crate::calibrate::Test, wall: &Wall) -> Option<f64> {
+    test.simulate(wall, Accuracy::default()).wme
+}
+
+/// Every test: errors before and after, and the noise.
+fn tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Vec<Value> {
+    let walls = [&diagnosis.before, &diagnosis.after].map(|t| t.hypothesis.physics(&t.fit.values).map(|p| p.wall));
+    let one = |(index, test): (usize, &super::test_data::TestData)| {
+        let error = |tried: &Tried| test_error(&diagnosis.windows, tried, index);
+        let wme = |wall: &Option<Wall>| wall.as_ref().and_then(|w| whole_wme(&experiment.whole[index], w));
+        json!({
+            "name": test.name,
+            "use": test.purpose.name(),
+            "windowed_error": {"before": error(&diagnosis.before), "after": error(&diagnosis.after)},
+            "wme": {"before": wme(&walls[0]), "after": wme(&walls[1])},
+            "noise_floor": 1.0,
+            "noise_rad": test.noise_rad,
+        })
+    };
+    experiment.tests.iter().enumerate().map(one).collect()
+}
+
+fn test_error(windows: &[Vec<Window>; 2], tried: &Tried, test: usize) -> Option<f64> {
+    let both = windows.iter().zip([&tried.fit.windows, &tried.held_out.windows]);
+    let pairs = both.flat_map(|(w, f)| w.iter().zip(f)).filter(|(w, _)| w.test == test);
+    let (windows, fits): (Vec<Window>, Vec<WindowFit>) = pairs.map(|(w, f)| (w.clone(), f.clone())).unzip();
+    windowed_error(&windows, &fits)
+}
+
+/// For each kind, the smallest size that would have been told from nothing, and the size at which it would matter.
+fn could_hide(diagnosis: &Diagnosis) -> Vec<Value> {
+    let singles = diagnosis.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
+    let row = |tried: &Tried| {
+        let h = &tried.hypothesis;
+        let i = h.nuisances;
+        let unknown = h.unknowns.get(i)?;
+        let kind = h.additions[0].kind()?;
+        let sd = sd(tried, i)?;
+        let estimate = tried.fit.values[i] - unknown.start;
+        Some(json!({"kind": kind, "name": h.additions[0].name(), "parameter": unknown.key, "unit": unknown.unit,
+            "estimate": estimate, "sd": sd, "smallest_detectable": DETECTED * sd, "matters": unknown.scale}))
+    };
+    singles.filter_map(row).collect()
+}

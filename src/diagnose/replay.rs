@@ -1,0 +1,128 @@
+//! A window simulated from a state, against what was measured in it.
+
+use nalgebra::DVector;
+
+use super::hypothesis::Physics;
+use super::test_data::TestData;
+use super::windows::Window;
+use crate::model::{Contact, Pair, RockingWall};
+use crate::simulate::{Accuracy, Observer, Shaking, Simulator, Start};
+use crate::solver::Quintic;
+
+/// Accuracy of windows: far below any noise, over a second.
+const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
+
+/// All tests under one hypothesis, ready for their windows.
+#[derive(Debug)]
+pub struct Replay<'a> {
+    tests: &'a [TestData],
+    simulators: Vec<Simulator>,
+    /// Plastic displacement of a yielding spring at every sample, m, by test; empty without one.
+    plastic_m: Vec<Vec<f64>>,
+}
+
+impl<'a> Replay<'a> {
+    /// Makes the wall of a hypothesis ready under every test.
+    pub fn new(tests: &'a [TestData], physics: &Physics) -> Self {
+        let simulator = |test: &TestData| {
+            let shaking = shaken(&test.shaking, physics.reversed_ratio);
+            Simulator::new(&physics.wall, &shaking, ACCURACY)
+        };
+        let simulators = tests.iter().map(simulator).collect::<Vec<_>>();
+        let plastic_m = tests.iter().map(|test| plastic_displacements_m(test, physics)).collect();
+        Self { tests, simulators, plastic_m }
+    }
+
+    /// Measured less simulated rotations over the noise, θ_1 and θ_2 of each sample in turn; zero where none was
+    /// measured.
+    pub fn residual(&self, window: &Window, x: &[f64]) -> DVector<f64> {
+        let test = &self.tests[window.test];
+        let simulator = &self.simulators[window.test];
+        let (state, contact) = window.freedom.state(x);
+        let from = window.samples.start;
+        let plastic = self.plastic_m[window.test].get(from).copied().unwrap_or(0.0);
+        let start =
+            Start { time_s: test.time_s[from], state, contact: Some(contact), plastic_displacement_m: plastic };
+        let times = &test.time_s[window.samples.clone()];
+        let mut sampler = Sampler { times, theta: Vec::with_capacity(times.len()) };
+        let end_s = times[times.len() - 1];
+        simulator.run_from(&start, end_s, &mut sampler);
+        // A run that failed says nothing of what came after.
+        sampler.theta.resize(times.len(), [f64::NAN; 2]);
+        let reading = simulator.wall().wall().reading();
+        let residual = |i: usize| {
+            let (k, channel) = (i / 2, i % 2);
+            let measured = test.theta_rad[from + k][channel];
+            let simulated = reading.of(sampler.theta[k])[channel];
+            let r = (measured - simulated) / test.noise_rad[channel];
+            if r.is_finite() { r } else { 0.0 }
+        };
+        DVector::from_fn(2 * times.len(), |i, _| residual(i))
+    }
+}
+
+/// The shaking with a share of the record backwards as vertical motion.
+fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
+    let mut shaking = shaking.clone();
+    if reversed_ratio != 0.0
+        && let Some(record) = &shaking.horizontal
+    {
+        let backwards = record.acceleration_m_s2().iter().rev().map(|a| reversed_ratio * a).collect();
+        shaking.vertical = crate::ground::Accelerogram::new(record.step_s(), backwards).ok();
+    }
+    shaking
+}
+
+/// The memory of a yielding spring, carried along the measured displacement of the top.
+fn plastic_displacements_m(test: &TestData, physics: &Physics) -> Vec<f64> {
+    let Some((stiffness, force)) = physics.wall.yielding_spring() else { return Vec::new() };
+    let wall = RockingWall::new(&physics.wall);
+    let yield_m = force / stiffness;
+    let mut plastic_m = 0.0;
+    let count = test.theta_rad.len();
+    let smoothed = |k: usize, channel: usize| {
+        // Five samples: less noise, and no swing is shorter.
+        let around = &test.theta_rad[k.saturating_sub(2)..(k + 3).min(count)];
+        around.iter().map(|theta| theta[channel]).sum::<f64>() / around.len() as f64
+    };
+    let at = |k: usize| {
+        let theta = [smoothed(k, 0), smoothed(k, 1)];
+        if theta.iter().all(|t| t.is_finite()) {
+            let contact = Contact::of_rotations(theta);
+            let x_c = wall.top_displacement_m(contact, theta);
+            plastic_m = f64::clamp(plastic_m, x_c - yield_m, x_c + yield_m);
+        }
+        plastic_m
+    };
+    (0..count).map(at).collect()
+}
+
+/// Takes the rotations at given times, s.
+struct Sampler<'t> {
+    times: &'t [f64],
+    theta: Vec<Pair>,
+}
+
+impl Sampler<'_> {
+    fn until(&mut self, end_s: f64, theta_at: impl Fn(f64) -> Pair) {
+        while let Some(&t) = self.times.get(self.theta.len()).filter(|t| **t < end_s) {
+            self.theta.push(theta_at(t));
+        }
+    }
+}
+
+impl Observer for Sampler<'_> {
+    fn moved(&mut self, start_s: f64, _: Contact, motion: &Quintic) {
+        self.until(start_s + motion.h(), |t| motion.position(((t - start_s) / motion.h()).clamp(0.0, 1.0)));
+    }
+
+    fn stood(&mut self, _: f64, to_s: f64) {
+        self.until(to_s, |_| [0.0; 2]);
+    }
+
+    fn ended(&mut self, time_s: f64, _: Contact, theta: Pair) {
+        // A collapsed wall stays where it fell; roundings of the last time are the same place.
+        let _ = time_s;
+        self.until(f64::INFINITY, |_| theta);
+    }
+}

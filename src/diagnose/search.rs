@@ -1,0 +1,147 @@
+//! Tries one hypothesis: where to start, the fit, and what it makes of tests it has not seen.
+
+use super::fit::{Fit, Problem};
+use super::hypothesis::Hypothesis;
+use super::score::{nats, windowed_error};
+
+/// Sizes tried for one added number, as shares of the size that matters.
+const LADDER: [f64; 7] = [0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 1.6];
+/// Sizes tried for each of two added numbers.
+const PAIRS: [f64; 5] = [0.05, 0.15, 0.4, 1.0, 3.0];
+
+/// A hypothesis, fitted, and judged on tests that the fit has not seen.
+#[derive(Debug, Clone)]
+pub struct Tried {
+    /// What was supposed.
+    pub hypothesis: Hypothesis,
+    /// Fit to the tests for it.
+    pub fit: Fit,
+    /// The other tests, with only the states of their windows fitted; empty if there are none.
+    pub held_out: Fit,
+}
+
+/// The windows of the tests to fit and of the others.
+#[derive(Debug, Clone, Copy)]
+pub struct Data<'a> {
+    /// To fit.
+    pub fit: Problem<'a>,
+    /// Held out.
+    pub held_out: Problem<'a>,
+}
+
+impl Tried {
+    /// Windowed errors: fit, held out.
+    pub fn errors(&self, data: &Data) -> [Option<f64>; 2] {
+        [
+            windowed_error(data.fit.windows, &self.fit.windows),
+            windowed_error(data.held_out.windows, &self.held_out.windows),
+        ]
+    }
+
+    /// What speaks against it, in natural logarithms of likelihood: windows that were fitted with the prior and half the
+    /// logarithm of their number for each added one (Schwarz), and windows that were held out.
+    pub fn against(&self, data: &Data) -> [f64; 2] {
+        let moving = data.fit.windows.iter().filter(|w| w.moves).map(|w| w.samples.len()).sum::<usize>();
+        let added = self.hypothesis.unknowns.len() - self.hypothesis.nuisances;
+        let price = 0.5 * added as f64 * (moving.max(1) as f64).ln();
+        let prior = 0.5 * self.hypothesis.prior_penalty(&self.fit.values);
+        [
+            nats(data.fit.windows, &self.fit.windows) + prior + price,
+            nats(data.held_out.windows, &self.held_out.windows),
+        ]
+    }
+}
+
+/// Fits a hypothesis from several starts about `from`, whose values begin with the same uncertain numbers.
+///
+/// None if no start makes a wall.
+pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Tried> {
+    let x = states_of(&from.fit);
+    let ladder = ladder(&hypothesis);
+    let candidates = ladder.iter().chain(starts);
+    let fits = candidates.filter_map(|values| data.fit.states(&hypothesis, values, &x, 1, false));
+    let start = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let fit = data.fit.fit(&hypothesis, start)?;
+    judged(data, hypothesis, fit, from)
+}
+
+/// Judges a fit on the tests held out.
+pub fn judged(data: &Data, hypothesis: Hypothesis, fit: Fit, from: &Tried) -> Option<Tried> {
+    let held_out = data.held_out.states(&hypothesis, &fit.values, &states_of(&from.held_out), 3, true)?;
+    Some(Tried { hypothesis, fit, held_out })
+}
+
+/// The model as it is, with nothing to find but the states.
+pub fn untouched(data: &Data, hypothesis: Hypothesis) -> Option<Tried> {
+    let fit = data.fit.states(&hypothesis, &[], &data.fit.measured_states(), 4, true)?;
+    let held_out = data.held_out.states(&hypothesis, &[], &data.held_out.measured_states(), 4, true)?;
+    Some(Tried { hypothesis, fit, held_out })
+}
+
+fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
+    fit.windows.iter().map(|w| w.x.clone()).collect()
+}
+
+/// Starts: nothing added, and each added number at several sizes of either sign.
+fn ladder(h: &Hypothesis) -> Vec<Vec<f64>> {
+    let start = h.start();
+    let added = h.nuisances..h.unknowns.len();
+    let mut starts = vec![start.clone()];
+    let moved = |values: &[f64], i: usize, by: f64| {
+        let unknown = &h.unknowns[i];
+        let value = unknown.start + by * unknown.scale;
+        let mut values = values.to_vec();
+        values[i] = value;
+        (unknown.lower..=unknown.upper).contains(&value).then_some(values)
+    };
+    match added.len() {
+        1 => {
+            let shares = LADDER.iter().flat_map(|share| [*share, -share]);
+            starts.extend(shares.filter_map(|share| moved(&start, added.start, share)));
+        }
+        2 => {
+            for one in PAIRS {
+                let Some(values) = moved(&start, added.start, one) else { continue };
+                starts.extend(PAIRS.iter().filter_map(|two| moved(&values, added.start + 1, *two)));
+            }
+        }
+        _ => {}
+    }
+    starts
+}
+
+/// Fits from given starts only.
+pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Tried> {
+    let x = states_of(&from.fit);
+    let fits = starts.iter().filter_map(|values| data.fit.states(&hypothesis, values, &x, 2, true));
+    let start = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let fit = data.fit.fit(&hypothesis, start)?;
+    judged(data, hypothesis, fit, from)
+}
+
+/// Fits a second addition beside one that was fitted, from its values.
+pub fn try_second(data: &Data, hypothesis: Hypothesis, first: &Tried, from: &Tried) -> Option<Tried> {
+    let mut base = hypothesis.start();
+    // The first addition's numbers follow those of the wall; fewer of the wall's may have a prior beside the second.
+    let first_added = first.hypothesis.unknowns.len() - first.hypothesis.nuisances;
+    for i in 0..first_added {
+        base[hypothesis.nuisances + i] = first.fit.values[first.hypothesis.nuisances + i];
+    }
+    let second = hypothesis.nuisances + first_added..hypothesis.unknowns.len();
+    let mut starts = vec![base.clone()];
+    if second.len() == 1 {
+        let unknown = &hypothesis.unknowns[second.start];
+        for share in LADDER.iter().flat_map(|share| [*share, -share]) {
+            let mut values = base.clone();
+            values[second.start] += share * unknown.scale;
+            if (unknown.lower..=unknown.upper).contains(&values[second.start]) {
+                starts.push(values);
+            }
+        }
+    }
+    let x = states_of(&first.fit);
+    let fits = starts.iter().filter_map(|values| data.fit.states(&hypothesis, values, &x, 1, false));
+    let start = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let fit = data.fit.fit(&hypothesis, start)?;
+    judged(data, hypothesis, fit, from)
+}

@@ -1,0 +1,106 @@
+//! From fitted hypotheses to a verdict.
+
+use serde::Serialize;
+
+use super::hypothesis::{Addition, Nuisance};
+use super::score::{share_beyond, windowed_error};
+use super::search::{Data, Tried};
+
+/// Windowed error, in standard deviations of the noise, that is noise: over null experiments it lies between 0.97 and
+/// 1.04, the error of the estimated noise included.
+pub const NOISE: f64 = 1.06;
+/// Share of windows with more than [`POOR`] times the squared noise that null experiments do not reach.
+pub const POOR_SHARE: f64 = 0.15;
+/// See [`POOR_SHARE`].
+pub const POOR: f64 = 1.5;
+/// Gain in natural logarithms of likelihood, over the windows fitted and held out together, below which an effect is not
+/// worth its name. Terms without meaning gain less than 10 in null experiments.
+pub const WORTH_A_NAME: f64 = 30.0;
+/// Hypotheses this near the best, in the same measure, cannot be told from it.
+pub const EQUIVALENT: f64 = 15.0;
+/// Error on tests held out above which nothing is named.
+pub const HELD_OUT: f64 = 1.5;
+/// Share of the squared error above noise that a named effect may leave.
+pub const LEFT: f64 = 0.03;
+/// A prior wider than this says that a number was not known.
+pub const WIDE_PRIOR: f64 = 0.1;
+
+/// The answer of a diagnosis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// No gap between model and measurement beyond the noise.
+    None,
+    /// The gap closes within what was known of the wall.
+    Recalibrated,
+    /// One effect, or two, and nothing else in the catalogue.
+    Named,
+    /// Several that these data cannot tell apart.
+    Class,
+    /// A place where a force is missing, by a law that is not in the catalogue.
+    PlaceOnly,
+    /// A gap, and no more is known.
+    Unknown,
+    /// The tests could not show an effect of a size that matters.
+    NoPower,
+}
+
+/// Windowed error over fitted and held-out windows together; none where nothing moves.
+pub fn joint_error(data: &Data, tried: &Tried) -> Option<f64> {
+    let windows = [data.fit.windows, data.held_out.windows].concat();
+    let fits = [&tried.fit.windows[..], &tried.held_out.windows].concat();
+    windowed_error(&windows, &fits)
+}
+
+/// Whether what is left is noise.
+pub fn is_noise(data: &Data, tried: &Tried) -> bool {
+    let windows = [data.fit.windows, data.held_out.windows].concat();
+    let fits = [&tried.fit.windows[..], &tried.held_out.windows].concat();
+    joint_error(data, tried).is_some_and(|error| error < NOISE) && share_beyond(&windows, &fits, POOR) < POOR_SHARE
+}
+
+/// What speaks against a hypothesis in all windows.
+pub fn against(data: &Data, tried: &Tried) -> f64 {
+    tried.against(data).iter().sum()
+}
+
+/// Whether what a hypothesis leaves is near enough to noise to be the truth, for a gap that was `before`.
+pub fn closes(data: &Data, tried: &Tried, before: f64) -> bool {
+    let Some(after) = joint_error(data, tried) else { return false };
+    let held_out = tried.errors(data)[1].is_none_or(|error| error < HELD_OUT);
+    let left = (after * after - 1.0) / (before * before - 1.0).max(f64::MIN_POSITIVE);
+    held_out && (is_noise(data, tried) || left < LEFT)
+}
+
+/// Kinds of a hypothesis' additions, sorted; none if one is no answer.
+pub fn kinds(tried: &Tried) -> Option<Vec<&'static str>> {
+    let mut kinds = tried.hypothesis.additions.iter().map(Addition::kind).collect::<Option<Vec<_>>>()?;
+    kinds.sort_unstable();
+    Some(kinds)
+}
+
+/// Names by which equivalent hypotheses go in answers: kinds, and last words of keys of the wall.
+pub fn names(tried: &Tried) -> Vec<String> {
+    let name = |addition: &Addition| match addition {
+        Addition::Number(number) => {
+            let last = number.key.rsplit('.').next().unwrap_or(number.key);
+            last.trim_end_matches("_n_per_m").trim_end_matches("_kg").trim_end_matches("_m").to_owned()
+        }
+        addition => addition.kind().map_or_else(|| addition.name(), str::to_owned),
+    };
+    tried.hypothesis.additions.iter().map(name).collect()
+}
+
+/// Uncertain numbers of the wall that were not known and moved by more than a tenth.
+pub fn moved_unknown(nuisances: &[Nuisance], tried: &Tried) -> Vec<Nuisance> {
+    let moved = |nuisance: &&Nuisance| {
+        let (key, sd) = match nuisance {
+            Nuisance::Number(number, sd) => (number.key.to_owned(), *sd),
+            Nuisance::Coefficient(l, sd) => (format!("C_{}", l + 1), *sd),
+        };
+        let found = tried.hypothesis.unknowns.iter().zip(&tried.fit.values).find(|(u, _)| u.key == key);
+        let change = found.map_or(0.0, |(u, value)| (value / u.start - 1.0).abs());
+        sd > WIDE_PRIOR && change > 0.1
+    };
+    nuisances.iter().filter(moved).copied().collect()
+}

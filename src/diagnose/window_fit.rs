@@ -1,0 +1,113 @@
+//! The state at the start of a window that lets the simulation follow the measurement best.
+
+use nalgebra::{DMatrix, DVector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::replay::Replay;
+use super::windows::Window;
+
+/// Steps of Gauss and Newton tried at shrinking lengths before giving up.
+const SHORTER: [f64; 4] = [1.0, 0.4, 0.16, 0.06];
+/// Gain in the sum of squares, in squared noise, that is not worth another step.
+const LITTLE: f64 = 0.5;
+/// Reduced chi-square above which other starts are tried: an impact just missed or just met has valleys of its own.
+const POOR: f64 = 2.0;
+/// Other starts drawn about the smoothed state, and how many of the best are refined.
+const DRAWS: usize = 16;
+const REFINED: usize = 2;
+
+/// A window with its state fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindowFit {
+    /// (θ, θ') of the free bodies at the start, rad and rad/s.
+    pub x: Vec<f64>,
+    /// Sum of the squared residuals over the noise.
+    pub squares: f64,
+    /// Measured numbers less fitted ones.
+    pub freedom: f64,
+}
+
+impl WindowFit {
+    /// Squared error over squared noise: 1 for a perfect model.
+    pub fn reduced(&self) -> f64 {
+        self.squares / self.freedom
+    }
+}
+
+/// Sensitivity of the residuals to the state, by central differences of the spread of the smoothed state.
+pub fn state_jacobian(replay: &Replay, window: &Window, x: &[f64], rows: usize) -> DMatrix<f64> {
+    let mut jacobian = DMatrix::zeros(rows, x.len());
+    for (i, h) in window.spread.iter().enumerate() {
+        let moved = |by: f64| {
+            let mut y = x.to_vec();
+            y[i] += by;
+            replay.residual(window, &y)
+        };
+        jacobian.set_column(i, &((moved(*h) - moved(-h)) / (2.0 * h)));
+    }
+    jacobian
+}
+
+/// Fits the state of a window, from a given one, by at most `steps` steps of Gauss and Newton.
+///
+/// `thorough` tries other starts too where the fit stays poor.
+pub fn fit_window(replay: &Replay, window: &Window, x: &[f64], steps: usize, thorough: bool) -> WindowFit {
+    let mut best = descend(replay, window, x, steps);
+    if thorough && !x.is_empty() && best.reduced() > POOR {
+        for y in other_starts(replay, window) {
+            let other = descend(replay, window, &y, steps);
+            if other.squares < best.squares {
+                best = other;
+            }
+        }
+    }
+    best
+}
+
+fn descend(replay: &Replay, window: &Window, x: &[f64], steps: usize) -> WindowFit {
+    let mut x = x.to_vec();
+    let mut r = replay.residual(window, &x);
+    for _ in 0..steps {
+        if x.is_empty() {
+            break;
+        }
+        let Some(step) = newton_step(&state_jacobian(replay, window, &x, r.len()), &r) else { break };
+        let before = r.norm_squared();
+        for share in SHORTER {
+            let y = x.iter().zip(step.iter()).map(|(x, dx)| x + share * dx).collect::<Vec<_>>();
+            let trial = replay.residual(window, &y);
+            if trial.norm_squared() < before {
+                (x, r) = (y, trial);
+                break;
+            }
+        }
+        if before - r.norm_squared() < LITTLE {
+            break;
+        }
+    }
+    let freedom = (r.len() - x.len()) as f64;
+    WindowFit { squares: r.norm_squared(), freedom, x }
+}
+
+/// -R⁻¹ Qᵀ r, the least squares step.
+pub fn newton_step(jacobian: &DMatrix<f64>, r: &DVector<f64>) -> Option<DVector<f64>> {
+    let qr = jacobian.clone().qr();
+    qr.r().solve_upper_triangular(&-(qr.q().transpose() * r)).filter(|dx| dx.iter().all(|x| x.is_finite()))
+}
+
+/// The best of some states drawn about the smoothed one; the same on every call.
+fn other_starts(replay: &Replay, window: &Window) -> Vec<Vec<f64>> {
+    let seed = (window.test as u64) << 32 | window.samples.start as u64;
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut draw = || {
+        let about = |(m, s): (&f64, &f64)| m + 3.0 * s * random.random_range(-1.0..1.0);
+        window.measured.iter().zip(&window.spread).map(about).collect::<Vec<_>>()
+    };
+    let mut drawn = (0..DRAWS)
+        .map(|_| draw())
+        .map(|y| (replay.residual(window, &y).norm_squared(), y))
+        .collect::<Vec<_>>();
+    drawn.sort_by(|a, b| a.0.total_cmp(&b.0));
+    drawn.into_iter().take(REFINED).map(|(_, y)| y).collect()
+}

@@ -1,0 +1,120 @@
+//! Short windows of a test that start where the measured pattern is beyond doubt.
+//!
+//! The motion of an impact system forgets its past badly: a simulation over a whole test parts from the measurement for
+//! the smallest cause. Over a window with one or two impacts it does not, once the state at its start is fitted.
+
+use std::ops::Range;
+
+use super::pattern::{Freedom, MeasuredState, measured_state};
+use super::test_data::TestData;
+use crate::input::experiment::Purpose;
+
+/// Length aimed at, s: windows are half to one and a half times as long. About a period of a rocking wall, so that most
+/// hold one impact at the ground.
+pub const WINDOW_S: f64 = 0.5;
+/// Fewest samples of a window, several times what its own state takes.
+const LEAST_SAMPLES: usize = 20;
+/// Samples to the next doubt beyond which a start is as good as any.
+const FAR_FROM_DOUBT: usize = 40;
+/// Preference for starting in pattern 3, in samples: two numbers to fit and no crack that opens by less than the noise.
+const MONOLITHIC: i64 = 10;
+/// Aversion to starting in rest soon after motion, in samples, and how soon: a wall about to stop may not stand quite.
+const JUST_STOPPED: i64 = -20;
+const SOON: usize = 60;
+/// A sample this many standard deviations off zero moves.
+const MOVES: f64 = 6.0;
+
+/// A stretch of a test and the state at its start.
+#[derive(Debug, Clone)]
+pub struct Window {
+    /// The test, by its place in the experiment.
+    pub test: usize,
+    /// Whether the fit sees it.
+    pub purpose: Purpose,
+    /// Its samples.
+    pub samples: Range<usize>,
+    /// What is free at its start.
+    pub freedom: Freedom,
+    /// The state smoothed from the measurement: (θ, θ') of the free bodies.
+    pub measured: Vec<f64>,
+    /// About the standard deviations of these.
+    pub spread: Vec<f64>,
+    /// Whether the wall moves in it.
+    pub moves: bool,
+}
+
+/// Cuts all tests into windows.
+pub fn windows(tests: &[TestData]) -> Vec<Window> {
+    tests.iter().enumerate().flat_map(|(index, test)| windows_of(index, test)).collect()
+}
+
+fn windows_of(index: usize, test: &TestData) -> Vec<Window> {
+    let count = test.time_s.len();
+    let states = (0..count).map(|k| measured_state(test, k)).collect::<Vec<_>>();
+    let worth = worths(test, &states);
+    let step = test.samples_in(WINDOW_S);
+    let mut starts = Vec::new();
+    let mut next = (0..count).find(|&k| states[k].is_some());
+    while let Some(k) = next {
+        starts.push(k);
+        let reach = (k + step / 2).min(count)..(k + 3 * step / 2).min(count);
+        let best = reach.clone().rev().max_by_key(|&k| worth[k]);
+        next = best.filter(|&k| states[k].is_some());
+        next = next.or_else(|| (reach.end..count).find(|&k| states[k].is_some()));
+    }
+    let ends = starts.iter().skip(1).copied().chain([count]).collect::<Vec<_>>();
+    let pairs = starts.iter().zip(ends);
+    let longest = 4 * step;
+    pairs
+        .filter_map(|(&from, to)| window(index, test, from..to.min(from + longest), states[from].as_ref()?))
+        .collect()
+}
+
+/// How good a start each sample is: far from doubt.
+fn worths(test: &TestData, states: &[Option<MeasuredState>]) -> Vec<i64> {
+    let freedom = |k: usize| states[k].as_ref().map(|s| s.freedom);
+    let count = states.len();
+    let same = |k: usize, other: usize| freedom(k).is_some() && freedom(k) == freedom(other);
+    let (mut before, mut after) = (vec![0_usize; count], vec![0_usize; count]);
+    for k in 1..count {
+        before[k] = if same(k, k - 1) { before[k - 1] + 1 } else { 0 };
+    }
+    for k in (0..count - 1).rev() {
+        after[k] = if same(k, k + 1) { after[k + 1] + 1 } else { 0 };
+    }
+    let moved_soon = |k: usize| (k.saturating_sub(SOON)..k).any(|j| moves(test, j));
+    let worth = |k: usize| match freedom(k) {
+        None => i64::MIN,
+        Some(freedom) => {
+            let far = before[k].min(after[k]).min(FAR_FROM_DOUBT) as i64;
+            far + match freedom {
+                Freedom::Monolithic => MONOLITHIC,
+                Freedom::Rest if moved_soon(k) => JUST_STOPPED,
+                _ => 0,
+            }
+        }
+    };
+    (0..count).map(worth).collect()
+}
+
+fn moves(test: &TestData, k: usize) -> bool {
+    (0..2).any(|i| test.theta_rad[k][i].abs() > MOVES * test.noise_rad[i])
+}
+
+fn window(index: usize, test: &TestData, samples: Range<usize>, start: &MeasuredState) -> Option<Window> {
+    if samples.len() < LEAST_SAMPLES {
+        return None;
+    }
+    let noise = test.noise_rad[0].max(test.noise_rad[1]);
+    // Of a cubic through 17 samples: half the noise in the value, a tenth of it a sample in the slope.
+    let spread = [0.5 * noise, 0.1 * noise / test.step_s / 4.0];
+    Some(Window {
+        test: index,
+        purpose: test.purpose,
+        freedom: start.freedom,
+        measured: start.numbers.clone(),
+        spread: spread.iter().copied().cycle().take(start.freedom.numbers()).collect(),
+        moves: start.freedom != Freedom::Rest || samples.clone().filter(|&k| moves(test, k)).count() > 2,
+        samples,
+    })
+}
