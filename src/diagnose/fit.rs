@@ -8,12 +8,12 @@ use rayon::prelude::*;
 
 use super::hypothesis::Hypothesis;
 use super::replay::Replay;
-use super::robust::{LAST_BOUND, bounds, loss, weight};
+use super::robust::Loss;
 use super::test_data::TestData;
 use super::window_fit::{WindowFit, fit_window, newton_step, state_jacobian};
 use super::windows::Window;
 
-/// Most steps at each bound of the loss.
+/// Most steps with each loss.
 const MOST_STEPS: usize = 10;
 /// Gain in the loss not worth another step.
 const LITTLE: f64 = 1.0;
@@ -70,7 +70,7 @@ impl Problem<'_> {
         let fit = |(window, x): (&Window, &Vec<f64>)| fit_window(&replay, window, x, steps, thorough);
         let windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
         let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
-        found.cost = cost(h, &found, LAST_BOUND);
+        found.cost = cost(h, &found, Loss::NEAR);
         Some(found)
     }
 
@@ -78,30 +78,31 @@ impl Problem<'_> {
     pub fn fit(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
         let mut fit = start;
         let moving = self.windows.iter().zip(&fit.windows).filter(|(w, _)| w.moves);
-        for bound in bounds(moving.map(|(_, f)| f.reduced()).collect()) {
-            fit = self.descend(h, fit, bound);
+        for loss in Loss::sequence(moving.map(|(_, f)| f.reduced()).collect()) {
+            fit = self.descend(h, fit, loss);
             let x = fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
             let again = self.states(h, &fit.values, &x, 2, true)?;
             fit = Fit { covariance: fit.covariance, ..again };
         }
+        fit.cost = cost(h, &fit, Loss::Likelihood);
         Some(fit)
     }
 
-    fn descend(&self, h: &Hypothesis, mut fit: Fit, bound: f64) -> Fit {
+    fn descend(&self, h: &Hypothesis, mut fit: Fit, loss: Loss) -> Fit {
         if h.unknowns.is_empty() {
             return fit;
         }
-        fit.cost = cost(h, &fit, bound);
+        fit.cost = cost(h, &fit, loss);
         let mut changes = h.unknowns.iter().map(|u| 1e-3 * u.scale).collect::<Vec<_>>();
         let mut damping = FIRST_DAMPING;
         for _ in 0..MOST_STEPS {
             let Some(linear) = self.linear(h, &fit, &changes) else { return fit };
             changes = next_changes(h, &linear);
-            let (a, g) = normal_equations(h, &fit, &linear, bound);
+            let (a, g) = normal_equations(h, &fit, &linear, loss);
             fit.covariance = a.clone().cholesky().map(|c| c.inverse());
             let before = fit.cost;
             for _ in 0..TRIES {
-                if let Some(next) = self.step(h, &fit, &linear, (&a, &g), damping, bound)
+                if let Some(next) = self.step(h, &fit, &linear, (&a, &g), damping, loss)
                     && next.cost < fit.cost
                 {
                     fit = Fit { covariance: fit.covariance.take(), ..next };
@@ -151,7 +152,7 @@ impl Problem<'_> {
         linear: &[Linear],
         (a, g): (&DMatrix<f64>, &DVector<f64>),
         damping: f64,
-        bound: f64,
+        loss: Loss,
     ) -> Option<Fit> {
         let mut damped = a.clone();
         for i in 0..damped.nrows() {
@@ -167,7 +168,7 @@ impl Problem<'_> {
         };
         let windows = self.windows.par_iter().zip(&fit.windows).zip(linear).map(follow).collect();
         let mut next = Fit { values, windows, cost: 0.0, covariance: None };
-        next.cost = cost(h, &next, bound);
+        next.cost = cost(h, &next, loss);
         Some(next)
     }
 }
@@ -201,16 +202,16 @@ fn followed(replay: &Replay, window: &Window, state: &WindowFit, linear: &Linear
     best
 }
 
-fn cost(h: &Hypothesis, fit: &Fit, bound: f64) -> f64 {
-    let windows = fit.windows.iter().map(|w| w.freedom * loss(w.reduced(), bound)).sum::<f64>();
+fn cost(h: &Hypothesis, fit: &Fit, loss: Loss) -> f64 {
+    let windows = fit.windows.iter().map(|w| loss.of(w)).sum::<f64>();
     windows + h.prior_penalty(&fit.values)
 }
 
-fn normal_equations(h: &Hypothesis, fit: &Fit, linear: &[Linear], bound: f64) -> (DMatrix<f64>, DVector<f64>) {
+fn normal_equations(h: &Hypothesis, fit: &Fit, linear: &[Linear], loss: Loss) -> (DMatrix<f64>, DVector<f64>) {
     let count = h.unknowns.len();
     let (mut a, mut g) = (DMatrix::zeros(count, count), DVector::zeros(count));
     for (window, linear) in fit.windows.iter().zip(linear) {
-        let w = weight(window.reduced(), bound);
+        let w = loss.weight(window);
         a += linear.jp_left.transpose() * &linear.jp_left * w;
         g += linear.jp_left.transpose() * &linear.r_left * w;
     }

@@ -1,27 +1,56 @@
-//! A loss that lets go of windows no model follows.
+//! Losses that let go of windows no model follows.
 //!
-//! Some windows hold an impact decided by less than the noise: the true model misses them too. With S the reduced
-//! chi-square of a window, the loss is S/(1 + S/c) (Geman and McClure): c bounds what one window can cost.
+//! Some windows hold an impact decided by less than the noise: the true model misses them too. A fit goes through losses
+//! that bound ever more closely what one window can cost: first in multiples of the squared noise (with S the reduced
+//! chi-square, S/(1 + S/c), Geman and McClure), so that a model far from the truth still feels every window; at last in
+//! likelihood, so that no window that is lost for good outweighs what the others say.
 
-/// Bound on the loss of a window at the end of a fit.
-pub const LAST_BOUND: f64 = 3.0;
-/// Bounds before it.
-const MIDDLE_BOUND: f64 = 8.0;
+use super::window_fit::WindowFit;
+
+/// Bounds in squared noise, but for the first.
 const FIRST_BOUND: f64 = 20.0;
+const MIDDLE_BOUND: f64 = 8.0;
+const NEAR_BOUND: f64 = 3.0;
+/// Bound of the last loss, in squared error above that of noise: twice forty natural logarithms of likelihood.
+const LAST_EXCESS: f64 = 80.0;
 
-/// The loss.
-pub fn loss(reduced: f64, bound: f64) -> f64 {
-    reduced / (1.0 + reduced / bound)
+/// What a window costs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Loss {
+    /// Bounded by this many times the squared noise.
+    Noise(f64),
+    /// Bounded in likelihood.
+    Likelihood,
 }
 
-/// Its slope: the weight of a window in least squares.
-pub fn weight(reduced: f64, bound: f64) -> f64 {
-    (1.0 + reduced / bound).powi(-2)
-}
+impl Loss {
+    /// The loss in which starts are compared.
+    pub const NEAR: Loss = Loss::Noise(NEAR_BOUND);
 
-/// Bounds in the order a fit goes through them, from one that two thirds of the windows lie well inside.
-pub fn bounds(mut reduced: Vec<f64>) -> [f64; 3] {
-    reduced.sort_by(f64::total_cmp);
-    let two_thirds = reduced.get(reduced.len() * 2 / 3).copied().unwrap_or(1.0);
-    [(3.0 * two_thirds).max(FIRST_BOUND), MIDDLE_BOUND, LAST_BOUND]
+    /// The losses in the order a fit goes through them, from one that two thirds of the windows lie well inside.
+    pub fn sequence(mut reduced: Vec<f64>) -> [Loss; 4] {
+        reduced.sort_by(f64::total_cmp);
+        let two_thirds = reduced.get(reduced.len() * 2 / 3).copied().unwrap_or(1.0);
+        let first = (3.0 * two_thirds).max(FIRST_BOUND);
+        [Loss::Noise(first), Loss::Noise(MIDDLE_BOUND), Loss::NEAR, Loss::Likelihood]
+    }
+
+    /// The loss of a window; its squares where they are those of noise.
+    pub fn of(self, fit: &WindowFit) -> f64 {
+        match self {
+            Loss::Noise(bound) => fit.squares / (1.0 + fit.reduced() / bound),
+            Loss::Likelihood => {
+                let excess = (fit.squares - fit.freedom).max(0.0);
+                fit.squares.min(fit.freedom) + excess / (1.0 + excess / LAST_EXCESS)
+            }
+        }
+    }
+
+    /// Its slope: the weight of a window in least squares.
+    pub fn weight(self, fit: &WindowFit) -> f64 {
+        match self {
+            Loss::Noise(bound) => (1.0 + fit.reduced() / bound).powi(-2),
+            Loss::Likelihood => (1.0 + (fit.squares - fit.freedom).max(0.0) / LAST_EXCESS).powi(-2),
+        }
+    }
 }
