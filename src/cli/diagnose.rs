@@ -86,7 +86,8 @@ fn told(summary: &Value) -> String {
         lines.push(format!("  {name} at {}", effect["place"].as_str().unwrap_or("?")));
         for (key, value) in effect["parameters"].as_object().into_iter().flatten() {
             let interval = &effect["interval"][key];
-            let [value, low, high] = [value, &interval[0], &interval[1]].map(|v| v.as_f64().unwrap_or(f64::NAN));
+            let [value, low, high] =
+                [value, &interval[0], &interval[1]].map(|v| v.as_f64().unwrap_or(f64::NAN));
             lines.push(format!("    {key} = {value:.5} (90 %: {low:.5} to {high:.5})"));
         }
     }

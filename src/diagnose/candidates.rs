@@ -16,7 +16,8 @@ const RIVAL_NUMBERS: [&str; 5] = [
 /// Every addition to a wall that is tried alone: the catalogue, the lumped carriage, numbers outside what was known of
 /// them, and a placebo.
 pub fn candidates(wall: &WallParameters) -> Vec<Addition> {
-    let mut all = Effect::kinds().iter().flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();
+    let mut all =
+        Effect::kinds().iter().flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();
     if wall.diaphragm_mass_kg > 0.0 {
         all.push(Addition::LumpedCarriage);
     }

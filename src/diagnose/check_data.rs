@@ -22,11 +22,15 @@ type Misreading = (&'static str, fn(&mut TestData));
 
 /// Ways in which a measured file is wrong, and what puts it right.
 const MISREADINGS: [Misreading; 3] = [
-    ("theta1_rad and theta2_rad are swapped", |test| test.theta_rad.iter_mut().for_each(|theta| theta.swap(0, 1))),
+    ("theta1_rad and theta2_rad are swapped", |test| {
+        test.theta_rad.iter_mut().for_each(|theta| theta.swap(0, 1))
+    }),
     ("both rotations have the wrong sign", |test| {
         test.theta_rad.iter_mut().flatten().for_each(|theta| *theta = -*theta);
     }),
-    ("the sign of theta2_rad is wrong", |test| test.theta_rad.iter_mut().for_each(|theta| theta[1] = -theta[1])),
+    ("the sign of theta2_rad is wrong", |test| {
+        test.theta_rad.iter_mut().for_each(|theta| theta[1] = -theta[1])
+    }),
 ];
 
 /// Refuses tests whose files are wrong in a way that shows: degrees, swapped channels, wrong signs.
@@ -36,8 +40,11 @@ const MISREADINGS: [Misreading; 3] = [
 pub fn check_data(experiment: &Experiment) -> Result<()> {
     for (index, test) in experiment.tests.iter().enumerate() {
         let key = format!("tests[{index}].measured");
-        let refuse = |found: String, allowed: &str| Err(InputError::key(&experiment.path, &key, found, allowed).into());
-        let largest = test.theta_rad.iter().flatten().filter(|t| t.is_finite()).fold(0.0, |m, t| f64::max(m, t.abs()));
+        let refuse = |found: String, allowed: &str| {
+            Err(InputError::key(&experiment.path, &key, found, allowed).into())
+        };
+        let largest =
+            test.theta_rad.iter().flatten().filter(|t| t.is_finite()).fold(0.0, |m, t| f64::max(m, t.abs()));
         if largest > TOO_LARGE_RAD {
             let found = format!("a rotation of {largest:.3} in test {:?}", test.name);
             return refuse(found, "radians, below 0.7 while the wall stands; are these degrees?");
@@ -52,7 +59,10 @@ pub fn check_data(experiment: &Experiment) -> Result<()> {
                     "test {:?}: it seems that {what} (windowed error {error:.1} noise as it stands, {other_error:.1} so)",
                     test.name
                 );
-                return refuse(found, "theta1_rad of the lower and theta2_rad of the upper body, clockwise positive");
+                return refuse(
+                    found,
+                    "theta1_rad of the lower and theta2_rad of the upper body, clockwise positive",
+                );
             }
         }
     }

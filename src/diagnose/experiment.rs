@@ -46,7 +46,8 @@ impl Experiment {
             return Err(InputError::key(&wall_path, "wall.crack_height_m", "no crack", allowed).into());
         }
         let nuisances = nuisances(path, &file)?;
-        let tests = file.tests.iter().map(|t| TestData::load(folder, t, &wall)).collect::<Result<Vec<_>>>()?;
+        let tests =
+            file.tests.iter().map(|t| TestData::load(folder, t, &wall)).collect::<Result<Vec<_>>>()?;
         let whole = file.tests.iter().map(|t| Test::load(folder, t, &wall)).collect::<Result<Vec<_>>>()?;
         let scales = Scales::of(&wall, &tests);
         Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales })
@@ -59,11 +60,19 @@ fn nuisances(path: &Path, file: &ExperimentFile) -> Result<Vec<Nuisance>, InputE
         let number = |key: &str| wall_number(key).map(|n| Nuisance::Number(n, sd));
         match key.as_str() {
             "restitution" => found.extend((0..ACTING).map(|l| Nuisance::Coefficient(l, sd))),
-            "corner_widths" => found.extend(["lower_width_m", "upper_width_m"].iter().filter_map(|k| number(k))),
+            "corner_widths" => {
+                found.extend(["lower_width_m", "upper_width_m"].iter().filter_map(|k| number(k)))
+            }
             key => found.push(number(key).ok_or_else(|| {
                 let known = WALL_NUMBERS.iter().map(|n| n.key).collect::<Vec<_>>().join(", ");
-                let allowed = format!("restitution, corner_widths, {known}, with or without the table's name");
-                InputError::key(path, format!("prior.{key}"), "no number of a wall that can be uncertain", allowed)
+                let allowed =
+                    format!("restitution, corner_widths, {known}, with or without the table's name");
+                InputError::key(
+                    path,
+                    format!("prior.{key}"),
+                    "no number of a wall that can be uncertain",
+                    allowed,
+                )
             })?),
         }
     }

@@ -65,7 +65,14 @@ impl Problem<'_> {
     }
 
     /// Fits the states alone, from given ones; none if there is no such wall.
-    pub fn states(&self, h: &Hypothesis, values: &[f64], x: &[Vec<f64>], steps: usize, thorough: bool) -> Option<Fit> {
+    pub fn states(
+        &self,
+        h: &Hypothesis,
+        values: &[f64],
+        x: &[Vec<f64>],
+        steps: usize,
+        thorough: bool,
+    ) -> Option<Fit> {
         let replay = Replay::new(self.tests, &h.physics(values)?);
         let fit = |(window, x): (&Window, &Vec<f64>)| fit_window(&replay, window, x, steps, thorough);
         let windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
@@ -159,9 +166,11 @@ impl Problem<'_> {
             damped[(i, i)] *= 1.0 + damping;
         }
         let dp = -damped.cholesky()?.solve(g);
-        let within = |(i, u): (usize, &super::hypothesis::Unknown)| (fit.values[i] + dp[i]).clamp(u.lower, u.upper);
+        let within =
+            |(i, u): (usize, &super::hypothesis::Unknown)| (fit.values[i] + dp[i]).clamp(u.lower, u.upper);
         let values = h.unknowns.iter().enumerate().map(within).collect::<Vec<_>>();
-        let dp = DVector::from_iterator(values.len(), values.iter().zip(&fit.values).map(|(new, old)| new - old));
+        let dp =
+            DVector::from_iterator(values.len(), values.iter().zip(&fit.values).map(|(new, old)| new - old));
         let replay = Replay::new(self.tests, &h.physics(&values)?);
         let follow = |((window, state), linear): ((&Window, &WindowFit), &Linear)| {
             followed(&replay, window, state, linear, &dp)
@@ -174,7 +183,13 @@ impl Problem<'_> {
 }
 
 /// The state of a window after a step dp of the numbers: as the linear window says, and a step with its old Jacobian.
-fn followed(replay: &Replay, window: &Window, state: &WindowFit, linear: &Linear, dp: &DVector<f64>) -> WindowFit {
+fn followed(
+    replay: &Replay,
+    window: &Window,
+    state: &WindowFit,
+    linear: &Linear,
+    dp: &DVector<f64>,
+) -> WindowFit {
     let freedom = state.freedom;
     let plus = |x: &[f64], dx: &DVector<f64>| x.iter().zip(dx.iter()).map(|(x, d)| x + d).collect::<Vec<_>>();
     let at = |x: Vec<f64>| {
@@ -207,7 +222,12 @@ fn cost(h: &Hypothesis, fit: &Fit, loss: Loss) -> f64 {
     windows + h.prior_penalty(&fit.values)
 }
 
-fn normal_equations(h: &Hypothesis, fit: &Fit, linear: &[Linear], loss: Loss) -> (DMatrix<f64>, DVector<f64>) {
+fn normal_equations(
+    h: &Hypothesis,
+    fit: &Fit,
+    linear: &[Linear],
+    loss: Loss,
+) -> (DMatrix<f64>, DVector<f64>) {
     let count = h.unknowns.len();
     let (mut a, mut g) = (DMatrix::zeros(count, count), DVector::zeros(count));
     for (window, linear) in fit.windows.iter().zip(linear) {

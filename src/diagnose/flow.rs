@@ -124,7 +124,13 @@ impl<P: Progress> Search<'_, P> {
     }
 
     /// Fits every set of additions, and orders them by what speaks against them.
-    fn try_all(&self, what: &str, nuisances: &[Nuisance], from: &Tried, sets: &[Vec<Addition>]) -> Vec<Tried> {
+    fn try_all(
+        &self,
+        what: &str,
+        nuisances: &[Nuisance],
+        from: &Tried,
+        sets: &[Vec<Addition>],
+    ) -> Vec<Tried> {
         self.progress.step(what, sets.len());
         let try_one = |additions: &Vec<Addition>| {
             let tried = try_hypothesis(&self.data, self.hypothesis(nuisances, additions), from, &[]);
@@ -148,7 +154,8 @@ impl<P: Progress> Search<'_, P> {
             let about = |factor: f64| {
                 let mut values = old.fit.values.clone();
                 for (i, u) in h.unknowns.iter().enumerate() {
-                    values[i] = if i < h.nuisances { u.start } else { u.start + factor * (values[i] - u.start) };
+                    values[i] =
+                        if i < h.nuisances { u.start } else { u.start + factor * (values[i] - u.start) };
                     values[i] = values[i].clamp(u.lower, u.upper);
                 }
                 values
@@ -218,7 +225,8 @@ impl<P: Progress> Search<'_, P> {
         let own = kinds(best);
         let limit = against(&self.data, best) + EQUIVALENT;
         let as_good = closing.iter().filter(|t| against(&self.data, t) < limit && kinds(t) != own);
-        let others = as_good.filter(|t| !t.hypothesis.additions.contains(&Addition::Placebo)).collect::<Vec<_>>();
+        let others =
+            as_good.filter(|t| !t.hypothesis.additions.contains(&Addition::Placebo)).collect::<Vec<_>>();
         // A number of the wall that does clearly better than every effect: a symptom, no answer.
         let first = closing.first().filter(|t| kinds(t).is_none());
         if first.is_some_and(|t| against(&self.data, best) - against(&self.data, t) > EQUIVALENT) {

@@ -85,7 +85,8 @@ impl Addition {
             Addition::Number(number) => {
                 let value = (number.get)(base);
                 let reach = if value == 0.0 { scales.of_unit(number.unit, number.key) } else { value.abs() };
-                let mut unknowns = alone(number.key, number.unit, value, value - 0.9 * reach, value + 4.0 * reach);
+                let mut unknowns =
+                    alone(number.key, number.unit, value, value - 0.9 * reach, value + 4.0 * reach);
                 unknowns[0].scale = reach;
                 unknowns
             }
@@ -191,13 +192,16 @@ pub struct Hypothesis {
 
 impl Hypothesis {
     /// The wall with these uncertainties and additions.
-    pub fn new(base: &WallParameters, scales: &Scales, nuisances: &[Nuisance], additions: &[Addition]) -> Self {
+    pub fn new(
+        base: &WallParameters,
+        scales: &Scales,
+        nuisances: &[Nuisance],
+        additions: &[Addition],
+    ) -> Self {
         // A number that an addition sets free has no prior.
         let freed = |n: &&Nuisance| match n {
             Nuisance::Number(number, _) => !additions.contains(&Addition::Number(number)),
-            Nuisance::Coefficient(..) => {
-                !additions.iter().any(|a| a.kind() == Some("impact_dissipation"))
-            }
+            Nuisance::Coefficient(..) => !additions.iter().any(|a| a.kind() == Some("impact_dissipation")),
         };
         let mut unknowns = nuisances.iter().filter(freed).map(|n| known(base, n)).collect::<Vec<_>>();
         let count = unknowns.len();
@@ -221,7 +225,9 @@ impl Hypothesis {
     /// The effects that the additions with these values are, for the wall file.
     pub fn effects(&self, values: &[f64]) -> Vec<Effect> {
         let effect = |(index, addition): (usize, &Addition)| match addition {
-            Addition::Effect(variant) => variant.with_parameters(&self.parameters(*variant, index, values)).ok(),
+            Addition::Effect(variant) => {
+                variant.with_parameters(&self.parameters(*variant, index, values)).ok()
+            }
             Addition::LumpedCarriage => {
                 Effect::with_parameters("carriage_mass", &[self.added(index, 0, values)?]).ok()
             }
@@ -281,5 +287,14 @@ fn known(base: &WallParameters, nuisance: &Nuisance) -> Unknown {
     let reach = PRIOR_REACH * sd;
     // A prior as wide as the value itself does not reach what no wall has.
     let lower = if value > 0.0 { (value - reach).max(0.02 * value) } else { value - reach };
-    Unknown { key, unit, start: value, scale: value.abs(), lower, upper: value + reach, prior_sd: Some(sd), slot }
+    Unknown {
+        key,
+        unit,
+        start: value,
+        scale: value.abs(),
+        lower,
+        upper: value + reach,
+        prior_sd: Some(sd),
+        slot,
+    }
 }

@@ -48,10 +48,10 @@ impl OutputNames {
         let refuse = |found: String, allowed: &str| InputError::option("--out", found, allowed);
         std::fs::create_dir_all(folder)
             .map_err(|e| refuse(format!("{}: {e}", folder.display()), "a folder that can be written"))?;
-        let names =
-            Self { diagnosis: folder.join("diagnosis.json"), wall: folder.join("wall.updated.toml") };
+        let names = Self { diagnosis: folder.join("diagnosis.json"), wall: folder.join("wall.updated.toml") };
         let entries = std::fs::read_dir(folder).map_err(|e| Error::io("read", folder, e))?;
-        let entries = entries.filter_map(std::result::Result::ok).map(|entry| entry.path()).collect::<Vec<_>>();
+        let entries =
+            entries.filter_map(std::result::Result::ok).map(|entry| entry.path()).collect::<Vec<_>>();
         if !entries.is_empty() && !entries.contains(&names.diagnosis) {
             let found = format!("{}, which holds other files", folder.display());
             return Err(refuse(found, "an empty folder, or one of an earlier diagnosis").into());
@@ -165,7 +165,11 @@ fn rival(experiment: &Experiment, data: &Data, tried: &Tried) -> Value {
 }
 
 /// Mean of Eq. 8 over whole runs of the tests of a purpose; none if a run failed or there is no such test.
-fn mean_wme(experiment: &Experiment, tried: &Tried, purpose: crate::input::experiment::Purpose) -> Option<f64> {
+fn mean_wme(
+    experiment: &Experiment,
+    tried: &Tried,
+    purpose: crate::input::experiment::Purpose,
+) -> Option<f64> {
     let wall = tried.hypothesis.physics(&tried.fit.values)?.wall;
     let of = |test: &&crate::calibrate::Test| test.purpose == purpose;
     let all = experiment.whole.iter().filter(of).map(|t| whole_wme(t, &wall)).collect::<Option<Vec<_>>>()?;
@@ -178,7 +182,8 @@ fn whole_wme(test: &crate::calibrate::Test, wall: &Wall) -> Option<f64> {
 
 /// Every test: errors before and after, and the noise.
 fn tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Vec<Value> {
-    let walls = [&diagnosis.before, &diagnosis.after].map(|t| t.hypothesis.physics(&t.fit.values).map(|p| p.wall));
+    let walls =
+        [&diagnosis.before, &diagnosis.after].map(|t| t.hypothesis.physics(&t.fit.values).map(|p| p.wall));
     let one = |(index, test): (usize, &super::test_data::TestData)| {
         let error = |tried: &Tried| test_error(&diagnosis.windows, tried, index);
         let wme = |wall: &Option<Wall>| wall.as_ref().and_then(|w| whole_wme(&experiment.whole[index], w));
@@ -211,8 +216,10 @@ fn could_hide(diagnosis: &Diagnosis) -> Vec<Value> {
         let kind = h.additions[0].kind()?;
         let sd = sd(tried, i)?;
         let estimate = tried.fit.values[i] - unknown.start;
-        Some(json!({"kind": kind, "name": h.additions[0].name(), "parameter": unknown.key, "unit": unknown.unit,
-            "estimate": estimate, "sd": sd, "smallest_detectable": DETECTED * sd, "matters": unknown.scale}))
+        Some(
+            json!({"kind": kind, "name": h.additions[0].name(), "parameter": unknown.key, "unit": unknown.unit,
+            "estimate": estimate, "sd": sd, "smallest_detectable": DETECTED * sd, "matters": unknown.scale}),
+        )
     };
     singles.filter_map(row).collect()
 }

@@ -41,8 +41,12 @@ impl<'a> Replay<'a> {
         let (state, contact) = window.freedom.state(x);
         let from = window.samples.start;
         let plastic = self.plastic_m[window.test].get(from).copied().unwrap_or(0.0);
-        let start =
-            Start { time_s: test.time_s[from], state, contact: Some(contact), plastic_displacement_m: plastic };
+        let start = Start {
+            time_s: test.time_s[from],
+            state,
+            contact: Some(contact),
+            plastic_displacement_m: plastic,
+        };
         let times = &test.time_s[window.samples.clone()];
         let mut sampler = Sampler { times, theta: Vec::with_capacity(times.len()) };
         let end_s = times[times.len() - 1];

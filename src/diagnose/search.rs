@@ -55,7 +55,12 @@ impl Tried {
 /// Fits a hypothesis from several starts about `from`, whose values begin with the same uncertain numbers.
 ///
 /// None if no start makes a wall.
-pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Tried> {
+pub fn try_hypothesis(
+    data: &Data,
+    hypothesis: Hypothesis,
+    from: &Tried,
+    starts: &[Vec<f64>],
+) -> Option<Tried> {
     let x = states_of(&from.fit);
     let ladder = ladder(&hypothesis);
     let candidates = ladder.iter().chain(starts);

@@ -29,7 +29,8 @@ pub fn updated_wall(experiment: &Experiment, after: &Tried) -> Result<String> {
     }
     let added = after.hypothesis.effects(&after.fit.values);
     if !added.is_empty() {
-        let unwritable = |e: toml::ser::Error| InputError::file(path, e.to_string(), "effects that can be written");
+        let unwritable =
+            |e: toml::ser::Error| InputError::file(path, e.to_string(), "effects that can be written");
         let effects = table.entry("effects").or_insert_with(|| Value::Array(Vec::new()));
         for effect in added {
             let value = Value::try_from(effect).map_err(unwritable)?;

@@ -56,7 +56,8 @@ pub fn joint_error(data: &Data, tried: &Tried) -> Option<f64> {
 pub fn is_noise(data: &Data, tried: &Tried) -> bool {
     let windows = [data.fit.windows, data.held_out.windows].concat();
     let fits = [&tried.fit.windows[..], &tried.held_out.windows].concat();
-    joint_error(data, tried).is_some_and(|error| error < NOISE) && share_beyond(&windows, &fits, POOR) < POOR_SHARE
+    joint_error(data, tried).is_some_and(|error| error < NOISE)
+        && share_beyond(&windows, &fits, POOR) < POOR_SHARE
 }
 
 /// What speaks against a hypothesis in all windows.
