@@ -18,6 +18,7 @@ mod convergence;
 mod drawn;
 mod drawn_cli;
 mod drawn_support;
+mod diagnose;
 mod effects_catalogue;
 mod effects_laws;
 mod effects_reference;

@@ -1,0 +1,179 @@
+//! Diagnosis: twins of known truth, data that are wrong, and the measured experiments where they are.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use mrbd::ground::{Accelerogram, ReadOptions, read};
+use mrbd::model::{Effect, ImpactLaw, Wall, WallParameters};
+use mrbd::simulate::{Accuracy, History, Shaking, simulate_observed};
+use rand_distr::{Distribution, Normal};
+use serde_json::Value;
+
+use crate::shared;
+use crate::walls::{rng, table_wall};
+
+const STEP_S: f64 = 0.005;
+/// Between the quiet and the noisy cases of a laboratory, rad.
+const NOISE_RAD: f64 = 3e-5;
+
+/// A shaking of the repository's own suite from where it becomes strong, s: short enough for a test.
+fn record(number: usize, from_s: f64, length_s: f64) -> Accelerogram {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("inputs/records/emilia7");
+    let mut files = std::fs::read_dir(folder)
+        .expect("the suite is there")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|e| e == "csv"))
+        .collect::<Vec<_>>();
+    files.sort();
+    let whole = read(&files[number], &ReadOptions::default()).expect("a record").accelerogram;
+    let [from, count] = [from_s, length_s].map(|s| (s / whole.step_s()) as usize);
+    let part = whole.acceleration_m_s2()[from..from + count].to_vec();
+    Accelerogram::new(whole.step_s(), part).expect("a valid part")
+}
+
+/// Writes the tests of a wall as a laboratory would, the description of the wall beside them without its effects.
+fn write_twin(
+    folder: &Path,
+    described: &WallParameters,
+    true_wall: &WallParameters,
+    change: impl Fn([f64; 2]) -> [f64; 2],
+) -> PathBuf {
+    let wall = Wall::new(true_wall.clone()).expect("a wall");
+    let mut experiment =
+        String::from("wall = \"wall.toml\"\n[prior]\nstiffness_n_per_m = 0.02\nmass_kg = 0.01\n");
+    for (i, (number, from_s, scale)) in [(0, 4.0, 2.2), (1, 4.0, 2.2), (2, 4.0, 2.2)].into_iter().enumerate()
+    {
+        let record = record(number, from_s, 12.0).scaled(scale);
+        let normal = Normal::new(0.0, NOISE_RAD).expect("a deviation");
+        let mut random = rng(700, i as u64);
+        let mut history = History::new(STEP_S);
+        let shaking = Shaking { horizontal: Some(record.clone()), vertical: None, tail_s: 2.0 };
+        simulate_observed(&wall, &shaking, Accuracy { tolerance: 1e-8 }, &mut history);
+        let mut measured = String::from("time_s,theta1_rad,theta2_rad\n");
+        for row in &history.rows {
+            let [one, two] = change(row.theta_rad.map(|theta| theta + normal.sample(&mut random)));
+            writeln!(measured, "{:.3},{one:.7},{two:.7}", row.time_s).expect("text");
+        }
+        let mut motion = String::from("time_s,acceleration_m_s2\n");
+        for (k, a) in record.acceleration_m_s2().iter().enumerate() {
+            writeln!(motion, "{:.3},{a:.6}", k as f64 * record.step_s()).expect("text");
+        }
+        let purpose = if i == 2 { "hold-out" } else { "fit" };
+        write!(
+            experiment,
+            "[[tests]]\nname = \"test {i}\"\nrecord = \"record_{i}.csv\"\nmeasured = \"measured_{i}.csv\"\nuse = \"{purpose}\"\n"
+        )
+        .expect("text");
+        std::fs::write(folder.join(format!("record_{i}.csv")), motion).expect("written");
+        std::fs::write(folder.join(format!("measured_{i}.csv")), measured).expect("written");
+    }
+    let p = described;
+    let text = format!(
+        "[wall]\nthickness_m = {}\nheight_m = {}\ncrack_height_m = {}\nlength_m = {}\nmass_kg = {}\n\
+         [corners]\nlower_width_m = {}\nupper_width_m = {}\n\
+         [diaphragm]\nmass_kg = {:?}\ncarriage_mass_kg = {:?}\nstiffness_n_per_m = {:?}\n\
+         [restitution]\ncoefficients = {:?}\nlaw = \"contact\"\n",
+        p.thickness_m,
+        p.height_m,
+        p.crack_height_m.expect("cracked"),
+        p.length_m,
+        p.mass_kg,
+        p.lower_width_m,
+        p.upper_width_m,
+        p.diaphragm_mass_kg,
+        p.carriage_mass_kg,
+        p.stiffness_n_per_m,
+        p.restitution.coefficients
+    );
+    std::fs::write(folder.join("wall.toml"), text).expect("written");
+    let path = folder.join("experiment.toml");
+    std::fs::write(&path, experiment).expect("written");
+    path
+}
+
+fn diagnose(experiment: &Path, out: &Path) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_mrbd"))
+        .args(["diagnose".as_ref(), experiment.as_os_str(), "--out".as_ref(), out.as_os_str()])
+        .output()
+        .expect("mrbd runs")
+}
+
+fn diagnosed(experiment: &Path, out: &Path) -> Value {
+    let output = diagnose(experiment, out);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = std::fs::read_to_string(out.join("diagnosis.json")).expect("written");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+#[test]
+fn twin_of_a_damped_floor_is_named_and_its_wall_runs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let described = table_wall(ImpactLaw::Contact);
+    let mut true_wall = described.clone();
+    true_wall.effects.push(Effect::with_parameters("viscous_damping", &[1500.0]).expect("an effect"));
+    let experiment = write_twin(folder.path(), &described, &true_wall, |theta| theta);
+    let out = folder.path().join("out");
+    let found = diagnosed(&experiment, &out);
+    assert_eq!(found["verdict"], "named", "{found:#}");
+    assert_eq!(found["effects"][0]["kind"], "viscous_damping");
+    let value = found["effects"][0]["parameters"]["coefficient_n_s_per_m"].as_f64().expect("a number");
+    // The target for the median of such errors is 5 %.
+    assert!((value / 1500.0 - 1.0).abs() < 0.05, "{value}");
+    let held_out = &found["tests"][2]["windowed_error"];
+    let [before, after] = ["before", "after"].map(|k| held_out[k].as_f64().expect("a number"));
+    assert!(before > 1.5 && after < 1.1, "held out: {before} before, {after} after");
+    let record = folder.path().join("record_0.csv");
+    let run = Command::new(env!("CARGO_BIN_EXE_mrbd"))
+        .args([
+            "simulate".as_ref(),
+            out.join("wall.updated.toml").as_os_str(),
+            "--record".as_ref(),
+            record.as_os_str(),
+        ])
+        .output()
+        .expect("mrbd runs");
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+}
+
+#[test]
+fn twin_with_nothing_hidden_is_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let wall = table_wall(ImpactLaw::Contact);
+    let found =
+        diagnosed(&write_twin(folder.path(), &wall, &wall, |theta| theta), &folder.path().join("out"));
+    assert_eq!(found["verdict"], "none", "{found:#}");
+    assert_eq!(found["effects"].as_array().expect("a list").len(), 0);
+    assert!(!found["could_hide"].as_array().expect("a list").is_empty());
+}
+
+#[test]
+fn traps_rotations_in_degrees_swapped_or_of_the_wrong_sign_are_refused() {
+    type Wrong = (&'static str, fn([f64; 2]) -> [f64; 2]);
+    let wrongs: [Wrong; 3] = [
+        ("degrees", |theta| theta.map(|t| t.to_degrees())),
+        ("swapped", |[one, two]| [two, one]),
+        ("sign", |theta| theta.map(|t| -t)),
+    ];
+    let wall = table_wall(ImpactLaw::Contact);
+    for (word, wrong) in wrongs {
+        let folder = tempfile::tempdir().expect("a folder");
+        let experiment = write_twin(folder.path(), &wall, &wall, wrong);
+        let output = diagnose(&experiment, &folder.path().join("out"));
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{word}: {told}");
+        assert!(told.contains(word), "{word}: {told}");
+    }
+}
+
+#[test]
+fn reference_carriage_lumped_into_the_floor_is_named() {
+    let Some(measured) = shared::folder("measured") else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let found = diagnosed(&measured.join("b_carriage_lumped/experiment.toml"), &folder.path().join("out"));
+    assert_eq!(found["verdict"], "named", "{found:#}");
+    assert_eq!(found["effects"][0]["kind"], "carriage_mass");
+    let value = found["effects"][0]["parameters"]["mass_kg"].as_f64().expect("a number");
+    // 5 % is the target for the median of such errors.
+    assert!((value / 663.0 - 1.0).abs() < 0.05, "{value}");
+}
