@@ -6,9 +6,9 @@ use super::candidates::candidates;
 use super::experiment::Experiment;
 use super::fit::Problem;
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
-use super::search::{Data, Tried, try_hypothesis, untouched};
+use super::search::{Data, Tried, shared_states, try_hypothesis, untouched};
 use super::verdict::{
-    EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, is_noise, joint_error, kinds, moved_unknown, names,
+    EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, does_something, is_noise, joint_error, kinds, moved_unknown, names,
 };
 use super::windows::{Window, windows};
 use crate::error::{InputError, Result};
@@ -22,6 +22,8 @@ const WORTH_PAIRS: f64 = 60.0;
 const PLACE_SHARE: f64 = 0.3;
 /// Rivals fitted once more from finer starts.
 const POLISHED: usize = 3;
+/// Best rivals whose states the wall without effects tries too.
+const SHARING: usize = 8;
 /// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
 const KNOWN: f64 = 0.02;
 /// Windows in motion below which no effect could be told.
@@ -120,6 +122,8 @@ impl<P: Progress> Search<'_, P> {
         let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
         let singles = self.try_all("single effects", nuisances, &before, &sets);
         let singles = self.polished(nuisances, &before, singles);
+        let best = singles.iter().take(SHARING).collect::<Vec<_>>();
+        let [before, recalibrated] = [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
         Some(self.judge(before, recalibrated, singles))
     }
 
@@ -190,7 +194,7 @@ impl<P: Progress> Search<'_, P> {
         let Some(gap) = gap.filter(|_| moving >= LEAST_MOVING) else {
             return found(Verdict::NoPower, before.clone(), Vec::new(), None, singles);
         };
-        let best_gain = singles.iter().find(|t| kinds(t).is_some());
+        let best_gain = singles.iter().find(|t| kinds(t).is_some() && does_something(t));
         let gain = best_gain.map_or(0.0, |t| against(data, &recalibrated) - against(data, t));
         if gain < WORTH_A_NAME {
             if is_noise(data, &before) {
@@ -221,7 +225,7 @@ impl<P: Progress> Search<'_, P> {
     /// The best hypothesis that closes the gap and is an answer, with what cannot be told from it.
     fn named(&self, tried: &[Tried], gap: f64) -> Option<(Verdict, Tried, Vec<String>)> {
         let closing = tried.iter().filter(|t| closes(&self.data, t, gap)).collect::<Vec<_>>();
-        let best = closing.iter().find(|t| kinds(t).is_some())?;
+        let best = closing.iter().find(|t| kinds(t).is_some() && does_something(t))?;
         let own = kinds(best);
         let limit = against(&self.data, best) + EQUIVALENT;
         let as_good = closing.iter().filter(|t| against(&self.data, t) < limit && kinds(t) != own);

@@ -150,3 +150,27 @@ pub fn try_second(data: &Data, hypothesis: Hypothesis, first: &Tried, from: &Tri
     let fit = data.fit.fit(&hypothesis, start)?;
     judged(data, hypothesis, fit, from)
 }
+
+/// The same values with each window's state refitted from those that other hypotheses found, where that is better.
+///
+/// A window near an impact decided by less than the noise has several valleys: no hypothesis shall win by having found
+/// one that the others missed.
+pub fn shared_states(data: &Data, tried: &Tried, others: &[&Tried]) -> Tried {
+    let mut best = tried.clone();
+    let (h, values) = (&tried.hypothesis, &tried.fit.values);
+    for other in others {
+        let sides = [
+            (&data.fit, &mut best.fit, &other.fit),
+            (&data.held_out, &mut best.held_out, &other.held_out),
+        ];
+        for (problem, own, from) in sides {
+            let Some(found) = problem.states(h, values, &states_of(from), 2, false) else { continue };
+            for (mine, new) in own.windows.iter_mut().zip(found.windows) {
+                if new.squares < mine.squares {
+                    *mine = new;
+                }
+            }
+        }
+    }
+    best
+}

@@ -13,6 +13,9 @@ use crate::simulate::Shaking;
 /// Fewest samples of both rotations that can be diagnosed: some windows of tens of samples.
 const LEAST_SAMPLES: usize = 200;
 
+/// No wall that still stands has turned by this much, rad; read in degrees one has at once.
+const TOO_LARGE_RAD: f64 = 0.7;
+
 /// One test: measured rotations of both bodies and the shaking that caused them.
 #[derive(Debug, Clone)]
 pub struct TestData {
@@ -48,6 +51,12 @@ impl TestData {
             let found = format!("one rotation only in test {:?}", table.name);
             return Err(InputError::file(&path, found, "theta1_rad and theta2_rad").into());
         };
+        let largest_rad = lower.iter().chain(upper).filter(|t| t.is_finite()).fold(0.0, |m, t| f64::max(m, t.abs()));
+        if largest_rad > TOO_LARGE_RAD && table.collapse_s.is_none() {
+            let found = format!("a rotation of {largest_rad:.3} in test {:?}", table.name);
+            let allowed = "radians, below 0.7 while the wall stands; are these degrees? A wall that fell: collapse_s";
+            return Err(InputError::file(&path, found, allowed).into());
+        }
         let end_s = measured.collapse_s.unwrap_or(f64::INFINITY);
         let kept = |k: &usize| measured.time_s[*k] >= 0.0 && measured.time_s[*k] < end_s;
         let kept = (0..measured.time_s.len()).filter(kept).collect::<Vec<_>>();

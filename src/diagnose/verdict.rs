@@ -22,6 +22,10 @@ pub const EQUIVALENT: f64 = 15.0;
 pub const HELD_OUT: f64 = 1.5;
 /// Share of the squared error above noise that a named effect may leave.
 pub const LEFT: f64 = 0.03;
+/// Standard deviations by which at least one number of an effect must differ from doing nothing ...
+pub const SIGNIFICANT: f64 = 4.0;
+/// ... and the share of the size that would matter. In null experiments chance stays below a third of either.
+pub const FLOOR: f64 = 0.005;
 /// A prior wider than this says that a number was not known.
 pub const WIDE_PRIOR: f64 = 0.1;
 
@@ -104,4 +108,18 @@ pub fn moved_unknown(nuisances: &[Nuisance], tried: &Tried) -> Vec<Nuisance> {
         sd > WIDE_PRIOR && change > 0.1
     };
     nuisances.iter().filter(moved).copied().collect()
+}
+
+/// Whether every addition of a hypothesis does something: a number of it differs from doing nothing by more than chance,
+/// and by more than a size too small to matter.
+pub fn does_something(tried: &Tried) -> bool {
+    let h = &tried.hypothesis;
+    let acts = |i: usize| {
+        let unknown = &h.unknowns[i];
+        let size = (tried.fit.values[i] - unknown.start).abs();
+        let sd = tried.fit.covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].max(0.0).sqrt());
+        size > SIGNIFICANT * sd && size > FLOOR * unknown.scale
+    };
+    let all = h.nuisances..h.unknowns.len();
+    (0..h.additions.len()).all(|index| all.clone().any(|i| h.unknowns[i].belongs_to(index) && acts(i)))
 }
