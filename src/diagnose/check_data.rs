@@ -1,4 +1,4 @@
-//! Step 1: what laboratories get wrong in files, found before anything is fitted.
+//! Step 1: what laboratories get wrong in files, found before anything is fitted. Degrees are found on reading.
 
 use super::experiment::Experiment;
 use super::fit::Problem;
@@ -9,8 +9,6 @@ use super::test_data::TestData;
 use super::windows::windows;
 use crate::error::{InputError, Result};
 
-/// No wall that still stands has turned by this much, rad; read in degrees one has at once.
-const TOO_LARGE_RAD: f64 = 0.7;
 /// By how much another reading of the same file must do better before it is told: half the error, and a gain in natural
 /// logarithms of likelihood that no effect of a plausible size would cause by chance.
 const HALF: f64 = 0.5;
@@ -33,7 +31,7 @@ const MISREADINGS: [Misreading; 3] = [
     }),
 ];
 
-/// Refuses tests whose files are wrong in a way that shows: degrees, swapped channels, wrong signs.
+/// Refuses tests whose files are wrong in a way that shows: swapped channels, wrong signs.
 ///
 /// # Errors
 /// Input errors that name the test and what seems wrong with it.
@@ -43,12 +41,6 @@ pub fn check_data(experiment: &Experiment) -> Result<()> {
         let refuse = |found: String, allowed: &str| {
             Err(InputError::key(&experiment.path, &key, found, allowed).into())
         };
-        let largest =
-            test.theta_rad.iter().flatten().filter(|t| t.is_finite()).fold(0.0, |m, t| f64::max(m, t.abs()));
-        if largest > TOO_LARGE_RAD {
-            let found = format!("a rotation of {largest:.3} in test {:?}", test.name);
-            return refuse(found, "radians, below 0.7 while the wall stands; are these degrees?");
-        }
         let Some((error, against)) = misfit(experiment, test) else { continue };
         for (what, put_right) in MISREADINGS {
             let mut other = test.clone();

@@ -11,6 +11,7 @@ use crate::error::{InputError, Result};
 use crate::input::experiment::ExperimentFile;
 use crate::input::load_wall;
 use crate::model::Wall;
+use crate::simulate::Accuracy;
 
 /// Wall, what was known of it, tests.
 #[derive(Debug)]
@@ -48,7 +49,11 @@ impl Experiment {
         let nuisances = nuisances(path, &file)?;
         let tests =
             file.tests.iter().map(|t| TestData::load(folder, t, &wall)).collect::<Result<Vec<_>>>()?;
-        let whole = file.tests.iter().map(|t| Test::load(folder, t, &wall)).collect::<Result<Vec<_>>>()?;
+        let whole = file
+            .tests
+            .iter()
+            .map(|t| Test::load(folder, t, &wall, Accuracy::default()))
+            .collect::<Result<Vec<_>>>()?;
         let scales = Scales::of(&wall, &tests);
         Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales })
     }

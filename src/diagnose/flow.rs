@@ -8,7 +8,8 @@ use super::fit::Problem;
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
 use super::search::{Data, Tried, shared_states, try_hypothesis, untouched};
 use super::verdict::{
-    EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, does_something, is_noise, joint_error, kinds, moved_unknown, names,
+    EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, does_something, is_noise, joint_error, kinds,
+    moved_unknown, names,
 };
 use super::windows::{Window, windows};
 use crate::error::{InputError, Result};
@@ -123,7 +124,8 @@ impl<P: Progress> Search<'_, P> {
         let singles = self.try_all("single effects", nuisances, &before, &sets);
         let singles = self.polished(nuisances, &before, singles);
         let best = singles.iter().take(SHARING).collect::<Vec<_>>();
-        let [before, recalibrated] = [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
+        let [before, recalibrated] =
+            [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
         Some(self.judge(before, recalibrated, singles))
     }
 

@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use super::hypothesis::Physics;
 use super::test_data::TestData;
 use super::windows::Window;
-use crate::model::{Contact, Pair, RockingWall};
+use crate::model::{Contact, Effect, Pair, RockingWall};
 use crate::simulate::{Accuracy, Observer, Shaking, Simulator, Start};
 use crate::solver::Quintic;
 
@@ -77,11 +77,13 @@ fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
     shaking
 }
 
-/// The memory of a yielding spring, carried along the measured displacement of the top.
+/// The memory of a yielding spring, carried along the measured displacement of the top; empty without such a spring.
 fn plastic_displacements_m(test: &TestData, physics: &Physics) -> Vec<f64> {
-    let Some((stiffness, force)) = physics.wall.yielding_spring() else { return Vec::new() };
+    let yields = |effect: &Effect| effect.kind().name == "yielding_spring";
+    if !physics.wall.parameters().effects.iter().any(yields) {
+        return Vec::new();
+    }
     let wall = RockingWall::new(&physics.wall);
-    let yield_m = force / stiffness;
     let mut plastic_m = 0.0;
     let count = test.theta_rad.len();
     let smoothed = |k: usize, channel: usize| {
@@ -92,9 +94,8 @@ fn plastic_displacements_m(test: &TestData, physics: &Physics) -> Vec<f64> {
     let at = |k: usize| {
         let theta = [smoothed(k, 0), smoothed(k, 1)];
         if theta.iter().all(|t| t.is_finite()) {
-            let contact = Contact::of_rotations(theta);
-            let x_c = wall.top_displacement_m(contact, theta);
-            plastic_m = f64::clamp(plastic_m, x_c - yield_m, x_c + yield_m);
+            let x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
+            plastic_m = physics.wall.plastic_displacement_m(plastic_m, x_c);
         }
         plastic_m
     };
@@ -124,9 +125,8 @@ impl Observer for Sampler<'_> {
         self.until(to_s, |_| [0.0; 2]);
     }
 
-    fn ended(&mut self, time_s: f64, _: Contact, theta: Pair) {
+    fn ended(&mut self, _: f64, _: Contact, theta: Pair) {
         // A collapsed wall stays where it fell; roundings of the last time are the same place.
-        let _ = time_s;
         self.until(f64::INFINITY, |_| theta);
     }
 }

@@ -159,10 +159,8 @@ pub fn shared_states(data: &Data, tried: &Tried, others: &[&Tried]) -> Tried {
     let mut best = tried.clone();
     let (h, values) = (&tried.hypothesis, &tried.fit.values);
     for other in others {
-        let sides = [
-            (&data.fit, &mut best.fit, &other.fit),
-            (&data.held_out, &mut best.held_out, &other.held_out),
-        ];
+        let sides =
+            [(&data.fit, &mut best.fit, &other.fit), (&data.held_out, &mut best.held_out, &other.held_out)];
         for (problem, own, from) in sides {
             let Some(found) = problem.states(h, values, &states_of(from), 2, false) else { continue };
             for (mine, new) in own.windows.iter_mut().zip(found.windows) {

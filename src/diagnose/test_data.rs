@@ -51,10 +51,12 @@ impl TestData {
             let found = format!("one rotation only in test {:?}", table.name);
             return Err(InputError::file(&path, found, "theta1_rad and theta2_rad").into());
         };
-        let largest_rad = lower.iter().chain(upper).filter(|t| t.is_finite()).fold(0.0, |m, t| f64::max(m, t.abs()));
+        let largest_rad =
+            lower.iter().chain(upper).filter(|t| t.is_finite()).fold(0.0, |m, t| f64::max(m, t.abs()));
         if largest_rad > TOO_LARGE_RAD && table.collapse_s.is_none() {
             let found = format!("a rotation of {largest_rad:.3} in test {:?}", table.name);
-            let allowed = "radians, below 0.7 while the wall stands; are these degrees? A wall that fell: collapse_s";
+            let allowed =
+                "radians, below 0.7 while the wall stands; are these degrees? A wall that fell: collapse_s";
             return Err(InputError::file(&path, found, allowed).into());
         }
         let end_s = measured.collapse_s.unwrap_or(f64::INFINITY);
