@@ -1,10 +1,9 @@
 """A fragility plot: the curves that `mrbd fragility` fitted, over the shares of runs that the Parquet files tell.
 
-    mrbd fragility outputs/sweep --intensity pgv_m_s --outcome theta1_max_over_alpha1 --exceeds 0.1 \\
-        --group configuration --cluster record --out curves.csv
-    python examples/fragility_plot.py curves.csv outputs/sweep fragility.svg
+    make fragility
+    python examples/fragility_plot.py outputs/fragility/curves.csv outputs/fragility fragility.svg
 
-Needs polars and matplotlib.
+The study has stripes: runs at chosen intensities. Needs polars and matplotlib.
 """
 
 import csv
@@ -14,7 +13,7 @@ from pathlib import Path
 
 import polars as pl
 
-INTENSITY, DEMAND, LIMIT = "pgv_m_s", "theta1_max_over_alpha1", 0.1
+LIMIT = 0.5  # θ/α of either body
 
 
 def curves(path):
@@ -22,24 +21,28 @@ def curves(path):
     found = defaultdict(list)
     with open(path, encoding="utf-8", newline="") as file:
         for row in csv.DictReader(file):
-            numbers = (row[name] for name in ("intensity", "probability", "lower", "upper"))
-            found[row["configuration"]].append(tuple(float(number) if number else None for number in numbers))
+            if row["limit"] == str(LIMIT):
+                numbers = (row[name] for name in ("intensity", "probability", "lower", "upper"))
+                found[row["configuration"]].append(tuple(float(number) if number else None for number in numbers))
     return dict(found)
 
 
-def shares(folder):
-    """{configuration: [(intensity, share of runs beyond the limit, runs)]}, a point a record; failed runs do not count."""
-    beyond = (pl.col("outcome").cast(pl.String) == "collapsed") | (pl.col(DEMAND) > LIMIT)
+def shares(folder, limit=LIMIT):
+    """{configuration: [(intensity, share of runs beyond the limit, runs)]}, a point a stripe; failed runs do not count.
+    A limit of infinity is collapse."""
+    rotation = pl.max_horizontal("theta1_max_over_alpha1", "theta2_max_over_alpha2")
+    beyond = (pl.col("outcome") == "collapsed") | (rotation > limit)
     frame = (
         pl.scan_parquet(str(Path(folder) / "runs/*/*.parquet"))
-        .filter(pl.col("outcome").cast(pl.String) != "failed")
-        .group_by(pl.col("configuration").cast(pl.String), pl.col("record").cast(pl.String), INTENSITY)
+        .with_columns(pl.col("configuration", "outcome").cast(pl.String))
+        .filter(pl.col("outcome") != "failed")
+        .group_by("configuration", "intensity")
         .agg(beyond.mean().alias("share"), pl.len().alias("runs"))
-        .sort("configuration", INTENSITY)
+        .sort("configuration", "intensity")
         .collect()
     )
     found = defaultdict(list)
-    for configuration, _, intensity, share, runs in frame.rows():
+    for configuration, intensity, share, runs in frame.rows():
         found[configuration].append((intensity, share, runs))
     return dict(found)
 
@@ -59,8 +62,8 @@ def plot(curves, shares, path):
             axes.fill_between(intensity, lower, upper, color=line.get_color(), alpha=0.2, linewidth=0)
         observed = shares[configuration]
         axes.scatter([i for i, *_ in observed], [share for _, share, _ in observed], color=line.get_color())
-    axes.set(xscale="log", ylim=(0, 1), xlabel="PGV (m/s)", ylabel=f"P(θ₁/α₁ > {LIMIT} or collapse)")
-    axes.legend(title="fit, and share of each record's runs")
+    axes.set(xscale="log", ylim=(0, 1), xlabel="PGV (m/s)", ylabel=f"P(θ/α > {LIMIT} or collapse)")
+    axes.legend(title="fit, and share of each stripe's runs")
     figure.savefig(path)
     return figure
 

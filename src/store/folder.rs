@@ -216,6 +216,35 @@ pub(super) fn as_folder_name(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::pipeline::Pipeline;
+    use crate::plan::Plan;
+
+    fn manifest() -> Manifest {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("pipelines/check.toml");
+        let pipeline = Pipeline::load(&path).expect("the repository's pipeline");
+        let plan = Plan::load(&pipeline, None).expect("a plan");
+        Manifest::of(&plan, &pipeline, &pipeline.suite, 512).expect("a manifest")
+    }
+
+    #[test]
+    fn regress_a_shard_that_begins_a_moment_later_removes_nothing_of_the_first() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (path, name) = (folder.path(), folder.path().join("manifest.json"));
+        let (first, share) = (manifest(), Earlier::Share);
+        // Both find the folder empty; the first begins and stores a block before the second goes on.
+        assert!(!fit(path, &first, share).expect("an empty folder"));
+        let _held = OutputFolder::prepare(path, &first, "", share).expect("an empty folder");
+        fs::create_dir(path.join("blocks")).expect("made");
+        fs::write(path.join("blocks/block"), "runs").expect("written");
+        let written = fs::read(&name).expect("a manifest");
+        let second = Manifest { started_unix_s: first.started_unix_s + 1, ..first.clone() };
+        begin(path, &second, share).expect("the same plan");
+        let other = Manifest { plan_sha256: "another".to_owned(), ..first };
+        let error = begin(path, &other, share).expect_err("another plan");
+        assert!(error.to_string().contains("plan_sha256"), "{error}");
+        assert_eq!(fs::read(&name).expect("a manifest"), written);
+        assert!(path.join("blocks/block").is_file());
+    }
 
     #[test]
     fn regress_folder_names_escape_what_hive_escapes() {

@@ -241,24 +241,6 @@ fn rejects_going_on_with_another_plan_and_says_what_differs() {
 }
 
 #[test]
-fn regress_shards_that_begin_at_once_lose_nothing() {
-    let plan = plan(SMALL, 1);
-    for _ in 0..20 {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        let begin = |shard: usize| {
-            let output = prepare(folder.path(), &plan, Earlier::Share).expect("the same plan");
-            // Stored at once, as a shard's first block may be before the last shard has begun.
-            let blocks = folder.path().join("blocks");
-            fs::create_dir_all(&blocks).expect("made");
-            fs::write(blocks.join(shard.to_string()), "a block").expect("written");
-            output
-        };
-        std::thread::scope(|scope| (0..8).for_each(|shard| _ = scope.spawn(move || begin(shard))));
-        assert_eq!(fs::read_dir(folder.path().join("blocks")).expect("readable").count(), 8);
-    }
-}
-
-#[test]
 fn rejects_a_second_process_in_the_folder() {
     let plan = plan(SMALL, 1);
     let folder = tempfile::tempdir().expect("a temporary folder");

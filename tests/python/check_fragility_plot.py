@@ -1,42 +1,49 @@
-"""The fragility plot shows the curves of `mrbd fragility` and what the Parquet files hold.
+"""The fragility plot shows the curves of `mrbd fragility` and the shares that `mrbd aggregate` tells.
 
-    python tests/python/check_fragility_plot.py CURVES.csv DIR FOLDER_FOR_THE_PICTURE
+    python tests/python/check_fragility_plot.py QUANTILES.csv CURVES.csv DIR FOLDER_FOR_THE_PICTURE
 
-Without matplotlib only the reading is checked.
+QUANTILES.csv is what `mrbd aggregate DIR --csv` prints of a study with stripes. Without matplotlib only the reading is
+checked.
 """
 
 import csv
 import importlib.util
 import math
 import sys
-from collections import Counter
 from pathlib import Path
 
 from check_examples import load
 
 
-def expected_shares(path, example):
-    """Counted row by row."""
-    import polars as pl
-
-    columns = ["configuration", "record", "outcome", example.INTENSITY, example.DEMAND]
-    runs, beyond = Counter(), Counter()
-    for file in sorted(Path(path).glob("runs/*/*.parquet")):
-        for configuration, record, outcome, intensity, demand in pl.read_parquet(file, columns=columns).rows():
-            if outcome != "failed":
-                runs[configuration, intensity] += 1
-                beyond[configuration, intensity] += outcome == "collapsed" or demand > example.LIMIT
-    return {case: beyond[case] / count for case, count in runs.items()}, runs
-
-
-def check_curves(path, curves):
+def rows(path):
     with open(path, encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
+        return list(csv.DictReader(file))
+
+
+def check_collapses(path, shares):
+    """Shares of collapsed walls, and runs, by floor and stripe."""
+    chosen = [row for row in rows(path) if row["quantity"] == "theta1_max_over_alpha1" and not row["record"]]
+    expected = {
+        (row["configuration"], float(row["intensity"])): (float(row["share_beyond"]), int(row["runs"]) - int(row["failed"]))
+        for row in chosen
+    }
+    found = {(floor, i): (share, runs) for floor, points in shares.items() for i, share, runs in points}
+    assert found.keys() == expected.keys(), sorted(found)
+    for case, (share, runs) in expected.items():
+        assert found[case][1] == runs and math.isclose(found[case][0], share, rel_tol=1e-14), case
+    assert 0 < sum(share for share, _ in expected.values()) < len(expected), "some fall and some do not"
+
+
+def check_curves(curves, shares):
+    """Fitted to these shares: a curve rises through them and is 0.5 where they pass it, within a stripe."""
     assert sorted(curves) == ["parallel", "perpendicular"], sorted(curves)
-    assert sum(map(len, curves.values())) == len(rows) > 100, len(rows)
-    for points in curves.values():
+    for floor, points in curves.items():
         probabilities = [probability for _, probability, *_ in points]
-        assert probabilities == sorted(probabilities) and 0 < probabilities[0] < probabilities[-1] < 1
+        assert probabilities == sorted(probabilities) and len(probabilities) > 50
+        median = next(intensity for intensity, probability, *_ in points if probability >= 0.5)
+        stripes = [intensity for intensity, *_ in shares[floor]]
+        passed = next(k for k, (_, share, _) in enumerate(shares[floor]) if share >= 0.5)
+        assert stripes[max(passed - 2, 0)] < median < stripes[min(passed + 1, len(stripes) - 1)], (floor, median)
 
 
 def check_picture(folder, example, curves, shares):
@@ -47,20 +54,15 @@ def check_picture(folder, example, curves, shares):
     dots = [tuple(map(float, dot)) for collection in axes.collections for dot in collection.get_offsets()]
     assert set((i, share) for points in shares.values() for i, share, _ in points) <= set(dots)
     assert path.read_text(encoding="utf-8").rstrip().endswith("</svg>")
-    print(f"{path}: {len(drawn)} curves, {len(dots)} records' shares")
+    print(f"{path}: {len(drawn)} curves over {sum(map(len, shares.values()))} stripes")
 
 
-def main(curves_path, folder, pictures):
+def main(quantiles, curves_path, folder, pictures):
     example = load("examples/fragility_plot.py")
     curves, shares = example.curves(curves_path), example.shares(folder)
-    check_curves(curves_path, curves)
-    expected, runs = expected_shares(folder, example)
-    found = {(configuration, i): (share, n) for configuration, points in shares.items() for i, share, n in points}
-    assert found.keys() == expected.keys()
-    for case, (share, count) in found.items():
-        assert count == runs[case] and math.isclose(share, expected[case], rel_tol=1e-14), case
-    assert 0 < sum(share for share in expected.values()), "some runs are beyond the limit"
-    print(f"examples/fragility_plot.py: the shares of {len(found)} records and floors agree")
+    check_collapses(quantiles, example.shares(folder, math.inf))
+    check_curves(curves, shares)
+    print("examples/fragility_plot.py: shares and curves agree")
     if importlib.util.find_spec("matplotlib"):
         check_picture(pictures, example, curves, shares)
 
