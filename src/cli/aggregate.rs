@@ -24,20 +24,25 @@ pub struct AggregateCommand {
 }
 
 impl AggregateCommand {
-    /// Runs the command.
+    /// Runs the command. A folder that cannot be written, say a colleague's, is read all the same.
     ///
     /// # Errors
-    /// An input error for a folder without results; [`crate::Error::Io`] if the disk refuses.
+    /// An input error for a folder without results.
     pub fn execute(self) -> Result<()> {
-        match (aggregate_into(&self.folder)?, self.csv) {
+        let aggregated = read(&self.folder)?;
+        match (&aggregated, self.csv) {
             (Aggregated::Sweep(medians), true) => {
-                output::to_stdout(|out| print_medians(out, &medians).map_err(output::failed))
+                output::to_stdout(|out| print_medians(out, medians).map_err(output::failed))?;
             }
             (Aggregated::Drawn(study), true) => {
-                output::to_stdout(|out| study.print_csv(out).map_err(output::failed))
+                output::to_stdout(|out| study.print_csv(out).map_err(output::failed))?;
             }
-            (aggregated, false) => print(&aggregated),
+            (_, false) => print(&aggregated)?,
         }
+        if let Err(e) = keep(&self.folder, &aggregated) {
+            eprintln!("mrbd: note: the medians are not kept beside the runs: {e}");
+        }
+        Ok(())
     }
 }
 
@@ -47,12 +52,14 @@ enum Aggregated {
     Drawn(Distributions),
 }
 
-/// Aggregates the study in a folder, writes its medians there and prints them with what they decide.
+/// Aggregates the study in a folder, prints its medians with what they decide and writes them there.
 ///
 /// # Errors
-/// As [`AggregateCommand::execute`].
+/// As [`AggregateCommand::execute`]; [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
 pub(super) fn aggregate_and_print(folder: &Path) -> Result<()> {
-    print(&aggregate_into(folder)?)
+    let aggregated = read(folder)?;
+    print(&aggregated)?;
+    keep(folder, &aggregated)
 }
 
 fn print(aggregated: &Aggregated) -> Result<()> {
@@ -65,22 +72,27 @@ fn print(aggregated: &Aggregated) -> Result<()> {
     })
 }
 
-fn aggregate_into(folder: &Path) -> Result<Aggregated> {
+fn read(folder: &Path) -> Result<Aggregated> {
+    let aggregated = match kind_of(folder)? {
+        Kind::Sweep => Aggregated::Sweep(aggregate(folder)?),
+        kind => Aggregated::Drawn(distributions(folder, kind)?),
+    };
+    let variants = match &aggregated {
+        Aggregated::Sweep(medians) => &medians.variants,
+        Aggregated::Drawn(study) => &study.variants,
+    };
+    tell_missing(folder, variants)?;
+    Ok(aggregated)
+}
+
+fn keep(folder: &Path, aggregated: &Aggregated) -> Result<()> {
     let file = folder.join("medians.parquet");
-    match kind_of(folder)? {
-        Kind::Sweep => {
-            let medians = aggregate(folder)?;
-            tell_missing(folder, &medians.variants)?;
-            write_medians(&file, &medians)?;
-            write_findings(&folder.join("findings.csv"), &medians)?;
-            Ok(Aggregated::Sweep(medians))
+    match aggregated {
+        Aggregated::Sweep(medians) => {
+            write_medians(&file, medians)?;
+            write_findings(&folder.join("findings.csv"), medians)
         }
-        kind => {
-            let study = distributions(folder, kind)?;
-            tell_missing(folder, &study.variants)?;
-            study.write(&file)?;
-            Ok(Aggregated::Drawn(study))
-        }
+        Aggregated::Drawn(study) => study.write(&file),
     }
 }
 

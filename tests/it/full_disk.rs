@@ -84,6 +84,13 @@ fn regress_a_study_on_a_full_disk_or_one_that_cannot_be_written_is_whole_and_goe
         disk.leave(room_kib);
         assert_full(at, &arguments(&["--resume"]));
     }
+    // What is there can be told, if not kept.
+    let told = mrbd(at, &["aggregate", "out", "--csv"]);
+    assert!(
+        stdout(&told).lines().count() > 10 && message(&told).contains("are not kept"),
+        "{}",
+        message(&told)
+    );
     disk.change("size=16m");
     stdout(&mrbd(at, &arguments(&["--shard", "2/3"])));
     stdout(&mrbd(at, &arguments(&["--shard", "3/3"])));
