@@ -51,6 +51,7 @@
 //! | [`check`] | medians and accepted medians, runs and the same runs again | what moved, and what is ill-conditioned |
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
 //! | [`calibrate`] | shaking-table tests | coefficients of impact, and what the tests can tell of them |
+//! | [`diagnose`] | a wall and tests that it does not follow | the effect that the model lacks |
 //! | [`comparison`] | one wall as three models | which rotates most under the same records (Fig. 9) |
 //! | [`overturning`] | a wall and a shape of pulse | the amplitudes and frequencies that overturn it |
 //! | [`report`] | result folders, runs | pages and pictures |

@@ -114,7 +114,8 @@ fn times(path: &Path, columns: &Columns) -> Result<Vec<f64>, InputError> {
     Ok(time.to_vec())
 }
 
-fn median_step(time_s: &[f64]) -> f64 {
+/// Median distance of times in order, s.
+pub(crate) fn median_step(time_s: &[f64]) -> f64 {
     let mut steps = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
     steps.sort_by(f64::total_cmp);
     steps[steps.len() / 2]

@@ -53,6 +53,7 @@ pub use experiment::Experiment;
 pub use flow::calibrate;
 pub use manifest::KIND;
 pub use measured::Measured;
+pub(crate) use measured::median_step;
 pub use objective::{Objective, prior_factor, simulate};
 pub use output::{OutputNames, write_results};
 pub use paper_de::{F, PaperDe, first_generation};

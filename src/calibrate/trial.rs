@@ -11,7 +11,7 @@ use super::windows::{Window, windows};
 use crate::error::{InputError, Result};
 use crate::input::experiment::{Purpose, TestTable};
 use crate::model::Wall;
-use crate::simulate::{Accuracy, History, Outcome, Response, Simulator};
+use crate::simulate::{Accuracy, History, Outcome, Response, Shaking, Simulator};
 
 /// One test of an experiment.
 #[derive(Debug, Clone)]
@@ -28,7 +28,9 @@ pub struct Test {
     pub collapse_s: Option<f64>,
     /// How the clocks of record and measurement were brought together.
     pub alignment: Alignment,
-    /// The ground motion, up to the end of what counts, made ready for the wall as given.
+    /// The ground motion as recorded.
+    pub shaking: Shaking,
+    /// The same up to the end of what counts, made ready for the wall as given.
     simulator: Simulator,
     windows: Vec<Window>,
 }
@@ -71,14 +73,15 @@ impl Test {
             collapse_s: measured.collapse_s,
             alignment,
             simulator: Simulator::new(wall, &until(&shaking, target.end_s()), accuracy),
+            shaking,
             windows: vec![Window::whole(&target)],
             target,
             measured,
         })
     }
 
-    /// The same test in windows from each `reach`-th stretch without impacts, see [`windows`]; between impacts the wall
-    /// moves as the measured one.
+    /// The same test in windows from each `reach`-th stretch without impacts; between impacts the wall moves as the
+    /// measured one.
     #[must_use]
     pub fn in_windows(&self, reach: usize, wall: &Wall, accuracy: Accuracy) -> Self {
         let windows = windows(&self.target, &self.simulator.with_wall(wall, accuracy), reach);

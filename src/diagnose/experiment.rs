@@ -8,7 +8,7 @@ use super::test_data::TestData;
 use super::wall_number::{WALL_NUMBERS, wall_number};
 use crate::calibrate::Test;
 use crate::error::{InputError, Result};
-use crate::input::experiment::ExperimentFile;
+use crate::input::experiment::{ExperimentFile, TestTable};
 use crate::input::load_wall;
 use crate::model::Wall;
 use crate::simulate::Accuracy;
@@ -47,13 +47,14 @@ impl Experiment {
             return Err(InputError::key(&wall_path, "wall.crack_height_m", "no crack", allowed).into());
         }
         let nuisances = nuisances(path, &file)?;
-        let tests =
-            file.tests.iter().map(|t| TestData::load(folder, t, &wall)).collect::<Result<Vec<_>>>()?;
         let whole = file
             .tests
             .iter()
             .map(|t| Test::load(folder, t, &wall, Accuracy::default()))
             .collect::<Result<Vec<_>>>()?;
+        let data =
+            |(test, table): (&Test, &TestTable)| TestData::new(test, &folder.join(&table.measured), table);
+        let tests = whole.iter().zip(&file.tests).map(data).collect::<Result<Vec<_>, _>>()?;
         let scales = Scales::of(&wall, &tests);
         Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales })
     }

@@ -6,10 +6,10 @@ use super::candidates::candidates;
 use super::experiment::Experiment;
 use super::fit::Problem;
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
-use super::search::{Data, Tried, shared_states, try_hypothesis, untouched};
+use super::search::{Data, Tried, refit, shared_states, try_hypothesis, try_second, untouched};
 use super::verdict::{
     EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, does_something, is_noise, joint_error, kinds,
-    moved_unknown, names,
+    moved_unknown, name_of_number, names,
 };
 use super::windows::{Window, windows};
 use crate::error::{InputError, Result};
@@ -117,7 +117,7 @@ impl<P: Progress> Search<'_, P> {
         self.progress.step("the wall as given", 2);
         let before = untouched(&self.data, self.hypothesis(&[], &[]))?;
         self.progress.fitted();
-        let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before, &[])?;
+        let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before)?;
         self.progress.fitted();
         let additions = candidates(self.experiment.wall.parameters());
         let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
@@ -139,7 +139,7 @@ impl<P: Progress> Search<'_, P> {
     ) -> Vec<Tried> {
         self.progress.step(what, sets.len());
         let try_one = |additions: &Vec<Addition>| {
-            let tried = try_hypothesis(&self.data, self.hypothesis(nuisances, additions), from, &[]);
+            let tried = try_hypothesis(&self.data, self.hypothesis(nuisances, additions), from);
             self.progress.fitted();
             tried
         };
@@ -169,7 +169,7 @@ impl<P: Progress> Search<'_, P> {
             let tries = [0.9, 0.95, 1.0, 1.05, 1.1].map(about);
             let fits = tries.par_iter().filter_map(|values| {
                 let one = std::slice::from_ref(values);
-                super::search::refit(&self.data, h.clone(), from, one)
+                refit(&self.data, h.clone(), from, one)
             });
             let best = fits.min_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
             self.progress.fitted();
@@ -196,8 +196,7 @@ impl<P: Progress> Search<'_, P> {
         let Some(gap) = gap.filter(|_| moving >= LEAST_MOVING) else {
             return found(Verdict::NoPower, before.clone(), Vec::new(), None, singles);
         };
-        let best_gain = singles.iter().find(|t| kinds(t).is_some() && does_something(t));
-        let gain = best_gain.map_or(0.0, |t| against(data, &recalibrated) - against(data, t));
+        let gain = best_answer(&singles).map_or(0.0, |t| against(data, &recalibrated) - against(data, t));
         if gain < WORTH_A_NAME {
             if is_noise(data, &before) {
                 return found(Verdict::None, before.clone(), Vec::new(), None, singles);
@@ -206,14 +205,15 @@ impl<P: Progress> Search<'_, P> {
                 return self.recalibrated(found, &before, &recalibrated, singles, gap);
             }
         }
-        if let Some(named) = self.named(&singles, gap) {
+        if let Some(named) = self.named(&singles, gap, &recalibrated) {
             let (verdict, after, equivalent) = named;
             return found(verdict, after, equivalent, None, singles);
         }
         let mut tried = singles;
         if gain > WORTH_PAIRS {
             let pairs = self.pairs(&tried, &before);
-            if let Some((verdict, after, equivalent)) = self.named(&pairs, gap) {
+            let single = best_answer(&tried).unwrap_or(&recalibrated);
+            if let Some((verdict, after, equivalent)) = self.named(&pairs, gap, single) {
                 tried.extend(pairs);
                 return found(verdict, after, equivalent, None, self.ordered(tried));
             }
@@ -224,10 +224,14 @@ impl<P: Progress> Search<'_, P> {
         found(verdict, recalibrated.clone(), Vec::new(), place, tried)
     }
 
-    /// The best hypothesis that closes the gap and is an answer, with what cannot be told from it.
-    fn named(&self, tried: &[Tried], gap: f64) -> Option<(Verdict, Tried, Vec<String>)> {
+    /// The best hypothesis that closes the gap, is an answer, and is worth its name beside a simpler one; with what cannot
+    /// be told from it.
+    fn named(&self, tried: &[Tried], gap: f64, simpler: &Tried) -> Option<(Verdict, Tried, Vec<String>)> {
         let closing = tried.iter().filter(|t| closes(&self.data, t, gap)).collect::<Vec<_>>();
-        let best = closing.iter().find(|t| kinds(t).is_some() && does_something(t))?;
+        let best = best_answer(closing.iter().copied())?;
+        if against(&self.data, simpler) - against(&self.data, best) < WORTH_A_NAME {
+            return None;
+        }
         let own = kinds(best);
         let limit = against(&self.data, best) + EQUIVALENT;
         let as_good = closing.iter().filter(|t| against(&self.data, t) < limit && kinds(t) != own);
@@ -247,7 +251,7 @@ impl<P: Progress> Search<'_, P> {
             }
         }
         let verdict = if equivalent.is_empty() { Verdict::Named } else { Verdict::Class };
-        Some((verdict, (*best).clone(), equivalent))
+        Some((verdict, best.clone(), equivalent))
     }
 
     /// A gap that the wall's own numbers close: an answer, unless what moved had not been known and effects do as well.
@@ -271,14 +275,14 @@ impl<P: Progress> Search<'_, P> {
         let sets = candidates(self.experiment.wall.parameters());
         let sets = sets.into_iter().filter(|a| a.kind().is_some()).map(|a| vec![a]).collect::<Vec<_>>();
         let instead = self.try_all("effects in place of what was not known", &nuisances, before, &sets);
-        let Some((_, after, mut equivalent)) = self.named(&instead, gap) else {
+        let Some((_, after, mut equivalent)) = self.named(&instead, gap, before) else {
             return found(Verdict::Recalibrated, recalibrated.clone(), Vec::new(), None, singles);
         };
         if equivalent.is_empty() {
             equivalent = names(&after);
         }
         equivalent.extend(unknown.iter().map(|n| match n {
-            Nuisance::Number(number, _) => names_of_number(number.key),
+            Nuisance::Number(number, _) => name_of_number(number),
             Nuisance::Coefficient(..) => "impact_dissipation".to_owned(),
         }));
         equivalent.dedup();
@@ -303,7 +307,7 @@ impl<P: Progress> Search<'_, P> {
         self.progress.step("pairs of effects", sets.len());
         let try_one = |(set, first): (&Vec<Addition>, &&Tried)| {
             let h = self.hypothesis(&self.experiment.nuisances, set);
-            let tried = super::search::try_second(&self.data, h, first, before);
+            let tried = try_second(&self.data, h, first, before);
             self.progress.fitted();
             tried
         };
@@ -321,7 +325,7 @@ impl<P: Progress> Search<'_, P> {
     }
 }
 
-fn names_of_number(key: &str) -> String {
-    let last = key.rsplit('.').next().unwrap_or(key);
-    last.trim_end_matches("_n_per_m").trim_end_matches("_kg").trim_end_matches("_m").to_owned()
+/// The first of hypotheses in order that is an answer and does something.
+fn best_answer<'t>(tried: impl IntoIterator<Item = &'t Tried>) -> Option<&'t Tried> {
+    tried.into_iter().find(|t| kinds(t).is_some() && does_something(t))
 }

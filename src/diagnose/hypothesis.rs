@@ -222,30 +222,34 @@ impl Hypothesis {
         self.unknowns.iter().zip(values).map(distance).sum()
     }
 
-    /// The effects that the additions with these values are, for the wall file.
-    pub fn effects(&self, values: &[f64]) -> Vec<Effect> {
-        let effect = |(index, addition): (usize, &Addition)| match addition {
-            Addition::Effect(variant) => {
-                variant.with_parameters(&self.parameters(*variant, index, values)).ok()
+    /// The effects that the additions with these values are, for the wall file; none if one is outside its bounds.
+    pub fn effects(&self, values: &[f64]) -> Option<Vec<Effect>> {
+        let mut effects = Vec::new();
+        for (index, addition) in self.additions.iter().enumerate() {
+            match addition {
+                Addition::Effect(variant) => {
+                    effects.push(variant.with_parameters(&self.parameters(*variant, index, values)).ok()?);
+                }
+                Addition::LumpedCarriage => {
+                    let mass_kg = self.added(index, 0, values)?;
+                    effects.push(Effect::with_parameters("carriage_mass", &[mass_kg]).ok()?);
+                }
+                Addition::Number(_) | Addition::Placebo => {}
             }
-            Addition::LumpedCarriage => {
-                Effect::with_parameters("carriage_mass", &[self.added(index, 0, values)?]).ok()
-            }
-            Addition::Number(_) | Addition::Placebo => None,
-        };
-        self.additions.iter().enumerate().filter_map(effect).collect()
+        }
+        Some(effects)
     }
 
     /// The wall these values make; none if there is no such wall.
     pub fn physics(&self, values: &[f64]) -> Option<Physics> {
-        let parameters = self.parameters_of_wall(values);
+        let parameters = self.parameters_of_wall(values)?;
         let placebo = self.additions.iter().position(|a| *a == Addition::Placebo);
         let reversed_ratio = placebo.and_then(|index| self.added(index, 0, values)).unwrap_or(0.0);
         Some(Physics { wall: Wall::new(parameters).ok()?, reversed_ratio })
     }
 
-    /// The parameters of the wall these values make.
-    pub fn parameters_of_wall(&self, values: &[f64]) -> WallParameters {
+    /// The parameters of the wall these values make; none if an effect is outside its bounds.
+    pub fn parameters_of_wall(&self, values: &[f64]) -> Option<WallParameters> {
         let mut p = self.base.clone();
         for (unknown, &value) in self.unknowns.iter().zip(values) {
             match unknown.slot {
@@ -258,8 +262,8 @@ impl Hypothesis {
                 },
             }
         }
-        p.effects.extend(self.effects(values));
-        p
+        p.effects.extend(self.effects(values)?);
+        Some(p)
     }
 
     fn added(&self, index: usize, parameter: usize, values: &[f64]) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! Diagnosis: where model and measurement disagree, which effect would make them agree, and whether it does.
 //!
-//! In the order of the flow: an [`Experiment`] is read and its data checked ([`check_data`]); tests are cut into short
+//! In the order of the flow: an [`Experiment`] is read and its data checked ([`mod@check_data`]); tests are cut into short
 //! [`windows`] that start where the measured [`pattern`] is beyond doubt; each window is simulated from a fitted state
 //! ([`replay`], [`window_fit`]), so that neither the past nor noisy derivatives enter; a [`hypothesis`], the wall with
 //! what is uncertain of it and what is added to it, is fitted to all windows together ([`fit`]) and judged on tests held

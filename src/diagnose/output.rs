@@ -19,7 +19,9 @@ use super::updated_wall::updated_wall;
 use super::verdict::{Verdict, against, joint_error, names};
 use super::window_fit::WindowFit;
 use super::windows::Window;
+use crate::calibrate::Test;
 use crate::error::{Error, InputError, Result};
+use crate::input::experiment::Purpose;
 use crate::model::Wall;
 use crate::simulate::Accuracy;
 use crate::store::write_durably;
@@ -71,7 +73,7 @@ pub fn write_results(names: &OutputNames, experiment: &Experiment, diagnosis: &D
         _ => &diagnosis.before,
     };
     write_durably(&names.wall, updated_wall(experiment, kept)?.as_bytes())?;
-    let text = serde_json::to_string_pretty(&summary).unwrap_or_default();
+    let text = serde_json::to_string_pretty(&summary).map_err(|e| Error::table(&names.diagnosis, e))?;
     write_durably(&names.diagnosis, text.as_bytes())?;
     Ok(summary)
 }
@@ -90,7 +92,7 @@ fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
         "place": diagnosis.place.or(answered.then(|| diagnosis.after.hypothesis.additions[0].place())),
         "effects": effects,
         "equivalent": diagnosis.equivalent,
-        "wall": numbers(&data, &diagnosis.after, 0..diagnosis.after.hypothesis.nuisances),
+        "wall": numbers(&diagnosis.after, 0..diagnosis.after.hypothesis.nuisances),
         "tests": tests(experiment, diagnosis),
         "windowed_error": {
             "before": joint_error(&data, &diagnosis.before),
@@ -130,7 +132,7 @@ fn effects(data: &Data, after: &Tried) -> Vec<Value> {
 }
 
 /// Fitted numbers of the wall with their standard deviations, and what they were.
-fn numbers(_: &Data, tried: &Tried, range: std::ops::Range<usize>) -> Vec<Value> {
+fn numbers(tried: &Tried, range: std::ops::Range<usize>) -> Vec<Value> {
     let h = &tried.hypothesis;
     range
         .map(|i| {
@@ -160,23 +162,19 @@ fn rival(experiment: &Experiment, data: &Data, tried: &Tried) -> Value {
             "value": tried.fit.values[i], "sd": sd(tried, i)})).collect::<Vec<_>>(),
         "windowed_error": {"fit": fit, "held_out": held_out},
         "against": {"fit": against_fit, "held_out": against_held_out, "all": against(data, tried)},
-        "wme": {"fit": wme(crate::input::experiment::Purpose::Fit), "held_out": wme(crate::input::experiment::Purpose::HoldOut)},
+        "wme": {"fit": wme(Purpose::Fit), "held_out": wme(Purpose::HoldOut)},
     })
 }
 
 /// Mean of Eq. 8 over whole runs of the tests of a purpose; none if a run failed or there is no such test.
-fn mean_wme(
-    experiment: &Experiment,
-    tried: &Tried,
-    purpose: crate::input::experiment::Purpose,
-) -> Option<f64> {
+fn mean_wme(experiment: &Experiment, tried: &Tried, purpose: Purpose) -> Option<f64> {
     let wall = tried.hypothesis.physics(&tried.fit.values)?.wall;
-    let of = |test: &&crate::calibrate::Test| test.purpose == purpose;
+    let of = |test: &&Test| test.purpose == purpose;
     let all = experiment.whole.iter().filter(of).map(|t| whole_wme(t, &wall)).collect::<Option<Vec<_>>>()?;
     (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
 }
 
-fn whole_wme(test: &crate::calibrate::Test, wall: &Wall) -> Option<f64> {
+fn whole_wme(test: &Test, wall: &Wall) -> Option<f64> {
     test.simulate(wall, Accuracy::default()).wme
 }
 

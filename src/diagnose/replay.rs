@@ -71,7 +71,10 @@ fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
     if reversed_ratio != 0.0
         && let Some(record) = &shaking.horizontal
     {
-        let backwards = record.acceleration_m_s2().iter().rev().map(|a| reversed_ratio * a).collect();
+        let vertical = shaking.vertical.as_ref().map_or(&[][..], |v| v.acceleration_m_s2());
+        let own = vertical.iter().copied().chain(std::iter::repeat(0.0));
+        let backwards = record.acceleration_m_s2().iter().rev().zip(own);
+        let backwards = backwards.map(|(a, own)| own + reversed_ratio * a).collect();
         shaking.vertical = crate::ground::Accelerogram::new(record.step_s(), backwards).ok();
     }
     shaking

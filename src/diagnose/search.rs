@@ -52,26 +52,30 @@ impl Tried {
     }
 }
 
-/// Fits a hypothesis from several starts about `from`, whose values begin with the same uncertain numbers.
+/// Fits a hypothesis from several starts; `from` gives the states of the windows.
 ///
 /// None if no start makes a wall.
-pub fn try_hypothesis(
-    data: &Data,
-    hypothesis: Hypothesis,
-    from: &Tried,
-    starts: &[Vec<f64>],
-) -> Option<Tried> {
-    let x = states_of(&from.fit);
-    let ladder = ladder(&hypothesis);
-    let candidates = ladder.iter().chain(starts);
-    let fits = candidates.filter_map(|values| data.fit.states(&hypothesis, values, &x, 1, false));
-    let start = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-    let fit = data.fit.fit(&hypothesis, start)?;
-    judged(data, hypothesis, fit, from)
+pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Option<Tried> {
+    let starts = ladder(&hypothesis, &hypothesis.start(), hypothesis.nuisances);
+    let start = best_start(data, &hypothesis, &states_of(&from.fit), &starts, (1, false))?;
+    fitted(data, hypothesis, start, from)
 }
 
-/// Judges a fit on the tests held out.
-pub fn judged(data: &Data, hypothesis: Hypothesis, fit: Fit, from: &Tried) -> Option<Tried> {
+/// The best of some starts, after so many steps of the states alone, thorough or not.
+fn best_start(
+    data: &Data,
+    h: &Hypothesis,
+    x: &[Vec<f64>],
+    starts: &[Vec<f64>],
+    (steps, thorough): (usize, bool),
+) -> Option<Fit> {
+    let fits = starts.iter().filter_map(|values| data.fit.states(h, values, x, steps, thorough));
+    fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
+/// Fits from a start, and judges on the tests held out.
+fn fitted(data: &Data, hypothesis: Hypothesis, start: Fit, from: &Tried) -> Option<Tried> {
+    let fit = data.fit.fit(&hypothesis, start)?;
     let held_out = data.held_out.states(&hypothesis, &fit.values, &states_of(&from.held_out), 3, true)?;
     Some(Tried { hypothesis, fit, held_out })
 }
@@ -87,28 +91,24 @@ fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
     fit.windows.iter().map(|w| w.x.clone()).collect()
 }
 
-/// Starts: nothing added, and each added number at several sizes of either sign.
-fn ladder(h: &Hypothesis) -> Vec<Vec<f64>> {
-    let start = h.start();
-    let added = h.nuisances..h.unknowns.len();
-    let mut starts = vec![start.clone()];
+/// Starts about `start`: itself, and the numbers from the `first` on, one or two, at several sizes; one of either sign.
+fn ladder(h: &Hypothesis, start: &[f64], first: usize) -> Vec<Vec<f64>> {
     let moved = |values: &[f64], i: usize, by: f64| {
         let unknown = &h.unknowns[i];
-        let value = unknown.start + by * unknown.scale;
         let mut values = values.to_vec();
-        values[i] = value;
-        (unknown.lower..=unknown.upper).contains(&value).then_some(values)
+        values[i] += by * unknown.scale;
+        (unknown.lower..=unknown.upper).contains(&values[i]).then_some(values)
     };
-    match added.len() {
+    let mut starts = vec![start.to_vec()];
+    match h.unknowns.len() - first {
         1 => {
             let shares = LADDER.iter().flat_map(|share| [*share, -share]);
-            starts.extend(shares.filter_map(|share| moved(&start, added.start, share)));
+            starts.extend(shares.filter_map(|share| moved(start, first, share)));
         }
         2 => {
-            for one in PAIRS {
-                let Some(values) = moved(&start, added.start, one) else { continue };
-                starts.extend(PAIRS.iter().filter_map(|two| moved(&values, added.start + 1, *two)));
-            }
+            let one = PAIRS.iter().filter_map(|share| moved(start, first, *share));
+            let two = |values: Vec<f64>| PAIRS.map(|share| moved(&values, first + 1, share));
+            starts.extend(one.flat_map(two).flatten());
         }
         _ => {}
     }
@@ -117,38 +117,20 @@ fn ladder(h: &Hypothesis) -> Vec<Vec<f64>> {
 
 /// Fits from given starts only.
 pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Tried> {
-    let x = states_of(&from.fit);
-    let fits = starts.iter().filter_map(|values| data.fit.states(&hypothesis, values, &x, 2, true));
-    let start = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-    let fit = data.fit.fit(&hypothesis, start)?;
-    judged(data, hypothesis, fit, from)
+    let start = best_start(data, &hypothesis, &states_of(&from.fit), starts, (2, true))?;
+    fitted(data, hypothesis, start, from)
 }
 
 /// Fits a second addition beside one that was fitted, from its values.
 pub fn try_second(data: &Data, hypothesis: Hypothesis, first: &Tried, from: &Tried) -> Option<Tried> {
     let mut base = hypothesis.start();
     // The first addition's numbers follow those of the wall; fewer of the wall's may have a prior beside the second.
-    let first_added = first.hypothesis.unknowns.len() - first.hypothesis.nuisances;
-    for i in 0..first_added {
-        base[hypothesis.nuisances + i] = first.fit.values[first.hypothesis.nuisances + i];
-    }
-    let second = hypothesis.nuisances + first_added..hypothesis.unknowns.len();
-    let mut starts = vec![base.clone()];
-    if second.len() == 1 {
-        let unknown = &hypothesis.unknowns[second.start];
-        for share in LADDER.iter().flat_map(|share| [*share, -share]) {
-            let mut values = base.clone();
-            values[second.start] += share * unknown.scale;
-            if (unknown.lower..=unknown.upper).contains(&values[second.start]) {
-                starts.push(values);
-            }
-        }
-    }
-    let x = states_of(&first.fit);
-    let fits = starts.iter().filter_map(|values| data.fit.states(&hypothesis, values, &x, 1, false));
-    let start = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
-    let fit = data.fit.fit(&hypothesis, start)?;
-    judged(data, hypothesis, fit, from)
+    let added = &first.fit.values[first.hypothesis.nuisances..];
+    let second = hypothesis.nuisances + added.len();
+    base[hypothesis.nuisances..second].copy_from_slice(added);
+    let starts = ladder(&hypothesis, &base, second);
+    let start = best_start(data, &hypothesis, &states_of(&first.fit), &starts, (1, false))?;
+    fitted(data, hypothesis, start, from)
 }
 
 /// The same values with each window's state refitted from those that other hypotheses found, where that is better.

@@ -15,7 +15,10 @@ use crate::input::toml_file;
 pub fn updated_wall(experiment: &Experiment, after: &Tried) -> Result<String> {
     let path = &experiment.wall_path;
     let mut table: Table = toml_file::load(path)?;
-    let found = after.hypothesis.parameters_of_wall(&after.fit.values);
+    let (h, values) = (&after.hypothesis, &after.fit.values);
+    let impossible =
+        || InputError::file(path, format!("effects with {values:?}"), "values within their bounds");
+    let found = h.parameters_of_wall(values).ok_or_else(impossible)?;
     let given = experiment.wall.parameters();
     for number in &WALL_NUMBERS {
         let value = (number.get)(&found);
@@ -27,7 +30,7 @@ pub fn updated_wall(experiment: &Experiment, after: &Tried) -> Result<String> {
         let list = found.restitution.coefficients.iter().map(|c| Value::Float(*c)).collect();
         set(&mut table, "restitution.coefficients", Value::Array(list));
     }
-    let added = after.hypothesis.effects(&after.fit.values);
+    let added = h.effects(values).ok_or_else(impossible)?;
     if !added.is_empty() {
         let unwritable =
             |e: toml::ser::Error| InputError::file(path, e.to_string(), "effects that can be written");

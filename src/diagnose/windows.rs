@@ -9,8 +9,8 @@ use super::pattern::{Freedom, MeasuredState, measured_state};
 use super::test_data::TestData;
 use crate::input::experiment::Purpose;
 
-/// Length aimed at, s: windows are half to one and a half times as long. About a period of a rocking wall, so that most
-/// hold one impact at the ground.
+/// Length aimed at, s: windows are half to one and a half times as long. About half a period of a rocking wall, so that
+/// most hold one impact at the ground.
 pub const WINDOW_S: f64 = 0.5;
 /// Fewest samples of a window, several times what its own state takes.
 const LEAST_SAMPLES: usize = 20;
@@ -37,7 +37,7 @@ pub struct Window {
     pub freedom: Freedom,
     /// The state smoothed from the measurement: (θ, θ') of the free bodies.
     pub measured: Vec<f64>,
-    /// About the standard deviations of these.
+    /// Changes of these, within what the noise leaves open, over which sensitivities are taken.
     pub spread: Vec<f64>,
     /// Whether the wall moves in it.
     pub moves: bool,
@@ -106,8 +106,9 @@ fn window(index: usize, test: &TestData, samples: Range<usize>, start: &Measured
         return None;
     }
     let noise = test.noise_rad[0].max(test.noise_rad[1]);
-    // Of a cubic through 17 samples: half the noise in the value, a tenth of it a sample in the slope.
-    let spread = [0.5 * noise, 0.1 * noise / test.step_s / 4.0];
+    // A cubic through 17 samples knows its value to 0.37 and its slope to 0.125 of the noise a sample: about that for the
+    // value, a fifth of it for the slope, over which the motion is still linear.
+    let spread = [0.5 * noise, 0.025 * noise / test.step_s];
     Some(Window {
         test: index,
         purpose: test.purpose,

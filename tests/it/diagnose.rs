@@ -14,6 +14,8 @@ use crate::shared;
 use crate::walls::{rng, table_wall};
 
 const STEP_S: f64 = 0.005;
+/// The measurement's clock was started this much after the record's, s.
+const LATE_S: f64 = 0.5;
 /// Between the quiet and the noisy cases of a laboratory, rad.
 const NOISE_RAD: f64 = 3e-5;
 
@@ -53,7 +55,7 @@ fn write_twin(
         let mut measured = String::from("time_s,theta1_rad,theta2_rad\n");
         for row in &history.rows {
             let [one, two] = change(row.theta_rad.map(|theta| theta + normal.sample(&mut random)));
-            writeln!(measured, "{:.3},{one:.7},{two:.7}", row.time_s).expect("text");
+            writeln!(measured, "{:.3},{one:.7},{two:.7}", row.time_s - LATE_S).expect("text");
         }
         let mut motion = String::from("time_s,acceleration_m_s2\n");
         for (k, a) in record.acceleration_m_s2().iter().enumerate() {
@@ -62,7 +64,7 @@ fn write_twin(
         let purpose = if i == 2 { "hold-out" } else { "fit" };
         write!(
             experiment,
-            "[[tests]]\nname = \"test {i}\"\nrecord = \"record_{i}.csv\"\nmeasured = \"measured_{i}.csv\"\nuse = \"{purpose}\"\n"
+            "[[tests]]\nname = \"test {i}\"\nrecord = \"record_{i}.csv\"\nmeasured = \"measured_{i}.csv\"\nuse = \"{purpose}\"\nstart_s = {LATE_S}\n"
         )
         .expect("text");
         std::fs::write(folder.join(format!("record_{i}.csv")), motion).expect("written");
@@ -107,7 +109,7 @@ fn diagnosed(experiment: &Path, out: &Path) -> Value {
 }
 
 #[test]
-fn twin_of_a_damped_floor_is_named_and_its_wall_runs() {
+fn analytic_twin_of_a_damped_floor_is_named_and_its_wall_runs() {
     let folder = tempfile::tempdir().expect("a folder");
     let described = table_wall(ImpactLaw::Contact);
     let mut true_wall = described.clone();
@@ -137,7 +139,7 @@ fn twin_of_a_damped_floor_is_named_and_its_wall_runs() {
 }
 
 #[test]
-fn twin_with_nothing_hidden_is_none() {
+fn analytic_twin_with_nothing_hidden_is_none() {
     let folder = tempfile::tempdir().expect("a folder");
     let wall = table_wall(ImpactLaw::Contact);
     let found =
@@ -148,7 +150,7 @@ fn twin_with_nothing_hidden_is_none() {
 }
 
 #[test]
-fn traps_rotations_in_degrees_swapped_or_of_the_wrong_sign_are_refused() {
+fn rejects_rotations_in_degrees_swapped_or_of_the_wrong_sign_are_refused() {
     type Wrong = (&'static str, fn([f64; 2]) -> [f64; 2]);
     let wrongs: [Wrong; 3] = [
         ("degrees", |theta| theta.map(|t| t.to_degrees())),
@@ -167,7 +169,7 @@ fn traps_rotations_in_degrees_swapped_or_of_the_wrong_sign_are_refused() {
 }
 
 #[test]
-fn reference_carriage_lumped_into_the_floor_is_named() {
+fn verified_carriage_lumped_into_the_floor_is_named() {
     let Some(measured) = shared::folder("measured") else { return };
     let folder = tempfile::tempdir().expect("a folder");
     let found = diagnosed(&measured.join("b_carriage_lumped/experiment.toml"), &folder.path().join("out"));
