@@ -1,5 +1,7 @@
 //! The forces on a wall beyond its weight and inertia, as smooth laws: a restraint with kinks gives one set a [`super::Regime`].
 
+use wide::f64x2;
+
 use super::effect::EffectSums;
 
 /// Everything that acts on the wall beyond its own masses, summed over the wall's spring and its effects.
@@ -41,7 +43,16 @@ impl Laws {
     /// Horizontal force of the springs at the top, N, at a displacement in m.
     #[inline]
     pub fn spring_force_n(&self, x_c_m: f64) -> f64 {
+        // A linear spring need not wait for a square.
+        if self.cubic_n_per_m3 == 0.0 {
+            return self.spring_offset_n - self.stiffness_n_per_m * x_c_m;
+        }
         self.spring_offset_n - (self.stiffness_n_per_m + self.cubic_n_per_m3 * x_c_m * x_c_m) * x_c_m
+    }
+
+    /// Whether anything takes energy.
+    pub fn is_damped(&self) -> bool {
+        self.viscous_n_s_per_m != 0.0 || self.drag_n != 0.0 || self.joint_damping_n_m_s != [0.0; 2]
     }
 
     /// Energy stored in the springs at the top, J.
@@ -59,9 +70,10 @@ impl Laws {
 
     /// Generalised moments of the joint dampers on θ_1 and θ_2, N m.
     #[inline]
-    pub fn joint_moments_n_m(&self, omega: [f64; 2]) -> [f64; 2] {
+    pub fn joint_moments_n_m(&self, omega: f64x2) -> f64x2 {
         let [c_ground, c_crack] = self.joint_damping_n_m_s;
-        let at_crack = c_crack * (omega[1] - omega[0]);
-        [at_crack - c_ground * omega[0], -at_crack]
+        let [omega_1, omega_2] = omega.to_array();
+        let at_crack = c_crack * (omega_2 - omega_1);
+        f64x2::new([at_crack - c_ground * omega_1, -at_crack])
     }
 }

@@ -5,13 +5,17 @@
 //! ([`RockingWall::joint_forces`]), where it goes when a joint opens ([`RockingWall::settle`]) and what an impact does
 //! ([`RockingWall::impact`]). Axes: x out of the wall's plane, y up; rotations are absolute, clockwise positive, zero at rest.
 
+mod balance;
 mod contact;
 mod crushing;
 mod effect;
+mod held_top;
 mod impact;
 mod joint;
 mod laws;
+mod mass_matrix;
 mod motion;
+mod pace;
 mod posture;
 mod restrained;
 mod restraint;
@@ -19,6 +23,7 @@ mod rocking;
 mod vector;
 mod wall;
 
+pub(crate) use balance::Aftermath;
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub use crushing::crushed_widths_m;
 pub(crate) use effect::GroundChange;
@@ -27,8 +32,8 @@ pub use effect::{
 };
 pub use impact::Impact;
 pub use joint::{JointForce, JointForces};
-pub(crate) use motion::Aftermath;
 pub use motion::MotionRate;
+pub(crate) use motion::{Motion, RatePair, Turned};
 pub use posture::Pair;
 pub(crate) use restraint::Kink;
 pub use restraint::{Regime, Side};

@@ -1,8 +1,8 @@
 //! Walls whose laws at the top have kinks: in which regime they go on, and which contact states it leaves them.
 
 use super::MechanicsError;
+use super::balance::Aftermath;
 use super::contact::Contact;
-use super::motion::Aftermath;
 use super::posture::Pair;
 use super::restraint::{Kink, Regime, Restraint, Side};
 use super::rocking::{FORCE_ROUNDING, RockingWall, State};

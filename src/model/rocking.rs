@@ -117,10 +117,20 @@ impl RockingWall {
         };
         let mass = about(Pivot::Right).max(about(Pivot::Left));
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
-        let further = self.restraint.map_or(0.0, |restraint| restraint.further_stiffness_n_per_m());
-        let spring = p.stiffness_n_per_m + further;
-        let stiffness = spring * p.height_m * p.height_m + weight * p.height_m / 2.0;
+        let stiffness = self.stiffest_n_per_m() * p.height_m * p.height_m + weight * p.height_m / 2.0;
         (mass / stiffness).sqrt()
+    }
+
+    /// Rate at which small motions of the wall can change, 1/s: the fastest over the contact states.
+    pub fn fastest_rate_per_s(&self) -> f64 {
+        let stiffness = self.stiffest_n_per_m();
+        self.motions.iter().map(|motion| motion.fastest_rate_per_s(stiffness)).fold(0.0, f64::max)
+    }
+
+    /// Stiffness at the top while every spring acts, N/m.
+    fn stiffest_n_per_m(&self) -> f64 {
+        let further = self.restraint.map_or(0.0, |restraint| restraint.further_stiffness_n_per_m());
+        self.wall.parameters().stiffness_n_per_m + further
     }
 
     /// Forces through both joints in a contact state with these angular accelerations.
@@ -138,6 +148,9 @@ impl RockingWall {
     ///
     /// While it is not negative the closed joints stay closed: the paper's |M_E| <= |M_I| (Eqs. 3 to 6).
     pub fn smallest_corner_force(&self, contact: Contact, forces: &JointForces) -> Option<f64> {
+        if contact.ground.is_open() && contact.crack.is_open() {
+            return None;
+        }
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
         let mut smallest = None;
         for joint in self.joints() {

@@ -107,17 +107,21 @@ pub(crate) fn sin_cos(theta: f64) -> (f64, f64) {
 }
 
 /// [`sin_cos`] of two angles side by side, to the same bits.
-#[inline]
-pub(crate) fn sin_cos_pair(theta: [f64; 2]) -> (f64x2, f64x2) {
-    if theta[0].abs() > FRAC_PI_4 || theta[1].abs() > FRAC_PI_4 {
-        let [(s0, c0), (s1, c1)] = theta.map(sin_cos);
-        return (f64x2::new([s0, s1]), f64x2::new([c0, c1]));
+#[inline(always)]
+pub(crate) fn sin_cos_pair(theta: f64x2) -> (f64x2, f64x2) {
+    if theta.abs().simd_gt(f64x2::splat(FRAC_PI_4)).any() {
+        return library_sin_cos_pair(theta);
     }
-    let theta = f64x2::new(theta);
     let z = theta * theta;
     let zz = z * z;
     let sum = |c: &[f64; 6]| (z * c[1] + c[0]) + zz * ((z * c[3] + c[2]) + zz * (z * c[5] + c[4]));
     (theta + theta * z * sum(&SIN), f64x2::ONE - (z * 0.5 - zz * sum(&COS)))
+}
+
+#[cold]
+fn library_sin_cos_pair(theta: f64x2) -> (f64x2, f64x2) {
+    let [(s0, c0), (s1, c1)] = theta.to_array().map(sin_cos);
+    (f64x2::new([s0, s1]), f64x2::new([c0, c1]))
 }
 
 #[cfg(test)]
@@ -132,7 +136,7 @@ mod tests {
             // One unit in the last place of a number near one.
             assert!((sin - theta.sin()).abs() <= f64::EPSILON, "sin {theta}");
             assert!((cos - theta.cos()).abs() <= f64::EPSILON, "cos {theta}");
-            let (sines, cosines) = sin_cos_pair([theta, -theta]);
+            let (sines, cosines) = sin_cos_pair(f64x2::new([theta, -theta]));
             assert_eq!((sines.to_array(), cosines.to_array()), ([sin, -sin], [cos, cos]), "pair at {theta}");
         }
     }

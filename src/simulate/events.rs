@@ -45,6 +45,7 @@ const NEAR_ZERO: f64 = 0.05;
 ///
 /// Ties go to collapse, then to the closing of joints, then to opening: a collapsed wall does not strike, and a joint
 /// that closes changes the forces that would open another.
+#[inline]
 pub(super) fn first_event(
     contact: Contact,
     motion: &Quintic,
@@ -52,23 +53,24 @@ pub(super) fn first_event(
     corner_force: (Option<f64>, Option<f64>),
     force_at: impl Fn(f64) -> f64,
 ) -> Option<(Event, f64)> {
-    let collapse = first_collapse(motion, collapse_rad).map(|share| (Event::Collapses, share));
-    let strike = first_strike(contact, motion);
     let opening = match corner_force {
         (Some(start), Some(end)) => first_lift(start, end, force_at).map(|share| (Event::Opens, share)),
         _ => None,
     };
+    // Most steps are far from everything, and their coefficients prove it.
+    let [lower, upper] = motion.bounds();
+    let stands = lower < collapse_rad[0] && upper < collapse_rad[1];
+    if stands && motion.keep_to([contact.ground.sign(), contact.crack.sign()]) {
+        return opening;
+    }
+    let collapse = first_collapse(motion, collapse_rad).map(|share| (Event::Collapses, share));
+    let strike = first_strike(contact, motion);
     [collapse, strike, opening].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
-#[inline]
 fn first_collapse(motion: &Quintic, limit_rad: Pair) -> Option<f64> {
     let crossing = |i: usize| {
         let theta = motion.coordinate(i);
-        // A standing wall is below its limit: only a step that may go higher is looked at.
-        if theta.magnitude_bound() < limit_rad[i] {
-            return None;
-        }
         let up = theta.below(limit_rad[i]).first_root();
         let down = theta.times(-1.0).below(limit_rad[i]).first_root();
         earlier(up, down)
@@ -83,11 +85,10 @@ fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
-#[inline]
 fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
-    let [lower, upper] = [0, 1].map(|i| motion.coordinate(i));
-    let ground = closing(contact.ground.sign(), lower, lower.magnitude_bound());
-    let crack = closing(contact.crack.sign(), motion.difference(), upper.magnitude_bound());
+    let [lower, upper] = motion.bounds();
+    let ground = closing(contact.ground.sign(), motion.coordinate(0), lower);
+    let crack = closing(contact.crack.sign(), motion.difference(), upper);
     let first = earlier(ground, crack)?;
     let now = |at: Option<f64>| at.is_some_and(|share| share - first <= SAME_INSTANT);
     let touching = Touching {
@@ -99,8 +100,7 @@ fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
 
 /// Share at which a gap of a joint that is open on this side first closes; `size` is that of the rotations it is the
 /// difference of.
-#[inline]
-fn closing(side: f64, gap: &Bernstein<6>, size: f64) -> Option<f64> {
+fn closing(side: f64, gap: Bernstein<6>, size: f64) -> Option<f64> {
     if side == 0.0 {
         return None;
     }

@@ -1,5 +1,7 @@
 //! The loop of one run: stand, move, open, strike, until the end.
 
+use wide::f64x2;
+
 use super::events::{Event, first_event};
 use super::ground_path::{GroundPath, Piece};
 use super::history::Observer;
@@ -9,9 +11,10 @@ use super::rest::RestLimits;
 use super::simulator::{Placed, Simulator};
 use super::tally::Tally;
 use crate::model::{
-    Aftermath, Contact, Joint, Kink, MechanicsError, Pair, RockingWall, State, Touching, Vector, opening,
+    Aftermath, Contact, Joint, Kink, MechanicsError, Motion, Pair, RatePair, RockingWall, State, Touching,
+    Turned, Vector, opening,
 };
-use crate::solver::{Controller, DormandPrince, Point, Quintic, Rate, STAGES, Step};
+use crate::solver::{Controller, Field, Nystrom, Point, Quintic, Rate, STAGES, Step};
 
 /// An opening is placed this share of a sample step after the instant its corner force vanishes, so that the joint
 /// does accelerate apart; it moves nothing by more than roundings.
@@ -46,6 +49,43 @@ pub(super) struct Run<'a, O> {
     /// Velocity of the top now, m/s.
     top_velocity_m_s: f64,
     stalled: u32,
+}
+
+/// The motion of a contact state under a piece of the record, and what its last landing told.
+struct Shaken<'a> {
+    law: &'a Motion,
+    piece: Piece,
+    from_s: f64,
+    posture: Turned,
+    after: Aftermath,
+}
+
+impl Field for Shaken<'_> {
+    #[inline(always)]
+    fn rate(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
+        let ground = self.piece.at(self.from_s + after_s);
+        if self.law.turns_as_one() {
+            return as_rate(self.law.monolithic_rate(theta.to_array()[0], omega.to_array()[0], ground));
+        }
+        self.posture = self.law.turned(theta);
+        as_rate(self.law.rate_at(&self.posture, omega, ground))
+    }
+
+    #[inline(always)]
+    fn land(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
+        // The posture of the last stage serves again, for the joint forces too.
+        if self.law.turns_as_one() {
+            self.posture = self.law.turned(theta);
+        }
+        let (rate, after) = self.law.arrival(&self.posture, omega, self.piece.at(self.from_s + after_s));
+        self.after = after;
+        as_rate(rate)
+    }
+}
+
+#[inline(always)]
+fn as_rate(rate: RatePair) -> Rate {
+    Rate { acceleration: rate.theta_dd, quadrature: rate.powers_w }
 }
 
 /// Why a run ended before its time.
@@ -220,9 +260,8 @@ impl<'a, O: Observer> Run<'a, O> {
     /// Moves over one step, or up to the first event inside it; gives the offset reached.
     fn advance(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
         let remaining_s = piece.length_s - from_s;
-        let step = self.accepted_step(piece, from_s, remaining_s);
+        let (step, after) = self.accepted_step(piece, from_s, remaining_s);
         let motion = Quintic::new(&step.start, &step.end, step.h);
-        let after = self.aftermath(&step.end, piece.at(from_s + step.h));
         let end_force = self.wall.least_hold(self.contact, &after);
         let force_at =
             |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
@@ -246,29 +285,35 @@ impl<'a, O: Observer> Run<'a, O> {
     }
 
     fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
-        let state = State { theta: motion.position(share), omega: motion.velocity(share) };
-        let theta_dd = self.wall.rate(self.contact, &state, ground).theta_dd;
-        let after = self.wall.motion(self.contact).aftermath(state.theta, state.omega, theta_dd, ground);
+        let law = self.wall.motion(self.contact);
+        let [theta, omega] = [motion.position(share), motion.velocity(share)].map(f64x2::new);
+        let (_, after) = law.arrival(&law.turned(theta), omega, ground);
         self.wall.least_hold(self.contact, &after).unwrap_or(f64::INFINITY)
     }
 
-    fn accepted_step(&mut self, piece: &Piece, from_s: f64, remaining_s: f64) -> Step {
+    fn accepted_step(&mut self, piece: &Piece, from_s: f64, remaining_s: f64) -> (Step, Aftermath) {
         loop {
-            let step = self.step(piece, from_s, self.controller.next_s(remaining_s));
+            let (step, after) = self.step(piece, from_s, self.controller.next_s(remaining_s));
             if self.controller.accepts(&step) {
-                return step;
+                return (step, after);
             }
             self.tally.work.rejected_steps += 1;
         }
     }
 
-    fn step(&mut self, piece: &Piece, from_s: f64, h: f64) -> Step {
+    /// A step, and the joint forces at its end.
+    #[inline]
+    fn step(&mut self, piece: &Piece, from_s: f64, h: f64) -> (Step, Aftermath) {
         self.tally.work.evaluations += STAGES;
-        let motion = self.wall.motion(self.contact);
-        DormandPrince::step(self.now, self.quadrature_rate, h, |after_s, theta, omega| {
-            let rate = motion.rate(theta, omega, piece.at(from_s + after_s));
-            Rate { acceleration: rate.theta_dd, quadrature: [rate.ground_power_w, rate.loss_power_w] }
-        })
+        let mut shaken = Shaken {
+            law: self.wall.motion(self.contact),
+            piece: *piece,
+            from_s,
+            posture: Turned::default(),
+            after: Aftermath::default(),
+        };
+        let step = Nystrom::step(self.now, self.quadrature_rate, h, &mut shaken);
+        (step, shaken.after)
     }
 
     /// Makes the end of a step the present.
@@ -317,7 +362,7 @@ impl<'a, O: Observer> Run<'a, O> {
         if matches!(event, Event::Opens) {
             h = (h + AFTER_OPENING * self.ground.step_s()).min(whole.h);
         }
-        let mut step = self.step(piece, from_s, h);
+        let mut step = self.step(piece, from_s, h).0;
         if let Some(gap) = event.gap() {
             let left = |p: &Point| (gap(p.position), gap(p.velocity));
             step = self.onto_event(piece, from_s, step, whole.h, left);
@@ -378,7 +423,7 @@ impl<'a, O: Observer> Run<'a, O> {
             if !(h > 0.0 && h < 2.0 * step.h) {
                 break;
             }
-            let nearer = self.step(piece, from_s, h);
+            let nearer = self.step(piece, from_s, h).0;
             if left(&nearer.end).0.abs() >= gap.abs() {
                 break;
             }

@@ -29,19 +29,24 @@ impl Tally {
     /// Raises the largest rotations by what happens inside a step.
     #[inline]
     pub fn rotations(&mut self, start_s: f64, motion: &Quintic) {
-        for i in 0..2 {
-            let theta = motion.coordinate(i);
+        for (i, bound) in motion.bounds().into_iter().enumerate() {
+            if bound > self.theta_max[i].value.abs() {
+                self.raise_rotation(i, start_s, motion);
+            }
+        }
+    }
+
+    fn raise_rotation(&mut self, i: usize, start_s: f64, motion: &Quintic) {
+        // A step may cross zero; both sides count.
+        for sign in [1.0, -1.0] {
+            let theta = motion.coordinate(i).times(sign);
             let so_far = self.theta_max[i].value.abs();
-            if theta.magnitude_bound() > so_far {
-                let sign = if theta.0[0] + theta.0[5] < 0.0 { -1.0 } else { 1.0 };
-                // A step may cross zero; both sides count.
-                for sign in [sign, -sign] {
-                    let (value, share) = theta.times(sign).maximum();
-                    if value > self.theta_max[i].value.abs() {
-                        self.theta_max[i] =
-                            Peak { value: sign * value, time_s: start_s + share * motion.h() };
-                    }
-                }
+            if theta.0.iter().all(|c| *c <= so_far) {
+                continue;
+            }
+            let (value, share) = theta.maximum();
+            if value > so_far {
+                self.theta_max[i] = Peak { value: sign * value, time_s: start_s + share * motion.h() };
             }
         }
     }
@@ -60,8 +65,9 @@ impl Tally {
         for (i, force) in [forces.ground, forces.crack].iter().enumerate().take(self.joints) {
             let tension = force.normal < 0.0;
             let demand = &mut self.demand[i];
-            if force.normal > 0.0 {
-                demand.friction = demand.friction.max(force.shear.abs() / force.normal);
+            // A division only where the demand does rise.
+            if force.normal > 0.0 && force.shear.abs() > demand.friction * force.normal {
+                demand.friction = force.shear.abs() / force.normal;
             }
             demand.tensions += u64::from(tension && !self.in_tension[i]);
             self.in_tension[i] = tension;

@@ -162,9 +162,15 @@ impl Bernstein<6> {
         twice.first_root()
     }
 
-    /// Largest value and the share at which it is reached, by halving until the bound is within roundings.
+    /// Largest value and the share at which it is reached: where a slope that turns once vanishes, else by halving until
+    /// the bound is within roundings.
     pub fn maximum(&self) -> (f64, f64) {
         let mut best = if self.0[5] >= self.0[0] { (self.0[5], 1.0) } else { (self.0[0], 0.0) };
+        let slope = self.derivative();
+        if slope.0[0] > 0.0 && slope.0[4] < 0.0 && slope.sign_changes() == 1 {
+            let share = slope.only_root();
+            return (self.value(share).max(best.0), share);
+        }
         self.raise_maximum(0.0, 1.0, &mut best, MOST_HALVINGS);
         best
     }

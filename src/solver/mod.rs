@@ -6,10 +6,10 @@
 
 mod bernstein;
 mod controller;
-mod dormand_prince;
+mod nystrom;
 mod quintic;
 
 pub use bernstein::Bernstein;
 pub use controller::{Controller, ErrorScale};
-pub use dormand_prince::{DormandPrince, Rate, STAGES, Step};
+pub use nystrom::{Field, Nystrom, Rate, STAGES, Step};
 pub use quintic::{Point, Quintic, hermite};

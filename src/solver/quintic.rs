@@ -1,5 +1,7 @@
 //! The quintic through positions, velocities and accelerations at both ends of a step.
 
+use wide::f64x2;
+
 use super::bernstein::Bernstein;
 
 /// Positions, velocities and accelerations of the two coordinates at an instant.
@@ -30,29 +32,29 @@ impl Point {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quintic {
     h: f64,
-    coordinate: [Bernstein<6>; 2],
-    difference: Bernstein<6>,
+    /// Bernstein coefficients of both coordinates, side by side.
+    both: [f64x2; 6],
+    /// The same of the first coordinate and of the second less the first.
+    gaps: [f64x2; 6],
+    /// Bounds on the magnitudes of the coordinates.
+    bounds: [f64; 2],
 }
 
 impl Quintic {
     /// Through both ends of a step of length `h`.
-    #[inline]
+    #[inline(always)]
     pub fn new(start: &Point, end: &Point, h: f64) -> Self {
-        let at = |p: &Point, i: usize| [p.position[i], p.velocity[i], p.acceleration[i]];
         // From the differences at the ends, not from the two polynomials: coordinates that start together,
         // or move together, differ by an exact zero.
-        let apart = |p: &Point| {
-            [
-                p.position[1] - p.position[0],
-                p.velocity[1] - p.velocity[0],
-                p.acceleration[1] - p.acceleration[0],
-            ]
+        let apart = |[first, second]: [f64; 2]| [first, second - first];
+        let gaps_of = |p: &Point| Point {
+            position: apart(p.position),
+            velocity: apart(p.velocity),
+            acceleration: apart(p.acceleration),
         };
-        Self {
-            h,
-            coordinate: [hermite(at(start, 0), at(end, 0), h), hermite(at(start, 1), at(end, 1), h)],
-            difference: hermite(apart(start), apart(end), h),
-        }
+        let both = hermite_pair(start, end, h);
+        let bounds = both[1..].iter().fold(both[0].abs(), |bound, c| bound.fast_max(c.abs()));
+        Self { h, both, gaps: hermite_pair(&gaps_of(start), &gaps_of(end), h), bounds: bounds.to_array() }
     }
 
     /// Length of the step.
@@ -62,29 +64,54 @@ impl Quintic {
 
     /// One coordinate.
     #[inline]
-    pub fn coordinate(&self, i: usize) -> &Bernstein<6> {
-        &self.coordinate[i]
+    pub fn coordinate(&self, i: usize) -> Bernstein<6> {
+        Bernstein(self.both.map(|c| c.to_array()[i]))
     }
 
     /// Second coordinate less the first.
     #[inline]
-    pub fn difference(&self) -> &Bernstein<6> {
-        &self.difference
+    pub fn difference(&self) -> Bernstein<6> {
+        Bernstein(self.gaps.map(|c| c.to_array()[1]))
+    }
+
+    /// Bounds on the magnitudes of the coordinates over the step.
+    #[inline]
+    pub fn bounds(&self) -> [f64; 2] {
+        self.bounds
+    }
+
+    /// Whether the first coordinate and the second less the first keep to their sides (-1 or 1) for sure, the start
+    /// excepted, where they may be zero; one without a side (0) may be anything.
+    #[inline]
+    pub fn keep_to(&self, sides: [f64; 2]) -> bool {
+        let free = f64x2::new(sides.map(|side| 1.0 - side.abs()));
+        let sides = f64x2::new(sides);
+        let least = self.gaps[1..].iter().fold(self.gaps[5] * sides, |least, c| least.fast_min(*c * sides));
+        let [least, start] = [least + free, self.gaps[0] * sides].map(f64x2::to_array);
+        least.iter().all(|c| *c > 0.0) && start.iter().all(|c| *c >= 0.0)
     }
 
     /// Positions at a share of the step.
     pub fn position(&self, share: f64) -> [f64; 2] {
-        self.coordinate.map(|c| c.value(share))
+        [0, 1].map(|i| self.coordinate(i).value(share))
     }
 
     /// Velocities at a share of the step.
     pub fn velocity(&self, share: f64) -> [f64; 2] {
-        self.coordinate.map(|c| c.derivative().value(share) / self.h)
+        [0, 1].map(|i| self.coordinate(i).derivative().value(share) / self.h)
     }
 }
 
+/// Bernstein form of the quintics with these positions, velocities and accelerations at both ends.
+#[inline(always)]
+fn hermite_pair(start: &Point, end: &Point, h: f64) -> [f64x2; 6] {
+    let (x0, x1) = (f64x2::new(start.position), f64x2::new(end.position));
+    let (v0, v1) = (f64x2::new(start.velocity) * (h / 5.0), f64x2::new(end.velocity) * (h / 5.0));
+    let a = |p: &Point| f64x2::new(p.acceleration) * (h * h / 20.0);
+    [x0, x0 + v0, x0 + v0 * 2.0 + a(start), x1 - v1 * 2.0 + a(end), x1 - v1, x1]
+}
+
 /// Bernstein form of the quintic with these positions, velocities and accelerations at both ends.
-#[inline]
 pub fn hermite([x0, v0, a0]: [f64; 3], [x1, v1, a1]: [f64; 3], h: f64) -> Bernstein<6> {
     let (v0, v1) = (v0 * h / 5.0, v1 * h / 5.0);
     let (a0, a1) = (a0 * h * h / 20.0, a1 * h * h / 20.0);
