@@ -5,12 +5,15 @@
 
 use std::fmt;
 use std::hint::black_box;
-use std::path::Path;
 
 use divan::{Bencher, counter::ItemsCount};
-use mrbd::ground::{Accelerogram, Suite};
-use mrbd::model::{Contact, ImpactLaw, Pivot, Restitution, RockingWall, State, Vector, Wall, WallParameters};
+use mrbd::ground::Accelerogram;
+use mrbd::model::{Contact, ImpactLaw, Pivot, RockingWall, State, Vector};
 use mrbd::simulate::{Accuracy, Shaking, simulate};
+
+use table_wall::{earthquake, table_wall};
+
+mod table_wall;
 
 struct Case {
     motion: Motion,
@@ -58,29 +61,6 @@ fn main() {
     divan::main();
 }
 
-/// The calibrated wall of the shaking-table tests (Tables 1 and 2 of the paper).
-fn table_wall(law: ImpactLaw, capture_velocity_rad_s: f64) -> Wall {
-    let coefficients = [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94];
-    let parameters = WallParameters {
-        thickness_m: 0.291,
-        height_m: 3.984,
-        crack_height_m: Some(2.191),
-        length_m: 1.5,
-        mass_kg: 3614.0,
-        lower_width_m: 0.271,
-        upper_width_m: 0.281,
-        diaphragm_mass_kg: 179.0,
-        carriage_mass_kg: 663.0,
-        stiffness_n_per_m: 37_000.0,
-        eccentricity_m: 0.0,
-        restitution: Restitution { coefficients, law, capture_velocity_rad_s },
-        collapse_rotation_ratio: 2.0,
-        initial_rotation_rad: [0.0, 0.0],
-        effects: Vec::new(),
-    };
-    Wall::new(parameters).expect("the table wall")
-}
-
 /// Thirty seconds at 0.005 s that rock the wall from start to end.
 #[derive(Debug, Clone, Copy)]
 enum Motion {
@@ -97,15 +77,6 @@ fn shaking(motion: Motion) -> Shaking {
     };
     let tail_s = 30.0 - horizontal.duration_s();
     Shaking { horizontal: Some(horizontal), vertical: None, tail_s }
-}
-
-fn earthquake() -> Accelerogram {
-    let suite = concat!(env!("CARGO_MANIFEST_DIR"), "/inputs/records/emilia7/suite.toml");
-    let suite = Suite::load(Path::new(suite)).expect("the shipped suite");
-    let record = &suite.records[5].horizontal;
-    // Twice as many samples of the same ground motion, for it is linear between them.
-    let halves = record.acceleration_m_s2().windows(2).flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
-    Accelerogram::new(record.step_s() / 2.0, halves.collect()).expect("a valid record")
 }
 
 fn relentless() -> Accelerogram {

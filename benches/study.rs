@@ -1,66 +1,98 @@
-//! Runs a second on one and two threads: `make bench`.
+//! Speed at a glance, everything in turns in one process: `make bench`.
 //!
-//! The Monte Carlo of Table 3 (both configurations, seven records, free motion after each) and a reference case of the
-//! sweep, in turns, so that a machine whose speed drifts tells the same ratios; medians and what lies around them. Beside
-//! them the bare evaluations of the equations of motion that such a run makes, timed in the same turns.
+//! The table wall; the Monte Carlo of Table 3 (both configurations, seven records, free motion after each) and a reference
+//! case of the sweep as `mrbd run` does them, files and all, on one and two threads; and the arithmetic they cannot do
+//! without: the bare evaluations of the equations of motion that their runs make. A machine whose speed drifts drifts for
+//! all of them, so that ratios hold.
 
 use std::hint::black_box;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
-use mrbd::batch::{self, Finished};
+use mrbd::campaign::{BLOCK_RUNS, Layout, Shard, Standing, Work, run_missing};
 use mrbd::input::pipeline::Pipeline;
-use mrbd::model::{Contact, Pivot, RockingWall, State, Vector, Wall};
+use mrbd::model::{Contact, ImpactLaw, Pivot, RockingWall, State, Vector, Wall};
 use mrbd::plan::Plan;
-use mrbd::simulate::{Accuracy, Shaking, simulate};
+use mrbd::simulate::{Accuracy, Response, Shaking, simulate};
+use mrbd::store::{Earlier, Manifest, OutputFolder};
 use rayon::prelude::*;
 
-mod walls;
+use table_wall::{earthquake, table_wall};
 
-const TURNS: usize = 9;
-/// Draws of each configuration; seven records make 2 100 runs of them.
-const DRAWS: u64 = 150;
+mod table_wall;
 
+const TURNS: usize = 7;
+/// Façades drawn; in both configurations under seven records they make 3 584 runs.
+const DRAWS: u64 = 256;
+
+fn shipped(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+/// A study in a folder of its own.
 struct Study {
-    runs: Vec<(Wall, usize)>,
-    shakings: Vec<Shaking>,
+    pipeline: Pipeline,
+    plan: Plan,
 }
 
 impl Study {
-    fn new() -> Self {
-        let shakings: Vec<Shaking> = walls::records().iter().map(walls::shaking).collect();
-        let walls = walls::facades(DRAWS);
-        let runs =
-            (0..shakings.len()).flat_map(|record| walls.iter().map(move |w| (w.clone(), record))).collect();
-        Self { runs, shakings }
+    fn monte_carlo() -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let text = std::fs::read_to_string(shipped("pipelines/monte_carlo.toml")).expect("the pipeline");
+        let text = text.replace("../inputs", shipped("inputs").to_str().expect("UTF-8"));
+        let path = folder.path().join("monte_carlo.toml");
+        std::fs::write(&path, text.replace("count = 1024", &format!("count = {DRAWS}"))).expect("written");
+        // The manifest needs the file that was read.
+        let _ = folder.keep();
+        let pipeline = Pipeline::load(&path).expect("the Monte Carlo");
+        let plan = Plan::load(&pipeline, None).expect("its plan");
+        Self { pipeline, plan }
     }
 
-    /// Evaluations of all runs.
-    fn run(&self) -> u64 {
-        let one = |(wall, record): &(Wall, usize)| {
-            simulate(wall, &self.shakings[*record], Accuracy::default()).work.evaluations
-        };
-        self.runs.par_iter().map(one).sum()
+    /// Plans, runs and stores all of it; gives seconds.
+    fn seconds(
+        &self,
+        threads: usize,
+        simulate: &(impl Fn(&Wall, &Shaking, Accuracy) -> Response + Sync),
+    ) -> f64 {
+        let out = tempfile::tempdir().expect("a temporary folder");
+        seconds(|| {
+            let plan = Plan::load(&self.pipeline, None).expect("a plan");
+            let manifest =
+                Manifest::of(&plan, &self.pipeline, &self.pipeline.suite, BLOCK_RUNS).expect("a manifest");
+            let folder = OutputFolder::prepare(out.path(), &manifest, &self.pipeline.text, Earlier::Refuse)
+                .expect("a folder");
+            let standing = Standing::of(&folder, &Layout::of(folder.manifest())).expect("nothing done yet");
+            let (stop, progress) = (AtomicBool::new(false), indicatif::ProgressBar::hidden());
+            let (shard, stop, progress) = (Shard::WHOLE, &stop, &progress);
+            let work = Work { plan: &plan, folder: &folder, shard, threads, simulate, stop, progress };
+            let tally = run_missing(&work, &standing, |_| ()).expect("the study");
+            assert_eq!(tally.runs(), self.plan.len());
+        })
+    }
+
+    fn runs(&self) -> f64 {
+        self.plan.len() as f64
     }
 }
 
-/// One parameter of one configuration at its levels: nine slendernesses, three levels, seven records.
-fn reference_case() -> (Plan, Vec<u64>) {
-    let pipeline = Path::new(env!("CARGO_MANIFEST_DIR")).join("pipelines/sweep.toml");
-    let plan = Plan::load(&Pipeline::load(&pipeline).expect("the sweep"), None).expect("the sweep's plan");
-    let first = plan.run(0).expect("a run");
-    let of_case = |position: &u64| {
-        let run = plan.run(*position).expect("a run");
+/// A parameter of a configuration at its levels: nine slendernesses, three levels, seven records.
+fn reference_case() -> Vec<(Wall, Shaking)> {
+    let pipeline = Pipeline::load(&shipped("pipelines/sweep.toml")).expect("the sweep");
+    let plan = Plan::load(&pipeline, None).expect("the sweep's plan");
+    let first = plan.run(0);
+    let of_case = |run: &mrbd::plan::Run| {
         run.variant.name == first.variant.name
             && run.configuration == first.configuration
-            && run.parameter == first.parameter
+            && run.parameter() == first.parameter()
     };
-    let positions = (0..plan.len()).filter(of_case).collect();
-    (plan, positions)
+    let runs = (0..plan.len()).map(|position| plan.run(position)).filter(of_case);
+    runs.map(|run| (run.wall.clone().expect("a wall"), run.shaking())).collect()
 }
 
 /// Bare evaluations, each waiting for the one before, as those of a run do.
-fn arithmetic(wall: &RockingWall, evaluations: u32) -> State {
+fn arithmetic(wall: &RockingWall, evaluations: u64) -> State {
     let contact = Contact { ground: Pivot::Right, crack: Pivot::Left };
     let mut state = State { theta: [0.01, -0.01], omega: [0.1, 0.1] };
     for _ in 0..evaluations {
@@ -76,49 +108,107 @@ fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// Median, least and most.
-fn spread(mut values: Vec<f64>) -> [f64; 3] {
+/// Prints median and quartiles; gives the median.
+fn print(what: &str, unit: &str, values: impl IntoIterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
-    [values[values.len() / 2], values[0], values[values.len() - 1]]
+    let at = |quarter: usize| values[(values.len() - 1) * quarter / 4];
+    let [low, median, high] = [1, 2, 3].map(at);
+    println!("{what:<62} {median:>9.3} ({low:.3} to {high:.3}) {unit}");
+    median
+}
+
+/// Times of the turns, s.
+#[derive(Default)]
+struct Times {
+    evaluation: Vec<f64>,
+    table_wall: Vec<f64>,
+    monte_carlo: [Vec<f64>; 2],
+    without_simulations: Vec<f64>,
+    simulations_alone: Vec<f64>,
+    case: [Vec<f64>; 2],
 }
 
 fn main() {
-    let pools = [1, 2].map(|threads| batch::threads(threads).expect("threads"));
-    let study = Study::new();
-    let (plan, positions) = reference_case();
-    let bar = indicatif::ProgressBar::hidden();
-    let case = || -> Vec<Finished> {
-        batch::run_all(&plan, positions.clone(), &simulate, &bar).expect("the reference case")
+    let accuracy = Accuracy::default();
+    let wall = table_wall(ImpactLaw::Whole, 1e-3);
+    let horizontal = earthquake();
+    let tail_s = 30.0 - horizontal.duration_s();
+    let shaking = Shaking { horizontal: Some(horizontal), vertical: None, tail_s };
+    let once = simulate(&wall, &shaking, accuracy);
+    let (study, case) = (Study::monte_carlo(), reference_case());
+    let evaluations = AtomicU64::new(0);
+    let counted = |wall: &Wall, shaking: &Shaking, accuracy: Accuracy| {
+        let response = simulate(wall, shaking, accuracy);
+        evaluations.fetch_add(response.work.evaluations, Ordering::Relaxed);
+        response
     };
-    let evaluations = study.run();
-    let wall = RockingWall::new(&study.runs[0].0);
-    let bare = 100_000;
-    let mut times: [Vec<f64>; 5] = Default::default();
+    study.seconds(2, &counted);
+    let evaluations = evaluations.into_inner() as f64 / study.runs();
+    let told = |_: &Wall, _: &Shaking, _: Accuracy| once.clone();
+    let runs: Vec<_> = (0..study.plan.len()).map(|position| study.plan.run(position)).collect();
+    let runs: Vec<_> = runs.iter().filter_map(|run| Some((run.wall.as_ref().ok()?, run.shaking()))).collect();
+    let pools = [1, 2].map(|threads| mrbd::batch::threads(threads).expect("threads"));
+    let rocking = RockingWall::new(&wall);
+    let mut times = Times::default();
     for _ in 0..TURNS {
-        times[0].push(seconds(|| arithmetic(&wall, bare)) / f64::from(bare));
+        times.evaluation.push(seconds(|| arithmetic(&rocking, 100_000)) / 1e5);
+        times.table_wall.extend((0..20).map(|_| seconds(|| simulate(&wall, &shaking, accuracy))));
         for (i, pool) in pools.iter().enumerate() {
-            times[1 + i].push(pool.install(|| seconds(|| study.run())));
-            times[3 + i].push(pool.install(|| seconds(case)));
+            times.monte_carlo[i].push(study.seconds(1 + i, &simulate));
+            let one = |(wall, shaking): &(Wall, Shaking)| simulate(wall, shaking, accuracy).work.steps;
+            times.case[i].push(pool.install(|| seconds(|| case.par_iter().map(one).sum::<u64>())));
         }
+        times.without_simulations.push(study.seconds(1, &told));
+        times.simulations_alone.push(seconds(|| {
+            runs.iter().map(|(wall, shaking)| simulate(wall, shaking, accuracy).work.steps).sum::<u64>()
+        }));
     }
-    let scaling = spread(times[1].iter().zip(&times[2]).map(|(one, two)| one / two).collect());
-    let runs = study.runs.len() as f64;
-    let [evaluation, ..] = spread(times[0].clone());
-    let print = |what: &str, [median, least, most]: [f64; 3], unit: &str| {
-        println!("{what:<58} {median:>9.4} ({least:.4} … {most:.4}) {unit}");
-    };
-    print("bare evaluation", spread(times[0].iter().map(|t| t * 1e9).collect()), "ns");
-    for (i, threads) in ["one thread", "two threads"].iter().enumerate() {
-        let rates = times[1 + i].iter().map(|t| runs / t).collect();
-        print(&format!("Monte Carlo of Table 3, {runs} runs, {threads}"), spread(rates), "runs/s");
+    tell(&times, &once, study.runs(), case.len(), evaluations);
+}
+
+fn tell(times: &Times, once: &Response, runs: f64, case: usize, evaluations: f64) {
+    println!("medians and quartiles, everything in turns in one process");
+    let bare =
+        print("bare evaluation of the equations of motion", "ns", times.evaluation.iter().map(|t| t * 1e9));
+    let table = print("table wall, 30 s at 0.005 s", "ms", times.table_wall.iter().map(|t| t * 1e3));
+    let share = |evaluations: f64, time_ms: f64| evaluations * bare * 1e-6 / time_ms;
+    let own = once.work.evaluations as f64;
+    println!(
+        "  {own} evaluations, {} impacts; the bare evaluations are {:.2} of it",
+        once.impacts.total(),
+        share(own, table)
+    );
+    for (threads, of) in [("one thread", 0), ("two threads", 1)] {
+        let times_s = &times.monte_carlo[of];
         print(
-            &format!("reference case, {} runs, {threads}", positions.len()),
-            spread(times[3 + i].clone()),
-            "s",
+            &format!("Monte Carlo of Table 3, {runs} runs stored, {threads}"),
+            "runs/s",
+            times_s.iter().map(|t| runs / t),
         );
     }
-    print("two threads over one, Monte Carlo", scaling, "");
-    let [one, ..] = spread(times[1].clone());
-    let share = evaluations as f64 * evaluation / one;
-    println!("evaluations a run: {:.0}; bare, they are {share:.2} of its time", evaluations as f64 / runs);
+    let pairs = times.monte_carlo[0].iter().zip(&times.monte_carlo[1]);
+    print("  two threads over one", "", pairs.map(|(one, two)| one / two));
+    let alone = print(
+        "  its simulations alone, one thread, a run",
+        "ms",
+        times.simulations_alone.iter().map(|t| t * 1e3 / runs),
+    );
+    println!(
+        "  {evaluations:.0} evaluations a run; bare, they are {:.2} of its time",
+        share(evaluations, alone)
+    );
+    let around = times.without_simulations.iter().zip(&times.monte_carlo[0]);
+    print(
+        "  share of everything but simulations, one thread",
+        "",
+        around.map(|(without, all)| without / all),
+    );
+    for (threads, of) in [("one thread", 0), ("two threads", 1)] {
+        print(
+            &format!("reference case, {case} runs, {threads}"),
+            "ms",
+            times.case[of].iter().map(|t| t * 1e3),
+        );
+    }
 }
