@@ -64,7 +64,7 @@ impl Experiment {
 }
 
 /// Every file an experiment reads.
-fn files(path: &Path, file: &ExperimentFile) -> Vec<(String, PathBuf)> {
+pub(crate) fn files(path: &Path, file: &ExperimentFile) -> Vec<(String, PathBuf)> {
     let beside = |name: &Path| path.parent().unwrap_or(Path::new("")).join(name);
     let mut files =
         vec![("experiment".to_owned(), path.to_path_buf()), ("wall".to_owned(), beside(&file.wall))];

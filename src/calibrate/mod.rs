@@ -50,6 +50,7 @@ pub use bootstrap::{correlation, quantile};
 pub use cma_es::CmaEs;
 pub use draws::Draws;
 pub use experiment::Experiment;
+pub(crate) use experiment::files as experiment_files;
 pub use flow::calibrate;
 pub use manifest::KIND;
 pub use measured::Measured;

@@ -10,6 +10,7 @@ use serde_json::Value;
 use super::output;
 use crate::diagnose::{Experiment, OutputNames, Progress, check_data, diagnose, write_results};
 use crate::error::{InputError, Result};
+use crate::report::report;
 
 /// Find where model and measurement disagree, and name the missing effect.
 ///
@@ -22,6 +23,7 @@ use crate::error::{InputError, Result};
 /// Examples:
 ///   mrbd diagnose experiment.toml --out diagnosed
 ///   mrbd simulate diagnosed/wall.updated.toml --record record.csv
+///   mrbd report diagnosed          # its page once more; the first time it is made here
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct DiagnoseArgs {
@@ -69,6 +71,8 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     })?;
     bar.0.finish_and_clear();
     eprintln!("{}", told(&summary));
+    let page = report(&args.out, None)?;
+    eprintln!("its page, to be opened in a browser: {}", page.display());
     output::to_stdout(|out| writeln!(out, "{}", names.diagnosis.display()).map_err(output::failed))
 }
 

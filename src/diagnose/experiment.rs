@@ -6,12 +6,13 @@ use super::hypothesis::{ACTING, Nuisance};
 use super::scale::Scales;
 use super::test_data::TestData;
 use super::wall_number::{WALL_NUMBERS, wall_number};
-use crate::calibrate::Test;
+use crate::calibrate::{Test, experiment_files};
 use crate::error::{InputError, Result};
 use crate::input::experiment::{ExperimentFile, TestTable};
 use crate::input::load_wall;
 use crate::model::Wall;
 use crate::simulate::Accuracy;
+use crate::store::FileNote;
 
 /// Wall, what was known of it, tests.
 #[derive(Debug)]
@@ -30,6 +31,8 @@ pub struct Experiment {
     pub whole: Vec<Test>,
     /// Sizes that matter.
     pub scales: Scales,
+    /// The files that were read.
+    pub inputs: Vec<FileNote>,
 }
 
 impl Experiment {
@@ -56,7 +59,10 @@ impl Experiment {
             |(test, table): (&Test, &TestTable)| TestData::new(test, &folder.join(&table.measured), table);
         let tests = whole.iter().zip(&file.tests).map(data).collect::<Result<Vec<_>, _>>()?;
         let scales = Scales::of(&wall, &tests);
-        Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales })
+        let note = |(role, file): (String, PathBuf)| FileNote::of(&role, &file);
+        let read = experiment_files(path, &file).into_iter().filter(|(role, _)| role != "coefficients");
+        let inputs = read.map(note).collect::<Result<_>>()?;
+        Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales, inputs })
     }
 }
 

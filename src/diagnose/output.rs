@@ -1,11 +1,14 @@
 //! The output folder of a diagnosis.
 //!
 //! ```text
-//! diagnosis.json       the verdict, with everything it rests on
+//! manifest.json        `kind`: `diagnosis`; program, files that were read; written first
+//! *.parquet            what the figures show, see [`super::tables`]
 //! wall.updated.toml    the wall with the effect added, for every other command
+//! diagnosis.json       the verdict, with everything it rests on; written last: where it is, all is there
 //! ```
 
 use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde_json::{Value, json};
 
@@ -13,8 +16,10 @@ use super::experiment::Experiment;
 use super::flow::Diagnosis;
 use super::hypothesis::Unknown;
 use super::interval::intervals;
+use super::manifest::write_manifest;
 use super::score::windowed_error;
 use super::search::{Data, Tried};
+use super::tables::{TABLES, Tables, kept};
 use super::updated_wall::updated_wall;
 use super::verdict::{Verdict, against, joint_error, names};
 use super::window_fit::WindowFit;
@@ -35,10 +40,16 @@ const DETECTED: f64 = 3.3;
 /// Where things go in the output folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OutputNames {
+    /// The folder.
+    pub folder: PathBuf,
+    /// Kind and provenance.
+    pub manifest: PathBuf,
     /// The verdict.
     pub diagnosis: PathBuf,
     /// The wall with the effect added.
     pub wall: PathBuf,
+    /// When the diagnosis began, seconds since 1970.
+    started_unix_s: u64,
 }
 
 impl OutputNames {
@@ -50,16 +61,42 @@ impl OutputNames {
         let refuse = |found: String, allowed: &str| InputError::option("--out", found, allowed);
         std::fs::create_dir_all(folder)
             .map_err(|e| refuse(format!("{}: {e}", folder.display()), "a folder that can be written"))?;
-        let names = Self { diagnosis: folder.join("diagnosis.json"), wall: folder.join("wall.updated.toml") };
+        let names = Self {
+            folder: folder.to_path_buf(),
+            manifest: folder.join("manifest.json"),
+            diagnosis: folder.join("diagnosis.json"),
+            wall: folder.join("wall.updated.toml"),
+            started_unix_s: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+        };
         let entries = std::fs::read_dir(folder).map_err(|e| Error::io("read", folder, e))?;
         let entries =
             entries.filter_map(std::result::Result::ok).map(|entry| entry.path()).collect::<Vec<_>>();
-        if !entries.is_empty() && !entries.contains(&names.diagnosis) {
+        let earlier = entries.contains(&names.diagnosis) || is_diagnosis(&names.manifest);
+        if !entries.is_empty() && !earlier {
             let found = format!("{}, which holds other files", folder.display());
             return Err(refuse(found, "an empty folder, or one of an earlier diagnosis").into());
         }
         Ok(names)
     }
+
+    /// Removes what an earlier diagnosis left, the verdict first, so that nothing of it is taken for this one's.
+    fn clear(&self) -> Result<()> {
+        let tables = TABLES.map(|name| self.folder.join(name));
+        let own = [&self.diagnosis, &self.wall, &self.manifest].into_iter().chain(&tables);
+        let page = self.folder.join(crate::report::PAGE_NAME);
+        own.chain([&page]).try_for_each(|path| match std::fs::remove_file(path) {
+            Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+                Err(Error::io("remove earlier results", path, e))
+            }
+            _ => Ok(()),
+        })
+    }
+}
+
+/// Whether a manifest is there and says that its folder holds a diagnosis.
+fn is_diagnosis(manifest: &Path) -> bool {
+    let text = std::fs::read(manifest).unwrap_or_default();
+    serde_json::from_slice::<Value>(&text).is_ok_and(|value| value["kind"] == KIND)
 }
 
 /// Writes what a diagnosis found; the files are whole or absent.
@@ -67,12 +104,15 @@ impl OutputNames {
 /// # Errors
 /// [`Error::Io`] if the disk refuses; input errors of a wall file that changed meanwhile.
 pub fn write_results(names: &OutputNames, experiment: &Experiment, diagnosis: &Diagnosis) -> Result<Value> {
-    let summary = summary(experiment, diagnosis);
-    let kept = match diagnosis.verdict {
-        Verdict::Named | Verdict::Class | Verdict::Recalibrated => &diagnosis.after,
-        _ => &diagnosis.before,
-    };
-    write_durably(&names.wall, updated_wall(experiment, kept)?.as_bytes())?;
+    let mut summary = summary(experiment, diagnosis);
+    let no_wall = || InputError::file(&experiment.wall_path, "a diagnosis that is no wall", "a wall");
+    let tables = Tables::new(experiment, diagnosis).ok_or_else(no_wall)?;
+    summary["missing_force"] = tables.summary();
+    let wall = updated_wall(experiment, kept(diagnosis))?;
+    names.clear()?;
+    write_manifest(&names.manifest, experiment, names.started_unix_s)?;
+    tables.write(&names.folder)?;
+    write_durably(&names.wall, wall.as_bytes())?;
     let text = serde_json::to_string_pretty(&summary).map_err(|e| Error::table(&names.diagnosis, e))?;
     write_durably(&names.diagnosis, text.as_bytes())?;
     Ok(summary)
@@ -98,6 +138,11 @@ fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
             "before": joint_error(&data, &diagnosis.before),
             "recalibrated": joint_error(&data, &diagnosis.recalibrated),
             "after": joint_error(&data, &diagnosis.after),
+        },
+        "against": {
+            "before": against(&data, &diagnosis.before),
+            "recalibrated": against(&data, &diagnosis.recalibrated),
+            "after": against(&data, &diagnosis.after),
         },
         "windows": {"fit": data.fit.windows.len(), "held_out": data.held_out.windows.len()},
         "could_hide": could_hide(diagnosis),

@@ -6,7 +6,7 @@ use super::hypothesis::Physics;
 use super::test_data::TestData;
 use super::windows::Window;
 use crate::model::{Contact, Effect, Pair, RockingWall};
-use crate::simulate::{Accuracy, Observer, Shaking, Simulator, Start};
+use crate::simulate::{Accuracy, Observer, Response, Shaking, Simulator, Start};
 use crate::solver::Quintic;
 
 /// Accuracy of windows: far below any noise, over a second.
@@ -38,19 +38,10 @@ impl<'a> Replay<'a> {
     pub fn residual(&self, window: &Window, x: &[f64]) -> DVector<f64> {
         let test = &self.tests[window.test];
         let simulator = &self.simulators[window.test];
-        let (state, contact) = window.freedom.state(x);
         let from = window.samples.start;
-        let plastic = self.plastic_m[window.test].get(from).copied().unwrap_or(0.0);
-        let start = Start {
-            time_s: test.time_s[from],
-            state,
-            contact: Some(contact),
-            plastic_displacement_m: plastic,
-        };
         let times = &test.time_s[window.samples.clone()];
         let mut sampler = Sampler { times, theta: Vec::with_capacity(times.len()) };
-        let end_s = times[times.len() - 1];
-        simulator.run_from(&start, end_s, &mut sampler);
+        self.run(window, x, &mut sampler);
         // A run that failed says nothing of what came after.
         sampler.theta.resize(times.len(), [f64::NAN; 2]);
         let reading = simulator.wall().wall().reading();
@@ -63,10 +54,21 @@ impl<'a> Replay<'a> {
         };
         DVector::from_fn(2 * times.len(), |i, _| residual(i))
     }
+
+    /// Runs a window from a state to its last sample.
+    pub fn run(&self, window: &Window, x: &[f64], observer: &mut impl Observer) -> Response {
+        let time_s = &self.tests[window.test].time_s;
+        let (state, contact) = window.freedom.state(x);
+        let from = window.samples.start;
+        let plastic = self.plastic_m[window.test].get(from).copied().unwrap_or(0.0);
+        let start =
+            Start { time_s: time_s[from], state, contact: Some(contact), plastic_displacement_m: plastic };
+        self.simulators[window.test].run_from(&start, time_s[window.samples.end - 1], observer)
+    }
 }
 
 /// The shaking with a share of the record backwards as vertical motion.
-fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
+pub(super) fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
     let mut shaking = shaking.clone();
     if reversed_ratio != 0.0
         && let Some(record) = &shaking.horizontal
@@ -81,7 +83,7 @@ fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
 }
 
 /// The memory of a yielding spring, carried along the measured displacement of the top; empty without such a spring.
-fn plastic_displacements_m(test: &TestData, physics: &Physics) -> Vec<f64> {
+pub(super) fn plastic_displacements_m(test: &TestData, physics: &Physics) -> Vec<f64> {
     let yields = |effect: &Effect| effect.kind().name == "yielding_spring";
     if !physics.wall.parameters().effects.iter().any(yields) {
         return Vec::new();

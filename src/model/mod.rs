@@ -17,6 +17,7 @@ mod mass_matrix;
 mod motion;
 mod pace;
 mod posture;
+mod pushed;
 mod restrained;
 mod restraint;
 mod rocking;

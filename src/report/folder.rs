@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::page::Page;
 use super::provenance::read_json;
-use super::{calibration, comparison, drawn, history, overturning, sweep};
+use super::{calibration, comparison, diagnosis, drawn, history, overturning, sweep};
 use crate::error::{Error, InputError, Result};
 use crate::ground::Site;
 use crate::store::{Manifest, write_durably};
@@ -32,7 +32,8 @@ pub fn report(results: &Path, site: Option<&Site>) -> Result<PathBuf> {
 }
 
 /// What a page can be made of.
-const RESULTS: &str = "a folder of `mrbd run` or `mrbd calibrate`, or a history of `mrbd simulate`";
+const RESULTS: &str =
+    "a folder of `mrbd run`, `mrbd calibrate` or `mrbd diagnose`, or a history of `mrbd simulate`";
 
 /// What a manifest says its folder holds; without a word, a study of runs.
 #[derive(Deserialize)]
@@ -52,6 +53,7 @@ fn page_of(folder: &Path, site: Option<&Site>) -> Result<Page> {
     let Kind { kind } = read_json(&path, "a manifest as mrbd writes it beside its results")?;
     match kind.as_deref() {
         Some(crate::calibrate::KIND) => calibration::page(folder),
+        Some(crate::diagnose::KIND) => diagnosis::page(folder),
         Some(crate::comparison::KIND) => comparison::page(folder),
         _ => study(folder, &path, site),
     }

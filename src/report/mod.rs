@@ -12,6 +12,7 @@
 //! | `drawn` | drawn façades: fragilities with intervals and data, quantiles, draws against the survey |
 //! | `history` | a history file |
 //! | `calibration` | measured against simulated, intervals, convergence (Figs. 6 to 8) |
+//! | `diagnosis` | where model and tests part, the missing force, candidates and rivals, before and after |
 //! | `comparison` | three models of a wall under the same records (Fig. 9) |
 //! | `overturning` | which pulses overturn a wall |
 //!
@@ -32,6 +33,7 @@ mod calibration;
 mod colours;
 mod comparison;
 mod curves;
+mod diagnosis;
 mod drawn;
 mod folder;
 mod graph;

@@ -6,7 +6,7 @@ use super::response::{Outcome, Response};
 use super::rest::RestLimits;
 use super::run::Run;
 use super::{Accuracy, Shaking};
-use crate::model::{Contact, Pivot, RockingWall, State, Wall};
+use crate::model::{Contact, Pivot, RockingWall, State, Vector, Wall};
 use crate::solver::{Controller, ErrorScale};
 
 /// Error of a step allowed, as a share of the error of a run, because impacts magnify what is there before them. With
@@ -84,6 +84,11 @@ impl Simulator {
     /// End of the whole run: that of the record and of the free motion after it, s.
     pub fn end_s(&self) -> f64 {
         self.ground.end_s()
+    }
+
+    /// Ground acceleration at a time, m/s², as the wall's effects make it of the record; y without gravity.
+    pub fn ground_m_s2(&self, time_s: f64) -> Vector {
+        self.ground.at(time_s)
     }
 
     /// The whole run, from the wall's initial rotations at rest.

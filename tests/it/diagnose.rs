@@ -20,7 +20,7 @@ const LATE_S: f64 = 0.5;
 const NOISE_RAD: f64 = 3e-5;
 
 /// A shaking of the repository's own suite from where it becomes strong, s: short enough for a test.
-fn record(number: usize, from_s: f64, length_s: f64) -> Accelerogram {
+pub fn record(number: usize, from_s: f64, length_s: f64) -> Accelerogram {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("inputs/records/emilia7");
     let mut files = std::fs::read_dir(folder)
         .expect("the suite is there")

@@ -16,6 +16,7 @@ mod cli_records;
 mod cli_simulate;
 mod convergence;
 mod diagnose;
+mod diagnose_force;
 mod drawn;
 mod drawn_cli;
 mod drawn_support;

@@ -1,0 +1,139 @@
+//! Everything that was tried, ranked: effects, and beside them numbers of the wall and the placebo.
+
+use super::super::axis::Axis;
+use super::super::colours::{Mark, PALETTE};
+use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::page::{Figure, Link, Section, Table};
+use super::stored::{Stored, StoredRival};
+use super::words::{at, parameters};
+use super::{MEASURED, key};
+use crate::error::Result;
+
+/// Most rows of a figure, and of a table.
+const DRAWN: usize = 12;
+const LISTED: usize = 25;
+/// Colours of errors on tests to fit and held out.
+const FIT: usize = 0;
+const HELD_OUT: usize = 4;
+
+/// Whether a hypothesis is an answer: an effect, neither a number of the wall nor the placebo.
+fn is_effect(rival: &StoredRival) -> bool {
+    rival.name.split(" + ").all(|part| {
+        let number = ["wall.", "diaphragm.", "corners."].iter().any(|table| part.starts_with(table));
+        !number && part != "placebo"
+    })
+}
+
+/// The candidates of the catalogue.
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub fn section(stored: &Stored) -> Result<Section> {
+    let rivals = stored.rivals.iter().filter(|r| is_effect(r)).collect::<Vec<_>>();
+    let text = "Every effect of the catalogue, fitted to the tests; the first explains them best. What speaks against a hypothesis is half its squared error beyond noise, bounded window by window, on all tests, with a price for every number: natural logarithms of likelihood. 15 less than every other is a name.";
+    made("candidates", "The candidates, ranked", text, &rivals)
+}
+
+/// What else was tried.
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub fn rivals_section(stored: &Stored) -> Result<Section> {
+    let best = stored.rivals.iter().find(|r| is_effect(r));
+    let others = stored.rivals.iter().filter(|r| !is_effect(r));
+    let mut rivals = best.into_iter().chain(others).collect::<Vec<_>>();
+    rivals.sort_by(|a, b| a.against.all.total_cmp(&b.against.all));
+    let text = "Beside the best effect: numbers of the wall outside what was known of them, which a wrong drawing or weight would make, and a placebo, a vertical motion made of the record backwards, which shows what a term without meaning gains.";
+    made("rivals", "Rivals and placebo", text, &rivals)
+}
+
+fn made(id: &str, title: &str, text: &str, rivals: &[&StoredRival]) -> Result<Section> {
+    let drawn = &rivals[..rivals.len().min(DRAWN)];
+    Ok(Section {
+        id: id.to_owned(),
+        title: title.to_owned(),
+        text: vec![text.to_owned()],
+        figures: vec![figure(id, drawn)?],
+        tables: vec![table(rivals)],
+        ..Section::default()
+    })
+}
+
+fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
+    let errors = rivals.iter().flat_map(|r| [r.windowed_error.fit, r.windowed_error.held_out]).flatten();
+    let rows = rivals.len() as f64 - 0.5;
+    let noise = Layer::Line {
+        colour: MEASURED,
+        width: 2,
+        dashed: true,
+        name: String::new(),
+        points: vec![(1.0, -0.5), (1.0, rows)],
+    };
+    let mut layers = vec![noise];
+    type Of = fn(&StoredRival) -> Option<f64>;
+    let kinds: [(&str, usize, Mark, Of); 2] = [
+        ("tests to fit", FIT, Mark::Circle, |r| r.windowed_error.fit),
+        ("tests held out", HELD_OUT, Mark::Square, |r| r.windowed_error.held_out),
+    ];
+    for (what, colour, mark, of) in kinds {
+        let dot = |(row, r): (f64, &&StoredRival)| {
+            let x = of(r)?;
+            Some(Dot {
+                x,
+                y: row,
+                tip: format!("{}\nerror {x:.2}, {what}\n{}", r.name, parameters(&r.parameters)),
+            })
+        };
+        let dots = (0..).map(f64::from).zip(rivals).filter_map(dot).collect();
+        layers.push(Layer::Dots { colour: PALETTE[colour], mark, size: 12, hollow: false, dots });
+    }
+    let graph = Graph {
+        title: String::new(),
+        format: Format::Wide,
+        x: Axis::log_holding("windowed error over the noise", errors.chain([0.9, 3.0])),
+        y: Axis::names("", rivals.iter().map(|r| r.name.clone()).collect()),
+        layers,
+    };
+    Ok(Figure {
+        id: format!("{id}-figure"),
+        title: "How well each follows the tests".into(),
+        legend: vec![
+            key("tests to fit", PALETTE[FIT], Mark::Circle),
+            key("tests held out", PALETTE[HELD_OUT], Mark::Square),
+        ],
+        panels: vec![graph.svg()?],
+        wide: true,
+        caption: "Windowed error in units of the noise; the dashed line is a perfect model. A name needs both near it.".into(),
+        links: vec![Link::to("rivals.parquet")],
+        ..Figure::default()
+    })
+}
+
+fn table(rivals: &[&StoredRival]) -> Table {
+    let row = |r: &&StoredRival| {
+        let text = |x: Option<f64>, digits: usize| x.map_or("–".to_owned(), |x| format!("{x:.digits$}"));
+        vec![
+            r.name.clone(),
+            r.place.as_deref().map_or("–".to_owned(), at),
+            parameters(&r.parameters),
+            format!("{:.1}", r.against.all),
+            text(r.windowed_error.fit, 2),
+            text(r.windowed_error.held_out, 2),
+            text(r.wme.fit, 3),
+            text(r.wme.held_out, 3),
+        ]
+    };
+    let head = [
+        "added to the wall",
+        "where",
+        "fitted, ± sd",
+        "against it",
+        "error, fit",
+        "held out",
+        "WME, fit",
+        "held out",
+    ];
+    let caption =
+        if rivals.len() > LISTED { "The best of them; all are in rivals.parquet" } else { "In order" };
+    Table::of(caption, &head, rivals.iter().take(LISTED).map(row))
+}

@@ -1,0 +1,94 @@
+//! How large an effect of each kind could still hide.
+
+use super::super::axis::Axis;
+use super::super::colours::{Mark, PALETTE};
+use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::page::{Figure, Link, Section, Table};
+use super::stored::{Stored, StoredPower};
+use super::words::{number, with_sd};
+use super::{MEASURED, key};
+use crate::error::Result;
+
+/// Shares of a size that matters below and above which nothing is drawn more exactly.
+const RANGE: [f64; 2] = [1e-4, 30.0];
+
+/// The section.
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub fn section(stored: &Stored) -> Result<Section> {
+    let mut powers = stored.could_hide.iter().filter(|p| p.sd.is_finite() && p.sd > 0.0).collect::<Vec<_>>();
+    let share = |p: &StoredPower| p.smallest_detectable / p.matters;
+    powers.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    let blind =
+        stored.could_hide.iter().filter(|p| !p.sd.is_finite() || p.sd <= 0.0 || share(p) > 1.0).count();
+    let mut text = vec![
+        "For every kind, the smallest size that these tests would have told from nothing, had it been alone (3.3 standard deviations). What is smaller may be there all the same.".to_owned(),
+    ];
+    if blind > 0 {
+        text.push(format!("{blind} of them could hide at a size that matters."));
+    }
+    let figures = if powers.is_empty() { Vec::new() } else { vec![figure(&powers)?] };
+    Ok(Section {
+        id: "could-hide".into(),
+        title: "What could still hide".into(),
+        text,
+        figures,
+        tables: vec![table(&powers)],
+        ..Section::default()
+    })
+}
+
+fn figure(powers: &[&StoredPower]) -> Result<Figure> {
+    let dot = |(row, p): (f64, &&StoredPower)| Dot {
+        x: (p.smallest_detectable / p.matters).clamp(RANGE[0], RANGE[1]),
+        y: row,
+        tip: format!("{}\n{} from {} {}", p.name, p.parameter, number(p.smallest_detectable), p.unit),
+    };
+    let dots = (0..).map(f64::from).zip(powers).map(dot).collect::<Vec<_>>();
+    let matters = Layer::Line {
+        colour: MEASURED,
+        width: 2,
+        dashed: true,
+        name: String::new(),
+        points: vec![(1.0, -0.5), (1.0, powers.len() as f64 - 0.5)],
+    };
+    let x = Axis::log_holding(
+        "smallest size told over a size that matters",
+        dots.iter().map(|d| d.x).chain([1.5]),
+    );
+    let graph = Graph {
+        title: String::new(),
+        format: Format::Wide,
+        x,
+        y: Axis::names("", powers.iter().map(|p| p.name.clone()).collect()),
+        layers: vec![
+            matters,
+            Layer::Dots { colour: PALETTE[0], mark: Mark::Circle, size: 11, hollow: false, dots },
+        ],
+    };
+    Ok(Figure {
+        id: "could-hide-figure".into(),
+        title: "Smallest size told from nothing".into(),
+        legend: vec![key("smallest size told", PALETTE[0], Mark::Circle)],
+        panels: vec![graph.svg()?],
+        wide: true,
+        caption: "A size that matters makes a force as large as the floor’s spring at the largest displacement (the table gives each). Right of the dashed line an effect that matters could hide.".into(),
+        links: vec![Link::to("diagnosis.json")],
+        ..Figure::default()
+    })
+}
+
+fn table(powers: &[&StoredPower]) -> Table {
+    let row = |p: &&StoredPower| {
+        vec![
+            p.name.clone(),
+            format!("{} {}", p.parameter, p.unit),
+            number(p.smallest_detectable),
+            with_sd(p.estimate, Some(p.sd)),
+            number(p.matters),
+        ]
+    };
+    let head = ["effect", "by its", "smallest told", "fitted, less nothing", "would matter"];
+    Table::of("Sizes", &head, powers.iter().map(row))
+}

@@ -1,0 +1,219 @@
+//! Measured rotations against whole runs, before and after.
+
+use std::path::Path;
+
+use super::super::axis::Axis;
+use super::super::colours::{Colour, Mark};
+use super::super::graph::{Format, Graph, Layer};
+use super::super::page::{Figure, Link, Section, Table};
+use super::stored::{BeforeAfter, Columns, Stored, StoredTest};
+use super::{AFTER, BEFORE, MEASURED, key};
+use crate::error::Result;
+
+/// Most tests drawn in one section.
+const MOST: usize = 3;
+/// Least time between drawn points, s.
+const STEP_S: f64 = 0.01;
+/// Times farther apart than this many of the usual distances leave a gap.
+const GAP: f64 = 2.5;
+
+const NAMES: [&str; 8] = [
+    "test",
+    "time_s",
+    "theta1_measured_rad",
+    "theta2_measured_rad",
+    "theta1_before_rad",
+    "theta2_before_rad",
+    "theta1_after_rad",
+    "theta2_after_rad",
+];
+
+/// The samples of all tests.
+pub struct Histories {
+    test: Vec<String>,
+    time_s: Vec<f64>,
+    /// Measured, before, after; lower and upper body; thousandths of a radian.
+    theta_mrad: [[Vec<f64>; 2]; 3],
+}
+
+impl Histories {
+    /// Reads them.
+    ///
+    /// # Errors
+    /// Input errors for a file that is no such table.
+    pub fn read(path: &Path) -> Result<Self> {
+        let columns = Columns::read(path, &NAMES)?;
+        let mrad =
+            |name: &str| -> Result<Vec<f64>> { Ok(columns.numbers(name)?.iter().map(|x| 1e3 * x).collect()) };
+        let both = |when: &str| -> Result<[Vec<f64>; 2]> {
+            Ok([mrad(&format!("theta1_{when}_rad"))?, mrad(&format!("theta2_{when}_rad"))?])
+        };
+        Ok(Self {
+            test: columns.labels("test")?,
+            time_s: columns.numbers("time_s")?,
+            theta_mrad: [both("measured")?, both("before")?, both("after")?],
+        })
+    }
+
+    /// One line of one test, thinned.
+    fn line(&self, test: &str, which: usize, body: usize) -> Vec<(f64, f64)> {
+        let rows = (0..self.time_s.len()).filter(|&k| self.test[k] == test);
+        let mut line: Vec<(f64, f64)> = Vec::new();
+        let mut step_s = f64::INFINITY;
+        for k in rows {
+            let t = self.time_s[k];
+            if let Some(last) = line.last() {
+                let passed = t - last.0;
+                if passed < STEP_S * (1.0 - 1e-6) {
+                    continue;
+                }
+                if passed > GAP * step_s.min(passed).max(STEP_S) {
+                    line.push((t, f64::NAN));
+                }
+                step_s = step_s.min(passed);
+            }
+            line.push((t, self.theta_mrad[which][body][k]));
+        }
+        line
+    }
+
+    fn figure(&self, test: &StoredTest, with_after: bool) -> Result<Figure> {
+        let panels = [0, 1].map(|body| self.panel(&test.name, body, with_after));
+        let mut legend =
+            vec![key("measured", MEASURED, Mark::None), key("simulated, wall as given", BEFORE, Mark::None)];
+        if with_after {
+            legend.push(key("simulated, updated wall", AFTER, Mark::None));
+        }
+        let held = if test.purpose == "fit" { "to fit" } else { "held out" };
+        Ok(Figure {
+            id: format!("{}-{}", if with_after { "after" } else { "before" }, anchor(&test.name)),
+            title: format!("{}, {held}", test.name),
+            paper: Some("Figs. 7 and 8".into()),
+            legend,
+            panels: panels.into_iter().collect::<Result<_>>()?,
+            wide: true,
+            caption: format!(
+                "Whole runs from rest. WME {}; windowed error {} times the noise.",
+                told(&test.wme, with_after, 3),
+                told(&test.windowed_error, with_after, 2)
+            ),
+            links: vec![Link::to("histories.parquet")],
+        })
+    }
+
+    fn panel(&self, test: &str, body: usize, with_after: bool) -> Result<String> {
+        let lines: Vec<_> = (0..if with_after { 3 } else { 2 }).map(|w| self.line(test, w, body)).collect();
+        let end_s = self.line(test, 0, body).last().map_or(0.0, |p| p.0);
+        let values = lines.iter().flatten().map(|p| p.1).filter(|y| y.is_finite());
+        let layer = |name: &str, colour: Colour, width, points: &[(f64, f64)]| Layer::Line {
+            colour,
+            width,
+            dashed: false,
+            name: name.to_owned(),
+            points: points.to_vec(),
+        };
+        let mut layers = vec![
+            layer("measured", MEASURED, 7, &lines[0]),
+            layer("simulated, wall as given", BEFORE, 3, &lines[1]),
+        ];
+        layers.extend(lines.get(2).map(|line| layer("simulated, updated wall", AFTER, 4, line)));
+        Graph {
+            title: String::new(),
+            format: Format::Low,
+            x: Axis::linear("time s", 0.0, end_s),
+            y: Axis::holding(["θ₁ mrad", "θ₂ mrad"][body], values),
+            layers,
+        }
+        .svg()
+    }
+}
+
+fn told(of: &BeforeAfter, with_after: bool, digits: usize) -> String {
+    let text = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.digits$}"));
+    match with_after {
+        true => format!("{} before, {} after", text(of.before), text(of.after)),
+        false => text(of.before),
+    }
+}
+
+/// A name as an anchor.
+fn anchor(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect()
+}
+
+/// Tests of a purpose, those followed worst first.
+fn worst<'s>(stored: &'s Stored, purpose: &str) -> Vec<&'s StoredTest> {
+    let mut tests = stored.tests.iter().filter(|test| test.purpose == purpose).collect::<Vec<_>>();
+    let error = |test: &StoredTest| test.windowed_error.before.unwrap_or(0.0);
+    tests.sort_by(|a, b| error(b).total_cmp(&error(a)));
+    tests
+}
+
+/// The first section: the wall as given in the tests to fit.
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub fn measured_section(histories: &Histories, stored: &Stored) -> Result<Section> {
+    let tests = worst(stored, "fit");
+    let text = match tests.len() > MOST {
+        true => format!("The wall as given, in the {MOST} tests it follows worst; all are in the table."),
+        false => "The wall as given, in the tests it is fitted to.".to_owned(),
+    };
+    Ok(Section {
+        id: "measured".into(),
+        title: "Measured against simulated".into(),
+        text: vec![text],
+        figures: tests.into_iter().take(MOST).map(|t| histories.figure(t, false)).collect::<Result<_>>()?,
+        tables: vec![table(stored)],
+        ..Section::default()
+    })
+}
+
+fn table(stored: &Stored) -> Table {
+    let row = |test: &StoredTest| {
+        let text = |x: Option<f64>, digits: usize| x.map_or("–".to_owned(), |x| format!("{x:.digits$}"));
+        let [lower, upper] = test.noise_rad.map(|sd| format!("{:.1}", 1e6 * sd));
+        vec![
+            test.name.clone(),
+            if test.purpose == "fit" { "to fit" } else { "held out" }.to_owned(),
+            text(test.windowed_error.before, 2),
+            text(test.windowed_error.after, 2),
+            text(test.wme.before, 3),
+            text(test.wme.after, 3),
+            format!("{lower}, {upper}"),
+        ]
+    };
+    let head = ["test", "use", "error before", "after", "WME before", "after", "noise of θ₁, θ₂, µrad"];
+    Table::of(
+        "The tests: windowed error in units of the noise, and WME (Eq. 8)",
+        &head,
+        stored.tests.iter().map(row),
+    )
+}
+
+/// Before and after on tests held out; on the tests to fit where none was.
+///
+/// # Errors
+/// [`crate::Error::Picture`] if plotters refuses.
+pub fn held_out_section(histories: &Histories, stored: &Stored) -> Result<Section> {
+    let mut tests = worst(stored, "hold-out");
+    let mut text = "The updated wall in tests that no fit has seen.".to_owned();
+    if tests.is_empty() {
+        tests = worst(stored, "fit");
+        text = "No test was held out; these are tests that were fitted.".into();
+    }
+    if !stored.is_answered() && stored.verdict != "recalibrated" {
+        text = "The wall stays as it is: what follows is the wall as given.".into();
+    }
+    let with_after = stored.is_answered() || stored.verdict == "recalibrated";
+    let figures = tests.into_iter().take(MOST).map(|t| histories.figure(t, with_after));
+    Ok(Section {
+        id: "held-out".into(),
+        title: "Before and after on held-out tests".into(),
+        text: vec![text],
+        figures: figures
+            .map(|f| f.map(|f| Figure { id: format!("held-{}", f.id), ..f }))
+            .collect::<Result<_>>()?,
+        ..Section::default()
+    })
+}

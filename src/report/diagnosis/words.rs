@@ -1,0 +1,88 @@
+//! Verdicts, numbers and names as people read them.
+
+use super::stored::{Stored, StoredEffect, StoredParameter};
+
+/// A number to four digits, without powers of ten where it is of common size.
+pub fn number(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && !(1e-3..1e6).contains(&size) {
+        return format!("{value:.3e}");
+    }
+    let digits = if size >= 1000.0 { 0 } else { (3 - size.max(1e-3).log10().floor() as i32).clamp(0, 6) };
+    format!("{value:.*}", digits as usize)
+}
+
+/// A number with its standard deviation.
+pub fn with_sd(value: f64, sd: Option<f64>) -> String {
+    sd.map_or_else(|| number(value), |sd| format!("{} ± {}", number(value), number(sd)))
+}
+
+/// The numbers of a hypothesis.
+pub fn parameters(all: &[StoredParameter]) -> String {
+    let one = |p: &StoredParameter| {
+        let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
+        format!("{} = {}{unit}", p.key, with_sd(p.value, p.sd))
+    };
+    all.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+fn effect(e: &StoredEffect) -> String {
+    let at = e.place.as_deref().map_or(String::new(), |place| format!(", {}", at(place)));
+    let value = |(key, value): (&String, &f64)| {
+        let interval = e.interval.get(key);
+        let range = interval
+            .map_or(String::new(), |[low, high]| format!(" (90 %: {} to {})", number(*low), number(*high)));
+        format!("{key} = {}{range}", number(*value))
+    };
+    let values = e.parameters.iter().map(value).collect::<Vec<_>>().join(", ");
+    format!("{}{at}: {values}", e.name.as_deref().unwrap_or("a law outside the catalogue"))
+}
+
+/// A place in a sentence.
+pub fn at(place: &str) -> String {
+    match place {
+        "impacts" => "at impacts".to_owned(),
+        "ground motion" => "in the ground motion".to_owned(),
+        "sensor" => "in the sensors".to_owned(),
+        "masses" => "in the wall’s masses and lengths".to_owned(),
+        "none" => "nowhere".to_owned(),
+        place => format!("at the {place}"),
+    }
+}
+
+/// The verdict as a sentence or two.
+pub fn lead(stored: &Stored) -> String {
+    let effects = stored.effects.iter().map(effect).collect::<Vec<_>>().join("; ");
+    match stored.verdict.as_str() {
+        "none" => "None: the simulation follows the tests within their noise.".to_owned(),
+        "recalibrated" => {
+            "Recalibrated: the gap closes within what was known of the wall’s own numbers.".to_owned()
+        }
+        "named" => format!("Named: {effects}. Nothing else in the catalogue explains these tests."),
+        "class" => format!(
+            "A class: {} explain these tests alike. The first of them: {effects}.",
+            stored.equivalent.join(", ")
+        ),
+        "place_only" => {
+            let place = stored.place.as_deref().map_or("somewhere".to_owned(), at);
+            format!("A place only: a force is missing {place}, by a law that is not in the catalogue.")
+        }
+        "unknown" => "Unknown: model and tests part, and nothing in the catalogue explains it.".to_owned(),
+        "no_power" => {
+            "No power: the wall hardly moved, so no effect of a size that matters could have shown."
+                .to_owned()
+        }
+        other => other.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_numbers_have_four_digits() {
+        let told = [1487.38977, 12018135.0, 0.0054263, 37.1049, -0.5, 0.0].map(number);
+        assert_eq!(told, ["1487", "1.202e7", "0.005426", "37.10", "-0.5000", "0.000000"]);
+    }
+}
