@@ -16,6 +16,7 @@ pub mod force;
 pub mod hypothesis;
 pub mod interval;
 mod manifest;
+pub mod next_tests;
 pub mod noise;
 pub mod output;
 pub mod pattern;

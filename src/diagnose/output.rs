@@ -17,6 +17,7 @@ use super::flow::Diagnosis;
 use super::hypothesis::Unknown;
 use super::interval::intervals;
 use super::manifest::write_manifest;
+use super::next_tests::next_tests;
 use super::score::windowed_error;
 use super::search::{Data, Tried};
 use super::tables::{TABLES, Tables, kept};
@@ -108,6 +109,7 @@ pub fn write_results(names: &OutputNames, experiment: &Experiment, diagnosis: &D
     let no_wall = || InputError::file(&experiment.wall_path, "a diagnosis that is no wall", "a wall");
     let tables = Tables::new(experiment, diagnosis).ok_or_else(no_wall)?;
     summary["missing_force"] = tables.summary();
+    summary["next_tests"] = json!(next_tests(experiment, diagnosis));
     let wall = updated_wall(experiment, kept(diagnosis))?;
     names.clear()?;
     write_manifest(&names.manifest, experiment, names.started_unix_s)?;

@@ -40,7 +40,7 @@ pub fn page(folder: &Path) -> Result<Page> {
     let sections = vec![
         histories::measured_section(&histories, &stored)?,
         parting_section(folder, &windows, &stored)?,
-        force::place_section(&force, &stored)?,
+        force::place_section(&force, &histories, &stored)?,
         force::shape_section(&force, &stored)?,
         candidates::section(&stored)?,
         candidates::rivals_section(&stored)?,
@@ -73,7 +73,8 @@ fn numbers(stored: &Stored) -> Vec<Number> {
     let mut numbers = Vec::new();
     for effect in stored.effects.iter().filter(|e| e.parameters.len() <= 2) {
         for (key, value) in &effect.parameters {
-            numbers.push(of(number(*value), key));
+            let meaning = format!("{key}, {}", effect.name.as_deref().unwrap_or_default());
+            numbers.push(of(number(*value), &meaning));
         }
     }
     numbers.push(of(error(stored.windowed_error.before), "times the noise: error of the wall as given"));

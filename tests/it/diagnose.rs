@@ -4,12 +4,14 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use mrbd::fragility::Table;
 use mrbd::ground::{Accelerogram, ReadOptions, read};
 use mrbd::model::{Effect, ImpactLaw, Wall, WallParameters};
 use mrbd::simulate::{Accuracy, History, Shaking, simulate_observed};
 use rand_distr::{Distribution, Normal};
 use serde_json::Value;
 
+use crate::report_pages::followed_links;
 use crate::shared;
 use crate::walls::{rng, table_wall};
 
@@ -108,8 +110,8 @@ fn diagnosed(experiment: &Path, out: &Path) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-#[test]
-fn analytic_twin_of_a_damped_floor_is_named_and_its_wall_runs() {
+/// A wall whose floor is damped, diagnosed as one whose floor is not: its folder, the results, the verdict.
+pub fn damped_twin() -> (tempfile::TempDir, PathBuf, Value) {
     let folder = tempfile::tempdir().expect("a folder");
     let described = table_wall(ImpactLaw::Contact);
     let mut true_wall = described.clone();
@@ -117,6 +119,12 @@ fn analytic_twin_of_a_damped_floor_is_named_and_its_wall_runs() {
     let experiment = write_twin(folder.path(), &described, &true_wall, |theta| theta);
     let out = folder.path().join("out");
     let found = diagnosed(&experiment, &out);
+    (folder, out, found)
+}
+
+#[test]
+fn analytic_twin_of_a_damped_floor_is_named_and_its_wall_runs() {
+    let (folder, out, found) = damped_twin();
     assert_eq!(found["verdict"], "named", "{found:#}");
     assert_eq!(found["effects"][0]["kind"], "viscous_damping");
     let value = found["effects"][0]["parameters"]["coefficient_n_s_per_m"].as_f64().expect("a number");
@@ -136,6 +144,77 @@ fn analytic_twin_of_a_damped_floor_is_named_and_its_wall_runs() {
         .output()
         .expect("mrbd runs");
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    its_force_is_measured(&found);
+    its_folder_is_whole(&out);
+    its_page_tells_the_story(folder.path(), &out);
+}
+
+fn its_force_is_measured(found: &Value) {
+    let force = &found["missing_force"];
+    let of = |when: &str, key: &str| force[when][key].as_f64().expect("a number");
+    assert!(of("before", "rms_n") > 3.0 * of("before", "noise_rms_n"), "{force:#}");
+    // What the updated wall leaves is noise: some hundred points, half overlapping, as in `diagnose_force`.
+    assert!(of("after", "rms_n") < 1.3 * of("after", "noise_rms_n"), "{force:#}");
+    let by = |key: &str| force["explained_by"][key].as_f64().expect("a share");
+    assert!(by("velocity_m_s") > 0.8 && by("displacement_m") < 0.5, "{force:#}");
+    assert!(force["median_share_off_top"].as_f64().expect("a share") < 0.1, "{force:#}");
+}
+
+fn its_folder_is_whole(out: &Path) {
+    let text = std::fs::read_to_string(out.join("manifest.json")).expect("a manifest");
+    let manifest: Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(manifest["kind"], "diagnosis");
+    let inputs = manifest["inputs"].as_array().expect("a list");
+    assert_eq!(inputs.len(), 2 + 3 * 2, "experiment, wall, and of each test a record and a measurement");
+    let mut names = std::fs::read_dir(out).expect("a folder").map(|e| e.expect("an entry").file_name());
+    assert!(names.all(|name| !name.to_string_lossy().starts_with('.')), "nothing unfinished is left");
+    let columns = ["theta1_measured_rad", "theta1_before_rad", "theta1_after_rad"];
+    let histories = Table::read(&out.join("histories.parquet"), &columns).expect("histories");
+    let [measured, before, after] = columns.map(|name| histories.numbers(name).expect("numbers"));
+    let error = |simulated: &[Option<f64>]| {
+        let pairs = measured.iter().zip(simulated).filter_map(|(m, s)| m.zip(*s));
+        pairs.map(|(m, s)| (m - s).powi(2)).sum::<f64>()
+    };
+    assert!(error(&after) < 0.2 * error(&before), "{} after, {} before", error(&after), error(&before));
+}
+
+/// The order in which a page tells what was found.
+const STORY: [&str; 9] =
+    ["measured", "parting", "place", "shape", "candidates", "rivals", "held-out", "could-hide", "next"];
+
+fn its_page_tells_the_story(folder: &Path, out: &Path) {
+    let path = out.join("report.html");
+    let page = std::fs::read_to_string(&path).expect("the page that diagnose makes");
+    let at = STORY.map(|id| page.find(&format!("<section id=\"{id}\">")).expect(id));
+    assert!(at.is_sorted(), "{at:?}");
+    let parts =
+        ["Named: viscous_damping", "placebo", "test 2, held out", "updated wall", "velocity of the top m/s"];
+    for part in parts {
+        assert!(page.contains(part), "{part}");
+    }
+    assert!(
+        !page.contains("NaN") && !page.contains(&folder.display().to_string()),
+        "no paths of this machine"
+    );
+    let (anchors, files) = followed_links(&path);
+    assert!(anchors > STORY.len() && files > 15, "{anchors} anchors, {files} files");
+    // Made of the folder alone: what was measured may be gone.
+    std::fs::remove_file(folder.join("measured_0.csv")).expect("removed");
+    let again = Command::new(env!("CARGO_BIN_EXE_mrbd")).arg("report").arg(out).output().expect("mrbd runs");
+    assert!(again.status.success(), "{}", String::from_utf8_lossy(&again.stderr));
+    assert!(std::fs::read_to_string(&path).expect("the page") == page, "equal results give equal pages");
+}
+
+#[test]
+fn rejects_a_folder_of_other_files_before_anything_is_computed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let wall = table_wall(ImpactLaw::Contact);
+    let experiment = write_twin(folder.path(), &wall, &wall, |theta| theta);
+    let output = diagnose(&experiment, folder.path());
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("which holds other files"), "{told}");
+    assert!(!folder.path().join("manifest.json").exists());
 }
 
 #[test]

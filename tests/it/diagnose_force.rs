@@ -1,6 +1,6 @@
 //! The missing force of a diagnosis on twins whose missing law is known.
 
-use mrbd::diagnose::force::{ForcePoint, force_points, jumps, median_share_off_top};
+use mrbd::diagnose::force::{Against, ForcePoint, explained_by, force_points, jumps, median_share_off_top};
 use mrbd::diagnose::hypothesis::Physics;
 use mrbd::diagnose::test_data::TestData;
 use mrbd::input::experiment::Purpose;
@@ -68,14 +68,17 @@ fn analytic_the_missing_force_follows_its_law() {
     ];
     for (kind, truth, regressor) in laws {
         let points = force_points(&measured(&with(Some((kind, &[truth])))), &given());
+        let [displacement, velocity, _] = Against::ALL.map(|of| explained_by(&points, of).expect("a force"));
+        let told = format!("{kind}: {displacement} by displacement, {velocity} by velocity");
+        match kind {
+            "viscous_damping" => assert!(velocity > 0.9 && displacement < 0.5, "{told}"),
+            "cubic_stiffness" => assert!(displacement > 0.9 && velocity < 0.5, "{told}"),
+            _ => {}
+        }
         let [found, sd] = slope(&points, regressor);
-        println!(
-            "{kind}: {found} ± {sd} of {truth}, {} points {:?}",
-            points.len(),
-            median_share_off_top(&points)
-        );
-        // Half overlapping stretches share noise, which the standard deviation does not know: three of them, twice; and
-        // 2 % for what a force changes within the reach of the test function.
+        println!("{kind}: {found:.4e} ± {sd:.1e} for {truth:.4e}, {} points; {told}", points.len());
+        // Half overlapping stretches share noise, which the standard deviation does not know: three of them, twice. And
+        // 2 % for what lies within the reach of a test function.
         assert!((found - truth).abs() < 6.0 * sd + 0.02 * truth, "{kind}: {found} ± {sd} for {truth}");
     }
 }
@@ -87,7 +90,6 @@ fn analytic_where_nothing_is_missing_the_force_is_noise() {
     assert!(points.len() > 60, "{} points", points.len());
     let reduced =
         points.iter().map(|p| (p.force_n / p.force_sd_n).powi(2)).sum::<f64>() / points.len() as f64;
-    println!("reduced {reduced} of {}", points.len());
     // The mean of n squares, half overlapping, scatters by some 2/√n: 0.2 for a hundred, three times.
     assert!((reduced - 1.0).abs() < 0.6, "{reduced} of {} points", points.len());
 }
@@ -99,7 +101,6 @@ fn analytic_a_force_at_the_top_has_its_direction_and_a_late_record_has_not() {
         median_share_off_top(&points).expect("points in patterns 1 and 2")
     };
     let ((top, some), (late, many)) = (share(("viscous_damping", &[3000.0])), share(("record_lag", &[0.01])));
-    println!("{top} of {some}, {late} of {many}");
     assert!(top < 0.06 && late > 2.0 * top, "top {top} of {some} points, late {late} of {many}");
 }
 
@@ -115,7 +116,6 @@ fn analytic_an_impact_that_keeps_less_shows_in_its_ratio() {
         (ratios[ratios.len() / 2], ratios.len())
     };
     let (monolithic, count) = of(5);
-    println!("{monolithic} of {count}");
     // 3a to 3b: the velocity after it is C_6 times that of a plastic impact (Eq. 7). Single ratios scatter by some 3 %.
     assert!(count >= 5 && (monolithic - 0.9).abs() < 0.02, "{monolithic} of {count}");
 }

@@ -6,6 +6,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
+use crate::diagnose::damped_twin;
 use crate::report_kinds::{
     STRIPES, calibration_page, comparison_page, drawn_page, history_page, overturning_page,
 };
@@ -189,6 +190,13 @@ fn figures_work(page: &Path) {
 fn regress_calibration_page_in_chromium() {
     let (_folder, page) = calibration_page();
     figures_work(&page);
+}
+
+#[test]
+#[ignore = "needs chromium: make test-browser"]
+fn regress_diagnosis_page_in_chromium() {
+    let (_folder, out, _) = damped_twin();
+    figures_work(&out.join("report.html"));
 }
 
 #[test]

@@ -6,12 +6,14 @@
 //! derivatives onto the test function (the weak form). Over an impact, the velocities after it are compared with those
 //! the model gives from the state before it.
 
+mod explained;
 mod jumps;
 mod kernel;
 mod law_curves;
 mod points;
 mod stretch;
 
+pub use explained::explained_by;
 pub use jumps::{Jump, jumps};
 pub use kernel::Kernel;
 pub use law_curves::{Against, LawCurve, law_curves};

@@ -15,13 +15,13 @@ use crate::simulate::{Accuracy, Simulator};
 const HALF_REACH: f64 = 0.4;
 /// Where the force is so large beside its noise that a shorter reach tells it to this share of itself, the reach is
 /// shorter: the mean of a curved law is not the law of the mean.
-const KNOWN_TO: f64 = 1.0 / 30.0;
+const KNOWN_TO: f64 = 0.1;
 /// Samples to either side at least.
 const LEAST_HALF: usize = 4;
 /// Shorter stretches than this share of the full reach know the force too badly.
 const LEAST_REACH: f64 = 0.5;
 /// Squared standard deviations of noise beyond which a residual has a direction.
-const CLEAR: f64 = 25.0;
+const CLEAR: f64 = 16.0;
 /// Parts in which the ground motion about a sample is summed.
 const PARTS: i32 = 8;
 

@@ -17,11 +17,16 @@ mod rivals;
 mod sampled;
 mod windows;
 
+use std::collections::BTreeMap;
 use std::path::Path;
+
+pub(super) use sampled::Sampled;
 
 use super::experiment::Experiment;
 use super::flow::Diagnosis;
-use super::force::{ForcePoint, LawCurve, force_points, jumps, law_curves, median_share_off_top};
+use super::force::{
+    Against, ForcePoint, LawCurve, explained_by, force_points, jumps, law_curves, median_share_off_top,
+};
 use super::hypothesis::Physics;
 use super::search::Tried;
 use super::verdict::Verdict;
@@ -94,11 +99,14 @@ impl<'a> Tables<'a> {
             json!({"rms_n": (squares / count).sqrt(), "noise_rms_n": (noise / count).sqrt()})
         };
         let off = median_share_off_top(&self.force[0]);
+        let explained = Against::ALL.map(|against| (against.name(), explained_by(&self.force[0], against)));
+        let explained = BTreeMap::from(explained);
         json!({
             "points": self.force[0].len(),
             "before": size(&self.force[0]),
             "after": size(&self.force[1]),
             "median_share_off_top": off.map(|o| o.0),
+            "explained_by": explained,
             "points_with_direction": off.map_or(0, |o| o.1),
             "arms_of_top_m": RockingWall::new(&self.physics[0].wall).top_arms_m(UPRIGHT, [0.0; 2]),
         })

@@ -85,25 +85,41 @@ fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
             })
         };
         let dots = (0..).map(f64::from).zip(rivals).filter_map(dot).collect();
-        layers.push(Layer::Dots { colour: PALETTE[colour], mark, size: 12, hollow: false, dots });
+        layers.push(Layer::Dots { colour: PALETTE[colour], mark, size: 7, hollow: false, dots });
     }
+    let names = || Axis::names("", rivals.iter().map(|r| r.name.clone()).collect());
     let graph = Graph {
         title: String::new(),
-        format: Format::Wide,
+        format: Format::Half,
         x: Axis::log_holding("windowed error over the noise", errors.chain([0.9, 3.0])),
-        y: Axis::names("", rivals.iter().map(|r| r.name.clone()).collect()),
+        y: names(),
         layers,
+    };
+    let least = 1.0;
+    let tall = |(row, r): (f64, &&StoredRival)| Dot {
+        x: r.against.all.max(least),
+        y: row,
+        tip: format!("{}\n{:.1} against it", r.name, r.against.all),
+    };
+    let dots = (0..).map(f64::from).zip(rivals).map(tall).collect();
+    let all = rivals.iter().map(|r| r.against.all.max(least));
+    let against = Graph {
+        title: String::new(),
+        format: Format::Half,
+        x: Axis::log_holding("what speaks against it, logarithms of likelihood", all),
+        y: names(),
+        layers: vec![Layer::Dots { colour: PALETTE[2], mark: Mark::Triangle, size: 7, hollow: false, dots }],
     };
     Ok(Figure {
         id: format!("{id}-figure"),
-        title: "How well each follows the tests".into(),
+        title: "How well each follows the tests, and what speaks against it".into(),
         legend: vec![
             key("tests to fit", PALETTE[FIT], Mark::Circle),
             key("tests held out", PALETTE[HELD_OUT], Mark::Square),
+            key("on all tests", PALETTE[2], Mark::Triangle),
         ],
-        panels: vec![graph.svg()?],
-        wide: true,
-        caption: "Windowed error in units of the noise; the dashed line is a perfect model. A name needs both near it.".into(),
+        panels: vec![graph.svg()?, against.svg()?],
+        caption: "Windowed error in units of the noise; the dashed line is a perfect model. A name needs both near it. What is below 1 against a hypothesis stands at 1.".into(),
         links: vec![Link::to("rivals.parquet")],
         ..Figure::default()
     })

@@ -3,19 +3,21 @@
 use std::path::Path;
 
 use super::super::axis::Axis;
-use super::super::colours::{Colour, Mark, PALETTE};
+use super::super::colours::{Colour, Mark, PALETTE, PATTERNS};
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link, Section, Table};
+use super::histories::Histories;
 use super::parting::shows_after;
 use super::stored::{Columns, Stored, StoredRival};
 use super::words::at;
 use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
+use crate::model::PATTERN_NAMES;
 
 /// Least share off the direction of the top beyond which a force there alone does not explain the residual.
 const OFF: f64 = 0.1;
 /// Fewest points with a direction to speak of one.
-const LEAST_POINTS: u64 = 5;
+const LEAST_POINTS: u64 = 3;
 /// What of the top's motion the force is drawn against: column and label.
 const AGAINST: [(&str, &str); 3] = [
     ("displacement_m", "displacement of the top m"),
@@ -95,10 +97,18 @@ impl Points {
     }
 
     /// Force in time in one test, with its standard deviations.
-    fn in_time(&self, test: &str, stored: &Stored) -> Result<String> {
+    fn in_time(&self, test: &str, histories: &Histories, stored: &Stored) -> Result<String> {
         let own = self.rows().filter(|&k| self.test[k] == test).collect::<Vec<_>>();
-        let end_s = own.iter().map(|&k| self.time_s[k]).fold(1.0, f64::max) + 0.5;
+        let [from_s, to_s] = histories.motion_s(test);
+        let y = Axis::holding("missing force at the top N", self.force_n.iter().copied());
         let mut layers = Vec::new();
+        for (pattern, from, to) in histories.patterns(test) {
+            // A strip along the upper edge; the light between patterns is doubt, which impacts leave.
+            let spans = vec![[(from.max(from_s), y.ends()[1]), (to.min(to_s), y.ends()[1])]];
+            if from < to_s && to > from_s {
+                layers.push(Layer::Spans { colour: PATTERNS[pattern], width: 14, spans });
+            }
+        }
         let ends = |&k: &usize| {
             let of = |sign: f64| (self.time_s[k], self.force_n[k] + sign * self.sd_n[k]);
             [of(-1.0), of(1.0)]
@@ -122,8 +132,8 @@ impl Points {
         Graph {
             title: test.to_owned(),
             format: Format::Half,
-            x: Axis::linear("time s", 0.0, end_s),
-            y: Axis::holding("missing force at the top N", self.force_n.iter().copied()),
+            x: Axis::linear("time s", from_s, to_s),
+            y,
             layers,
         }
         .svg()
@@ -195,10 +205,10 @@ impl Points {
         }
         layers.push(dots(BEFORE, Mark::Circle, 3, &self.force_n));
         let names = self.law_names();
-        let reach = self.force_n.iter().fold(0.0, |most: f64, f| most.max(f.abs()));
+        let y = Axis::holding("missing force at the top N", self.force_n.iter().copied());
         for Law { name, points, .. } in self.laws.iter().filter(|law| law.which == which) {
             // A law may go far beyond what was measured.
-            let inside = points.iter().map(|&(x, y)| (x, if y.abs() > 1.2 * reach { f64::NAN } else { y }));
+            let inside = points.iter().map(|&(x, f)| (x, if y.holds(f) { f } else { f64::NAN }));
             layers.push(Layer::Line {
                 colour: colour(&names, name),
                 width: 3,
@@ -212,7 +222,7 @@ impl Points {
             title: String::new(),
             format: Format::Half,
             x: Axis::linear(AGAINST[which].1, -1.03 * largest, 1.03 * largest),
-            y: Axis::holding("missing force at the top N", self.force_n.iter().copied()),
+            y,
             layers,
         }
         .svg()
@@ -253,7 +263,7 @@ fn laws(path: &Path) -> Result<Vec<Law>> {
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn place_section(points: &Points, stored: &Stored) -> Result<Section> {
+pub fn place_section(points: &Points, histories: &Histories, stored: &Stored) -> Result<Section> {
     let mut figures = Vec::new();
     if !points.force_n.is_empty() {
         let mut tests: Vec<&String> = points.test.iter().collect();
@@ -262,12 +272,15 @@ pub fn place_section(points: &Points, stored: &Stored) -> Result<Section> {
         if shows_after(stored) {
             legend.push(key("left by the updated wall", AFTER, Mark::Square));
         }
+        let spans = tests.iter().flat_map(|test| histories.patterns(test)).collect::<Vec<_>>();
+        let occurring = (0..PATTERNS.len()).filter(|index| spans.iter().any(|span| span.0 == *index));
+        legend.extend(occurring.map(|index| key(PATTERN_NAMES[index], PATTERNS[index], Mark::None)));
         figures.push(Figure {
             id: "force-in-time".into(),
             title: "The missing force, in time".into(),
             legend,
-            panels: tests.into_iter().map(|test| points.in_time(test, stored)).collect::<Result<_>>()?,
-            caption: "Measured rotations between impacts, put into the equations of motion (in their weak form, so that no noise is differentiated), leave this horizontal force at the top; bars are standard deviations by the noise.".into(),
+            panels: tests.into_iter().map(|test| points.in_time(test, histories, stored)).collect::<Result<_>>()?,
+            caption: "Measured rotations between impacts, put into the equations of motion (in their weak form, so that no noise is differentiated), leave this horizontal force at the top; bars are standard deviations by the noise. Along the upper edge the measured pattern; where it changes, an impact or an opening lies in the gap.".into(),
             links: vec![Link::to("force.parquet")],
             ..Figure::default()
         });
@@ -332,7 +345,7 @@ fn places(stored: &Stored) -> Table {
         vec![
             rival.place.as_deref().map_or("–".to_owned(), at),
             rival.name.clone(),
-            share.map_or("–".to_owned(), |share| format!("{:.0} %", 100.0 * share)),
+            share.map_or("–".to_owned(), |share| format!("{:.0} %", 100.0 * share.max(0.0))),
             error(rival.windowed_error.fit),
             error(rival.windowed_error.held_out),
         ]
@@ -340,6 +353,23 @@ fn places(stored: &Stored) -> Table {
     let head =
         ["place", "best there", "of what speaks against the wall it takes away", "error, fit", "held out"];
     Table::of("Places, by the best single addition to the wall", &head, best.iter().map(row))
+}
+
+/// Which quantity the force is a curve of.
+fn explained(stored: &Stored) -> String {
+    let by = |(name, label): &(&str, &str)| {
+        let share = stored.missing_force.explained_by.get(*name).copied().flatten()?;
+        let label = label.rsplit_once(' ').map_or(*label, |(label, _)| label);
+        Some(format!("{:.0} % against the {label}", 100.0 * share.max(0.0)))
+    };
+    let shares = AGAINST.iter().map(by).collect::<Option<Vec<_>>>();
+    match shares {
+        Some(shares) => format!(
+            "Whatever its form, a curve through neighbouring points explains of the squared force {} (each point told by the others; more than one of them where two quantities go together, as displacement and acceleration do).",
+            shares.join(", ")
+        ),
+        None => "The force is hardly more than its noise: it has no shape to be told.".to_owned(),
+    }
 }
 
 /// What shape the missing force has.
@@ -359,6 +389,7 @@ pub fn shape_section(points: &Points, stored: &Stored) -> Result<Section> {
         section.text = vec!["No stretch between impacts is long enough to tell the force.".into()];
         return Ok(section);
     }
+    section.text.push(explained(stored));
     let names = points.law_names();
     let mut legend = vec![key("measured, wall as given", BEFORE, Mark::Circle)];
     if shows_after(stored) {

@@ -12,6 +12,9 @@ use crate::error::Result;
 /// Shares of a size that matters below and above which nothing is drawn more exactly.
 const RANGE: [f64; 2] = [1e-4, 30.0];
 
+/// Most kinds drawn, those that hide best; the others are in the table.
+const DRAWN: usize = 14;
+
 /// The section.
 ///
 /// # Errors
@@ -28,7 +31,8 @@ pub fn section(stored: &Stored) -> Result<Section> {
     if blind > 0 {
         text.push(format!("{blind} of them could hide at a size that matters."));
     }
-    let figures = if powers.is_empty() { Vec::new() } else { vec![figure(&powers)?] };
+    let drawn = &powers[..powers.len().min(DRAWN)];
+    let figures = if powers.is_empty() { Vec::new() } else { vec![figure(drawn)?] };
     Ok(Section {
         id: "could-hide".into(),
         title: "What could still hide".into(),
@@ -53,18 +57,16 @@ fn figure(powers: &[&StoredPower]) -> Result<Figure> {
         name: String::new(),
         points: vec![(1.0, -0.5), (1.0, powers.len() as f64 - 0.5)],
     };
-    let x = Axis::log_holding(
-        "smallest size told over a size that matters",
-        dots.iter().map(|d| d.x).chain([1.5]),
-    );
+    let x =
+        Axis::log_holding("smallest size told, over one that matters", dots.iter().map(|d| d.x).chain([1.5]));
     let graph = Graph {
         title: String::new(),
-        format: Format::Wide,
+        format: Format::Half,
         x,
         y: Axis::names("", powers.iter().map(|p| p.name.clone()).collect()),
         layers: vec![
             matters,
-            Layer::Dots { colour: PALETTE[0], mark: Mark::Circle, size: 11, hollow: false, dots },
+            Layer::Dots { colour: PALETTE[0], mark: Mark::Circle, size: 7, hollow: false, dots },
         ],
     };
     Ok(Figure {
@@ -72,7 +74,6 @@ fn figure(powers: &[&StoredPower]) -> Result<Figure> {
         title: "Smallest size told from nothing".into(),
         legend: vec![key("smallest size told", PALETTE[0], Mark::Circle)],
         panels: vec![graph.svg()?],
-        wide: true,
         caption: "A size that matters makes a force as large as the floor’s spring at the largest displacement (the table gives each). Right of the dashed line an effect that matters could hide.".into(),
         links: vec![Link::to("diagnosis.json")],
         ..Figure::default()

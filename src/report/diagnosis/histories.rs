@@ -9,15 +9,20 @@ use super::super::page::{Figure, Link, Section, Table};
 use super::stored::{BeforeAfter, Columns, Stored, StoredTest};
 use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
+use crate::model::PATTERN_NAMES;
 
 /// Most tests drawn in one section.
 const MOST: usize = 3;
 /// Least time between drawn points, s.
 const STEP_S: f64 = 0.01;
+/// A motion is over where it stays below this share of its largest, but for as long after it, s.
+const OVER: f64 = 0.03;
+const AFTERWARDS_S: f64 = 1.0;
 /// Times farther apart than this many of the usual distances leave a gap.
 const GAP: f64 = 2.5;
 
-const NAMES: [&str; 8] = [
+const NAMES: [&str; 9] = [
+    "pattern_measured",
     "test",
     "time_s",
     "theta1_measured_rad",
@@ -32,6 +37,8 @@ const NAMES: [&str; 8] = [
 pub struct Histories {
     test: Vec<String>,
     time_s: Vec<f64>,
+    /// Index into [`PATTERN_NAMES`], where the measured pattern is beyond doubt.
+    pattern: Vec<Option<usize>>,
     /// Measured, before, after; lower and upper body; thousandths of a radian.
     theta_mrad: [[Vec<f64>; 2]; 3],
 }
@@ -48,11 +55,39 @@ impl Histories {
         let both = |when: &str| -> Result<[Vec<f64>; 2]> {
             Ok([mrad(&format!("theta1_{when}_rad"))?, mrad(&format!("theta2_{when}_rad"))?])
         };
+        let index = |name: String| PATTERN_NAMES.iter().position(|known| *known == name);
         Ok(Self {
             test: columns.labels("test")?,
+            pattern: columns.labels("pattern_measured")?.into_iter().map(index).collect(),
             time_s: columns.numbers("time_s")?,
             theta_mrad: [both("measured")?, both("before")?, both("after")?],
         })
+    }
+
+    /// Stretches of a test in which the measured pattern is beyond doubt: index into [`PATTERN_NAMES`], from, to, s.
+    pub fn patterns(&self, test: &str) -> Vec<(usize, f64, f64)> {
+        let rows = (0..self.time_s.len()).filter(|&k| self.test[k] == test).collect::<Vec<_>>();
+        let same = rows.chunk_by(|&a, &b| self.pattern[a] == self.pattern[b]);
+        let stretch = |part: &[usize]| {
+            let [first, last] = [part[0], part[part.len() - 1]];
+            Some((self.pattern[first]?, self.time_s[first], self.time_s[last]))
+        };
+        same.filter_map(stretch).collect()
+    }
+
+    /// When the motion of a test begins and when it is over, s, with some rest about it.
+    pub fn motion_s(&self, test: &str) -> [f64; 2] {
+        let rows = (0..self.time_s.len()).filter(|&k| self.test[k] == test);
+        let size = |k: usize| {
+            let all = self.theta_mrad.iter().flatten().map(|theta| theta[k].abs());
+            all.filter(|x| x.is_finite()).fold(0.0, f64::max)
+        };
+        let sizes = rows.map(|k| (self.time_s[k], size(k))).collect::<Vec<_>>();
+        let largest = sizes.iter().map(|s| s.1).fold(0.0, f64::max);
+        let mut moving = sizes.iter().filter(|s| s.1 > OVER * largest).map(|s| s.0);
+        let [first, last] = [moving.next(), moving.next_back()].map(|t| t.unwrap_or(0.0));
+        let end_s = sizes.last().map_or(0.0, |s| s.0);
+        [(first - AFTERWARDS_S).max(0.0), (last.max(first) + AFTERWARDS_S).min(end_s)]
     }
 
     /// One line of one test, thinned.
@@ -93,7 +128,7 @@ impl Histories {
             panels: panels.into_iter().collect::<Result<_>>()?,
             wide: true,
             caption: format!(
-                "Whole runs from rest. WME {}; windowed error {} times the noise.",
+                "Whole runs from rest; the quiet before and after the motion is left out. WME {}; windowed error {} times the noise.",
                 told(&test.wme, with_after, 3),
                 told(&test.windowed_error, with_after, 2)
             ),
@@ -103,7 +138,10 @@ impl Histories {
 
     fn panel(&self, test: &str, body: usize, with_after: bool) -> Result<String> {
         let lines: Vec<_> = (0..if with_after { 3 } else { 2 }).map(|w| self.line(test, w, body)).collect();
-        let end_s = self.line(test, 0, body).last().map_or(0.0, |p| p.0);
+        let [from_s, to_s] = self.motion_s(test);
+        let shown = |p: &(f64, f64)| (from_s..=to_s).contains(&p.0);
+        let lines = lines.into_iter().map(|line| line.into_iter().filter(shown).collect::<Vec<_>>());
+        let lines = lines.collect::<Vec<_>>();
         let values = lines.iter().flatten().map(|p| p.1).filter(|y| y.is_finite());
         let layer = |name: &str, colour: Colour, width, points: &[(f64, f64)]| Layer::Line {
             colour,
@@ -120,7 +158,7 @@ impl Histories {
         Graph {
             title: String::new(),
             format: Format::Low,
-            x: Axis::linear("time s", 0.0, end_s),
+            x: Axis::linear("time s", from_s, to_s),
             y: Axis::holding(["θ₁ mrad", "θ₂ mrad"][body], values),
             layers,
         }

@@ -11,8 +11,9 @@ use super::stored::{Columns, Stored};
 use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
 
-/// Ratios beyond are drawn at the ends.
-const RANGE: [f64; 2] = [0.4, 1.6];
+/// Ratios farther from 1 are drawn at the ends of the axis, and ratios nearer do not fill it.
+const FARTHEST: f64 = 0.6;
+const NEAREST: f64 = 0.1;
 /// Ratios less sure than this, as a standard deviation, are left out of the picture.
 const SURE: f64 = 0.1;
 const BURST: &str = "several impacts";
@@ -77,17 +78,18 @@ pub fn figure(path: &Path, stored: &Stored) -> Result<Option<Figure>> {
         };
         let dots = own.clone().map(dot).collect();
         let spans = own.map(|j| [(j.ratio - j.sd, row(j)), (j.ratio + j.sd, row(j))]).collect();
-        layers.push(Layer::Spans { colour, width: 2, spans });
-        layers.push(Layer::Dots { colour, mark, size: 8, hollow: false, dots });
+        layers.push(Layer::Spans { colour, width: 1, spans });
+        layers.push(Layer::Dots { colour, mark, size: 4, hollow: false, dots });
     }
     let mut legend = vec![key("over the wall as given", BEFORE, Mark::Circle)];
     if shows_after(stored) {
         legend.push(key("over the updated wall", AFTER, Mark::Square));
     }
+    let farthest = jumps.iter().map(|j| (j.ratio - 1.0).abs() + j.sd).fold(NEAREST, f64::max).min(FARTHEST);
     let graph = Graph {
         title: String::new(),
-        format: Format::Low,
-        x: Axis::linear("velocity after the impact, measured over simulated", RANGE[0], RANGE[1]),
+        format: Format::Half,
+        x: Axis::linear("velocity after it, measured over simulated", 1.0 - farthest, 1.0 + farthest),
         y: Axis::names("", kinds),
         layers,
     };
@@ -96,7 +98,6 @@ pub fn figure(path: &Path, stored: &Stored) -> Result<Option<Figure>> {
         title: "Velocities after impacts".into(),
         legend,
         panels: vec![graph.svg()?],
-        wide: true,
         caption: "From the measured state before an impact, or a burst of them, the model is run to where the measured pattern is clear again: 1 is the model’s impact law, C_l included. Bars are standard deviations by the noise of the velocities after it; a force missing meanwhile moves a ratio too.".into(),
         links: vec![Link::to("jumps.parquet")],
         ..Figure::default()

@@ -12,7 +12,7 @@ pub fn section(stored: &Stored) -> Section {
         Some(next) => {
             let [first, second] = &next.rivals;
             section.text.push(format!(
-                "What would part “{first}” from “{second}”, which these tests do not: each test below was simulated with the first as the truth, noise added, and the second fitted to it together with the tests there are."
+                "What would part “{first}” from “{second}”, which these tests do not: each test below was simulated with the first as the truth, noise added, and the second set against it: the best few with the second fitted to it together with the tests there are, the others with its values as they are."
             ));
             section.tables.push(shaking(next));
             section.tables.push(pull(next));
@@ -38,6 +38,7 @@ fn shaking(next: &StoredNext) -> Table {
             s.test.clone(),
             format!("{:.2}", s.scale),
             s.outcome.clone(),
+            if s.fitted { "yes" } else { "no" }.to_owned(),
             s.error.map_or("–".to_owned(), |x| format!("{x:.2}")),
             s.nats.map_or("–".to_owned(), |x| format!("{x:.0}")),
         ]
@@ -46,6 +47,7 @@ fn shaking(next: &StoredNext) -> Table {
         "record of",
         "factor on it",
         "the first",
+        "the second fitted to it",
         "error of the second there, in noise",
         "natural logarithms of likelihood between them",
     ];

@@ -30,7 +30,7 @@ const NAMES: [&str; 15] = [
 /// Changes of pattern of Table 2.
 pub const CHANGES: [&str; 8] = ["1a→2a", "2a→1a", "1a→2b", "2a→1b", "3a→1b", "3a→3b", "1a→3a", "2a→3a"];
 /// Errors below this are drawn at it.
-const LEAST: f64 = 0.3;
+const LEAST: f64 = 0.7;
 
 /// One window in which the wall moves.
 struct Window {

@@ -115,6 +115,7 @@ pub struct StoredForce {
     pub before: StoredSize,
     pub after: StoredSize,
     pub median_share_off_top: Option<f64>,
+    pub explained_by: BTreeMap<String, Option<f64>>,
     pub points_with_direction: u64,
     pub arms_of_top_m: [f64; 2],
 }
@@ -140,6 +141,7 @@ pub struct StoredShaking {
     pub outcome: String,
     pub error: Option<f64>,
     pub nats: Option<f64>,
+    pub fitted: bool,
 }
 
 #[derive(Debug, Deserialize)]

@@ -2,10 +2,16 @@
 
 use super::stored::{Stored, StoredEffect, StoredParameter};
 
+/// Standard deviations over the value itself beyond which the tests do not tell it.
+const NOT_TOLD: f64 = 100.0;
+
 /// A number to four digits, without powers of ten where it is of common size.
 pub fn number(value: f64) -> String {
     let size = value.abs();
-    if size != 0.0 && !(1e-3..1e6).contains(&size) {
+    if size == 0.0 {
+        return "0".to_owned();
+    }
+    if !(1e-3..1e6).contains(&size) {
         return format!("{value:.3e}");
     }
     let digits = if size >= 1000.0 { 0 } else { (3 - size.max(1e-3).log10().floor() as i32).clamp(0, 6) };
@@ -14,7 +20,11 @@ pub fn number(value: f64) -> String {
 
 /// A number with its standard deviation.
 pub fn with_sd(value: f64, sd: Option<f64>) -> String {
-    sd.map_or_else(|| number(value), |sd| format!("{} ± {}", number(value), number(sd)))
+    match sd {
+        Some(sd) if value != 0.0 && sd > NOT_TOLD * value.abs() => format!("{}, not told", number(value)),
+        Some(sd) => format!("{} ± {}", number(value), number(sd)),
+        None => number(value),
+    }
 }
 
 /// The numbers of a hypothesis.
@@ -83,6 +93,6 @@ mod tests {
     #[test]
     fn regress_numbers_have_four_digits() {
         let told = [1487.38977, 12018135.0, 0.0054263, 37.1049, -0.5, 0.0].map(number);
-        assert_eq!(told, ["1487", "1.202e7", "0.005426", "37.10", "-0.5000", "0.000000"]);
+        assert_eq!(told, ["1487", "1.202e7", "0.005426", "37.10", "-0.5000", "0"]);
     }
 }

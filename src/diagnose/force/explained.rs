@@ -1,0 +1,32 @@
+//! How much of the missing force is a curve against one quantity, whatever the curve.
+
+use super::law_curves::Against;
+use super::points::ForcePoint;
+
+/// Squared force over squared noise below which there is nothing to explain.
+const CLEAR: f64 = 4.0;
+
+/// Share of the squared missing force, noise taken off, that a line from neighbour to neighbour explains at each point
+/// without the point itself; none where the force is hardly more than noise.
+///
+/// 1: the force is a function of this quantity alone, sampled closely enough; 0 or less: it is none.
+pub fn explained_by(points: &[ForcePoint], against: Against) -> Option<f64> {
+    let mut points = points.iter().collect::<Vec<_>>();
+    points.sort_by(|a, b| against.of(a).total_cmp(&against.of(b)));
+    let inner = points.get(1..points.len().saturating_sub(1))?;
+    let force = inner.iter().map(|p| p.force_n.powi(2)).sum::<f64>();
+    let noise = inner.iter().map(|p| p.force_sd_n.powi(2)).sum::<f64>();
+    if force < CLEAR * noise || noise == 0.0 {
+        return None;
+    }
+    let (mut left, mut left_noise) = (0.0, 0.0);
+    for trio in points.windows(3) {
+        let [before, here, after] = [trio[0], trio[1], trio[2]];
+        let [x0, x, x1] = [before, here, after].map(|p| against.of(p));
+        let share = if x1 > x0 { (x - x0) / (x1 - x0) } else { 0.5 };
+        left += (here.force_n - (1.0 - share) * before.force_n - share * after.force_n).powi(2);
+        let part = |weight: f64, p: &ForcePoint| (weight * p.force_sd_n).powi(2);
+        left_noise += part(1.0, here) + part(1.0 - share, before) + part(share, after);
+    }
+    Some(1.0 - (left - left_noise).max(0.0) / (force - noise))
+}
