@@ -4,6 +4,7 @@
 //! depends on the number of threads. No histories are held.
 
 mod growing;
+mod side_by_side;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -13,7 +14,7 @@ use rayon::prelude::*;
 use crate::error::{InputError, Result};
 use crate::model::Wall;
 use crate::plan::{Plan, Run};
-use crate::simulate::{Accuracy, Outcome, Response, Shaking};
+use crate::simulate::{Accuracy, Outcome, Response, Shaking, simulate};
 
 /// A run and what came of it.
 #[derive(Debug, Clone)]
@@ -97,15 +98,48 @@ pub fn threads(count: usize) -> Result<rayon::ThreadPool> {
     Ok(rayon::ThreadPoolBuilder::new().num_threads(count).build().map_err(refuse)?)
 }
 
+/// What simulates walls: a closure for one wall, so that a batch can be tested without the cost, or [`SideBySide`].
+pub trait Simulate {
+    /// Simulates one wall.
+    fn one(&self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response;
+
+    /// Whether [`simulate`] of several walls side by side is the same.
+    fn goes_side_by_side(&self) -> bool {
+        false
+    }
+}
+
+impl<F: Fn(&Wall, &Shaking, Accuracy) -> Response> Simulate for F {
+    fn one(&self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
+        self(wall, shaking, accuracy)
+    }
+}
+
+/// [`simulate`], of several walls side by side where there are several; the responses have the same bits.
+#[derive(Debug, Clone, Copy)]
+pub struct SideBySide;
+
+impl Simulate for SideBySide {
+    fn one(&self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
+        simulate(wall, shaking, accuracy)
+    }
+
+    fn goes_side_by_side(&self) -> bool {
+        true
+    }
+}
+
 /// Runs the runs at `positions` of a plan on the threads of the current pool: one result a position, in order,
-/// failed and collapsed ones too.
-///
-/// `simulate` runs one wall; it is a parameter so that a batch can be tested without the cost.
-/// Neighbouring positions mostly share the record.
-pub fn run_all<S>(plan: &Plan, positions: Vec<u64>, simulate: &S, progress: &ProgressBar) -> Vec<Finished>
-where
-    S: Fn(&Wall, &Shaking, Accuracy) -> Response + Sync,
-{
+/// failed and collapsed ones too. Neighbouring positions mostly share the record.
+pub fn run_all(
+    plan: &Plan,
+    positions: Vec<u64>,
+    simulate: &(impl Simulate + Sync),
+    progress: &ProgressBar,
+) -> Vec<Finished> {
+    if simulate.goes_side_by_side() {
+        return side_by_side::run_all(plan, &positions, progress);
+    }
     let one = |position| {
         let finished = run_one(plan.run(position), simulate);
         progress.inc(1);
@@ -115,10 +149,7 @@ where
 }
 
 /// Runs one run; a façade that is no wall, or a panic of the simulator, is a failure of this run, not of the study.
-pub fn run_one<S>(run: Run, simulate: &S) -> Finished
-where
-    S: Fn(&Wall, &Shaking, Accuracy) -> Response,
-{
+pub fn run_one(run: Run, simulate: &impl Simulate) -> Finished {
     let planned = Finished::planned(run);
     let outcome = catch_unwind(AssertUnwindSafe(|| match planned.run.growth() {
         None => single(planned.clone(), simulate),
@@ -128,16 +159,18 @@ where
 }
 
 /// Simulates a run at the factor it is at.
-fn single<S>(finished: Finished, simulate: &S) -> Finished
-where
-    S: Fn(&Wall, &Shaking, Accuracy) -> Response,
-{
+fn single(finished: Finished, simulate: &impl Simulate) -> Finished {
     let run = &finished.run;
     let wall = match &run.wall {
         Ok(wall) => wall,
         Err(impossible) => return Finished { failure: Some(format!("no wall: {impossible}")), ..finished },
     };
-    let response = simulate(wall, &run.shaking(), run.accuracy());
+    let response = simulate.one(wall, &run.shaking(), run.accuracy());
+    answered(finished, response)
+}
+
+/// A run with its response.
+fn answered(finished: Finished, response: Response) -> Finished {
     let simulations = finished.simulations + 1;
     Finished { failure: fault_of(&response), response: Some(response), simulations, ..finished }
 }

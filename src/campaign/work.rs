@@ -1,17 +1,16 @@
 //! Running what is missing of a study.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::ScopedJoinHandle;
 
 use indicatif::ProgressBar;
 
 use super::layout::{Block, Layout};
 use super::shard::Shard;
 use super::standing::Standing;
-use crate::batch::{Finished, Tally, run_all, threads};
+use crate::batch::{Finished, Simulate, Tally, run_all, threads};
 use crate::error::Result;
-use crate::model::Wall;
 use crate::plan::Plan;
-use crate::simulate::{Accuracy, Response, Shaking};
 use crate::store::OutputFolder;
 
 /// A part of a study to be done.
@@ -34,40 +33,58 @@ pub struct Work<'a, S> {
 
 /// Runs the blocks of a shard that are missing and stores each as soon as it is done; `watch` sees its runs.
 ///
-/// A few blocks are at work at once, so that threads seldom wait for each other; being killed loses these alone.
+/// As many blocks as threads are at work at once, so that threads seldom wait for each other, and as many are being stored;
+/// being killed loses these alone.
 ///
 /// # Errors
 /// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which leaves what is stored as it is;
 /// an input error if the threads cannot be had.
-pub fn run_missing<S>(
+pub fn run_missing<S: Simulate + Sync>(
     work: &Work<S>,
     standing: &Standing,
     mut watch: impl FnMut(&[Finished]),
-) -> Result<Tally>
-where
-    S: Fn(&Wall, &Shaking, Accuracy) -> Response + Sync,
-{
+) -> Result<Tally> {
     let layout = Layout::of(work.folder.manifest());
     let missing: Vec<Block> =
         layout.iter().filter(|block| work.shard.has(block.index) && !standing.has(block)).collect();
     discard_damaged(work.folder, &layout, standing)?;
     let pool = threads(work.threads)?;
     let mut tally = Tally::default();
-    for blocks in missing.chunks(work.threads.div_ceil(2).max(1)) {
-        if work.stop.load(Ordering::Relaxed) {
-            break;
-        }
-        let positions = blocks.iter().flat_map(|block| block.runs.clone()).collect();
-        let mut runs = pool.install(|| run_all(work.plan, positions, work.simulate, work.progress));
-        tally.count(&runs);
-        for block in blocks.iter().rev() {
-            let rest = runs.len() - (block.runs.end - block.runs.start) as usize;
-            let runs = runs.split_off(rest);
+    let store = |blocks: &[Block], runs: Vec<Finished>| -> Result<()> {
+        let mut runs = runs.into_iter();
+        for block in blocks {
+            let runs: Vec<Finished> =
+                runs.by_ref().take((block.runs.end - block.runs.start) as usize).collect();
             work.folder.write_block(&layout.records()[block.record], block.index, &runs)?;
-            watch(&runs);
         }
-    }
+        Ok(())
+    };
+    std::thread::scope(|scope| -> Result<()> {
+        // Blocks are stored while the next ones run.
+        let mut storing = None;
+        for blocks in missing.chunks(work.threads.max(1)) {
+            if work.stop.load(Ordering::Relaxed) {
+                break;
+            }
+            let positions = blocks.iter().flat_map(|block| block.runs.clone()).collect();
+            let runs = pool.install(|| run_all(work.plan, positions, work.simulate, work.progress));
+            watch(&runs);
+            finished(storing.take())?;
+            tally.count(&runs);
+            storing = Some(scope.spawn(|| store(blocks, runs)));
+        }
+        finished(storing.take())
+    })?;
     Ok(tally)
+}
+
+/// Waits until blocks are stored.
+fn finished(storing: Option<ScopedJoinHandle<'_, Result<()>>>) -> Result<()> {
+    match storing.map(ScopedJoinHandle::join) {
+        None => Ok(()),
+        Some(Ok(stored)) => stored,
+        Some(Err(panic)) => std::panic::resume_unwind(panic),
+    }
 }
 
 /// A block that is done again takes the name of its damaged file; a record's file has to be told gone.

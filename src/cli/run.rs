@@ -8,14 +8,14 @@ use std::time::Instant;
 use clap::Args;
 
 use super::{output, stop};
-use crate::batch::{self, Finished, Tally};
+use crate::batch::{self, Finished, SideBySide, Tally};
 use crate::campaign::{BLOCK_RUNS, Block, Layout, Shard, Standing, Work, run_missing};
 use crate::error::{Error, InputError, Result};
 use crate::input::pipeline::Pipeline;
 use crate::overturning;
 use crate::plan::Plan;
 use crate::sampling::Sampling;
-use crate::simulate::simulate;
+
 use crate::store::{COLUMNS, Earlier, Manifest, OutputFolder, Stage, print_csv};
 
 /// Failed runs that are told one by one; all are counted, and stored with their reasons.
@@ -144,7 +144,7 @@ impl RunCommand {
         let mut failures = 0;
         let watch = |runs: &[Finished]| progress.suspend(|| tell_failures(runs, &mut failures));
         let work =
-            Work { plan, folder, shard, threads, simulate: &simulate, stop: &stop, progress: &progress };
+            Work { plan, folder, shard, threads, simulate: &SideBySide, stop: &stop, progress: &progress };
         let tally = run_missing(&work, &standing, watch).inspect_err(|_| self.tell_again(folder.path()))?;
         progress.finish_and_clear();
         report(tally, start.elapsed().as_secs_f64());

@@ -58,6 +58,11 @@ impl Accelerogram {
         &self.acceleration_m_s2
     }
 
+    /// Whether both are one motion, its samples shared.
+    pub fn shares_samples_with(&self, other: &Self) -> bool {
+        self.step_s == other.step_s && Arc::ptr_eq(&self.acceleration_m_s2, &other.acceleration_m_s2)
+    }
+
     /// Time of the last sample, s.
     pub fn duration_s(&self) -> f64 {
         (self.acceleration_m_s2.len() - 1) as f64 * self.step_s

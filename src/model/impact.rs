@@ -121,6 +121,9 @@ impl RockingWall {
             .filter(|joint| strike.touching.at(*joint) && to.at(*joint).is_open())
             .map(|joint| to.at(joint).sign() * opening(joint, omega) / w1.max(w2))
             .fold(f64::INFINITY, f64::min);
+        if separation < -ROUNDING {
+            return separation;
+        }
         separation.min(self.smallest_impulse(to, &posture, omega, &strike.v_before))
     }
 

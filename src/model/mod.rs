@@ -21,6 +21,7 @@ mod pushed;
 mod restrained;
 mod restraint;
 mod rocking;
+mod side_by_side;
 mod vector;
 mod wall;
 
@@ -40,6 +41,7 @@ pub(crate) use restraint::Kink;
 pub use restraint::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
+pub(crate) use side_by_side::{AftermathLanes, LANES, Motions, TurnedLanes};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters};
 

@@ -75,7 +75,7 @@ impl Mul<f64> for Vector {
 }
 
 /// Coefficients of fdlibm's `__kernel_sin` and `__kernel_cos`, for powers of θ² from the third and fourth power of θ on.
-const SIN: [f64; 6] = [
+pub(super) const SIN: [f64; 6] = [
     -1.666_666_666_666_663_2e-1,
     8.333_333_333_322_49e-3,
     -1.984_126_982_985_795e-4,
@@ -83,7 +83,7 @@ const SIN: [f64; 6] = [
     -2.505_076_025_340_686_3e-8,
     1.589_690_995_211_55e-10,
 ];
-const COS: [f64; 6] = [
+pub(super) const COS: [f64; 6] = [
     4.166_666_666_666_66e-2,
     -1.388_888_888_887_411e-3,
     2.480_158_728_947_673e-5,

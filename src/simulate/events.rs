@@ -63,7 +63,8 @@ pub(super) fn first_event(
     if stands && motion.keep_to([contact.ground.sign(), contact.crack.sign()]) {
         return opening;
     }
-    let collapse = first_collapse(motion, collapse_rad).map(|share| (Event::Collapses, share));
+    let collapse = if stands { None } else { first_collapse(motion, collapse_rad) };
+    let collapse = collapse.map(|share| (Event::Collapses, share));
     let strike = first_strike(contact, motion);
     [collapse, strike, opening].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
 }

@@ -27,8 +27,8 @@ pub(crate) struct GroundPath {
 pub(crate) struct Piece {
     pub start_s: f64,
     pub length_s: f64,
-    from: Vector,
-    slope: Vector,
+    pub(super) from: Vector,
+    pub(super) slope: Vector,
 }
 
 impl Piece {

@@ -18,6 +18,24 @@ pub trait Observer {
     }
 }
 
+impl<O: Observer> Observer for &mut O {
+    fn moved(&mut self, start_s: f64, contact: Contact, motion: &Quintic) {
+        (**self).moved(start_s, contact, motion);
+    }
+
+    fn stood(&mut self, from_s: f64, to_s: f64) {
+        (**self).stood(from_s, to_s);
+    }
+
+    fn ended(&mut self, time_s: f64, contact: Contact, theta: Pair) {
+        (**self).ended(time_s, contact, theta);
+    }
+
+    fn seen_enough(&self) -> bool {
+        (**self).seen_enough()
+    }
+}
+
 /// Watches nothing.
 impl Observer for () {
     fn moved(&mut self, _: f64, _: Contact, _: &Quintic) {}

@@ -7,12 +7,14 @@ mod kinks;
 mod response;
 mod rest;
 mod run;
+mod side_by_side;
 mod simulator;
 mod tally;
 
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
 pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
+pub use side_by_side::{Prepared, simulate_side_by_side};
 pub use simulator::{Simulator, Start};
 
 use crate::ground::Accelerogram;
@@ -27,6 +29,19 @@ pub struct Shaking {
     pub vertical: Option<Accelerogram>,
     /// Free motion after the last sample, s.
     pub tail_s: f64,
+}
+
+impl Shaking {
+    /// Whether another shaking is this one, its samples shared: told without looking at them.
+    pub fn shares_samples_with(&self, other: &Self) -> bool {
+        let same = |a: &Option<Accelerogram>, b: &Option<Accelerogram>| match (a, b) {
+            (Some(a), Some(b)) => a.shares_samples_with(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        same(&self.horizontal, &other.horizontal)
+            && same(&self.vertical, &other.vertical)
+            && self.tail_s == other.tail_s
+    }
 }
 
 /// How accurately to run.

@@ -5,12 +5,13 @@ use super::history::Observer;
 use super::response::{Outcome, Response};
 use super::rest::RestLimits;
 use super::run::Run;
+use super::side_by_side::Prepared;
 use super::{Accuracy, Shaking};
 use crate::model::{Contact, Pivot, RockingWall, State, Vector, Wall};
 use crate::solver::{Controller, ErrorScale};
 
 /// Error of a step allowed, as a share of the error of a run, because impacts magnify what is there before them. With
-/// it, well-conditioned runs at tolerances of 1e-4 to 1e-8 end within an eighth of their tolerance (`convergence` in the
+/// it, well-conditioned runs at tolerances of 1e-4 to 1e-8 end within a tenth of their tolerance (`convergence` in the
 /// tests); three times as much would save 6 % of the evaluations of façades at 1e-6 and end within three tenths at 1e-8.
 const STEP_SHARE: f64 = 1e-3;
 
@@ -117,6 +118,11 @@ impl Simulator {
         }
         let reason = format!("no time and state to start from: {start:?}");
         run.response(Outcome::Failed { time_s: start.time_s, reason })
+    }
+
+    /// The whole run, to be run beside others.
+    pub fn prepared(&self) -> Prepared {
+        Prepared::new(Run::new(self, &self.placed(&self.release()), self.ground.clone(), ()))
     }
 
     /// Moves a start onto its contact state.

@@ -9,6 +9,9 @@ pub struct Bernstein<const N: usize>(pub [f64; N]);
 /// Halvings after which a pair of roots that has not come apart counts as a touch, not a crossing.
 const MOST_HALVINGS: u32 = 40;
 
+/// Newton's corrections square: after one so small the next would be below roundings.
+const NEXT_TO_NOTHING: f64 = 1e-9;
+
 /// Shares nearer than this are one: a root is known no better, because coefficients carry roundings.
 const SAME_SHARE: f64 = 1e-14;
 
@@ -100,20 +103,23 @@ impl<const N: usize> Bernstein<N> {
 
     /// The root of a polynomial with one change of sign: Newton, kept inside a shrinking bracket.
     fn only_root(&self) -> f64 {
-        let slope_of = self.slopes();
+        let powers = self.powers();
         let (mut low, mut high) = (0.0, 1.0);
         let (first, last) = (self.0[0], self.0[N - 1]);
         let mut share = first / (first - last);
         for _ in 0..80 {
-            let value = self.value(share);
+            let (value, slope) = value_and_slope(&powers, share);
             if value >= 0.0 {
                 low = share
             } else {
                 high = share
             }
-            let newton = share - value / slope_of(share);
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - share).abs() <= SAME_SHARE || high - low <= SAME_SHARE {
+            let newton = share - value / slope;
+            let is_inside = newton > low && newton < high;
+            let next = if is_inside { newton } else { 0.5 * (low + high) };
+            let moved = (next - share).abs();
+            // What Newton's next correction would be, of a root that is not all but double.
+            if moved <= SAME_SHARE || high - low <= SAME_SHARE || (is_inside && moved <= NEXT_TO_NOTHING) {
                 return next;
             }
             share = next;
@@ -121,22 +127,33 @@ impl<const N: usize> Bernstein<N> {
         share
     }
 
-    fn slopes(&self) -> impl Fn(f64) -> f64 {
-        let degree = (N - 1) as f64;
-        let differences: [f64; N] = std::array::from_fn(|i| match i + 1 < N {
-            true => degree * (self.0[i + 1] - self.0[i]),
-            false => 0.0,
-        });
-        move |share| {
-            let mut c = differences;
-            for width in (1..N - 1).rev() {
-                for i in 0..width {
-                    c[i] += share * (c[i + 1] - c[i]);
-                }
+    /// Coefficients of the powers of the share: C(n, k) Δ^k.
+    #[inline]
+    fn powers(&self) -> [f64; N] {
+        let mut differences = self.0;
+        let mut choose = 1.0;
+        for k in 1..N {
+            for i in (k..N).rev() {
+                differences[i] -= differences[i - 1];
             }
-            c[0]
         }
+        for (k, difference) in differences.iter_mut().enumerate() {
+            *difference *= choose;
+            choose = choose * (N - 1 - k) as f64 / (k + 1) as f64;
+        }
+        differences
     }
+}
+
+/// Value and slope of a polynomial by its powers (Horner).
+#[inline]
+fn value_and_slope<const N: usize>(powers: &[f64; N], share: f64) -> (f64, f64) {
+    let (mut value, mut slope) = (powers[N - 1], 0.0);
+    for k in (0..N - 1).rev() {
+        slope = slope * share + value;
+        value = value * share + powers[k];
+    }
+    (value, slope)
 }
 
 impl Bernstein<6> {

@@ -11,5 +11,5 @@ mod quintic;
 
 pub use bernstein::Bernstein;
 pub use controller::{Controller, ErrorScale};
-pub use nystrom::{Field, Nystrom, Rate, STAGES, Step};
+pub use nystrom::{Field, Nystrom, Rate, STAGES, Step, Stride, Values};
 pub use quintic::{Point, Quintic, hermite};

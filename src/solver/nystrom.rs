@@ -6,26 +6,49 @@
 //! 5 in which accelerations depend on velocities once or twice is met. `benches/work_precision.rs` has the method beside
 //! others.
 
+use std::ops::{Add, Mul};
+
 use wide::f64x2;
 
 use super::quintic::Point;
 
+/// Values side by side that a step moves: the two coordinates of one motion, or those of several motions.
+pub trait Values: Copy + Add<Output = Self> + Mul<f64, Output = Self> {
+    /// Zeros.
+    const ZERO: Self;
+    /// The length of a step: one, or one for each motion.
+    type Length: Copy + Mul<Output = Self::Length> + Mul<f64, Output = Self::Length>;
+
+    /// Times a length, or a product of lengths.
+    fn over(self, length: Self::Length) -> Self;
+}
+
+impl Values for f64x2 {
+    const ZERO: Self = f64x2::ZERO;
+    type Length = f64;
+
+    #[inline(always)]
+    fn over(self, length: f64) -> Self {
+        self * length
+    }
+}
+
 /// Accelerations of the two coordinates, and the rates of two quadratures that ride along.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Rate {
+pub struct Rate<V = f64x2> {
     /// Accelerations.
-    pub acceleration: f64x2,
+    pub acceleration: V,
     /// Rates of the quadratures.
-    pub quadrature: f64x2,
+    pub quadrature: V,
 }
 
 /// What moves the coordinates over a step.
-pub trait Field {
+pub trait Field<V: Values = f64x2> {
     /// Accelerations and quadrature rates at a time after the start of the step, positions and velocities.
-    fn rate(&mut self, after_s: f64, position: f64x2, velocity: f64x2) -> Rate;
+    fn rate(&mut self, after_s: V::Length, position: V, velocity: V) -> Rate<V>;
 
     /// The same at the end of the step, whose positions are those of the call of [`Field::rate`] before.
-    fn land(&mut self, after_s: f64, position: f64x2, velocity: f64x2) -> Rate;
+    fn land(&mut self, after_s: V::Length, position: V, velocity: V) -> Rate<V>;
 }
 
 /// A step that was taken.
@@ -93,24 +116,70 @@ const E_POSITION: [f64; 5] = [
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Nystrom;
 
+/// A step of values side by side.
+#[derive(Debug, Clone, Copy)]
+pub struct Stride<V> {
+    /// Positions at the end.
+    pub position: V,
+    /// Velocities at the end.
+    pub velocity: V,
+    /// Accelerations and rates of the quadratures at the end.
+    pub end: Rate<V>,
+    /// What the quadratures gained.
+    pub quadrature: V,
+    /// As [`Step::position_error`].
+    pub position_error: V,
+    /// As [`Step::velocity_error`].
+    pub velocity_error: V,
+}
+
 impl Nystrom {
-    /// Steps from `start`, whose acceleration is known, over `h`.
+    /// Steps one motion from `start`, whose acceleration is known, over `h`.
+    #[inline(always)]
+    pub fn step(start: Point, start_quadrature_rate: [f64; 2], h: f64, field: &mut impl Field) -> Step {
+        let (x, v) = (f64x2::new(start.position), f64x2::new(start.velocity));
+        let rate = Rate {
+            acceleration: f64x2::new(start.acceleration),
+            quadrature: f64x2::new(start_quadrature_rate),
+        };
+        let stride = Self::stride(x, v, rate, h, field);
+        Step {
+            h,
+            start,
+            end: Point {
+                position: stride.position.to_array(),
+                velocity: stride.velocity.to_array(),
+                acceleration: stride.end.acceleration.to_array(),
+            },
+            quadrature: stride.quadrature.to_array(),
+            end_quadrature_rate: stride.end.quadrature.to_array(),
+            position_error: stride.position_error.to_array(),
+            velocity_error: stride.velocity_error.to_array(),
+        }
+    }
+
+    /// Steps values side by side from positions `x` and velocities `v`, where their rates are known, over `h`.
     ///
     /// The last stage is at the positions of the end, but at velocities that are good to order 3 only: an acceleration kept
     /// from there would bring the order down, so the field is asked once more at the velocities of the end.
     #[inline(always)]
-    pub fn step(start: Point, start_quadrature_rate: [f64; 2], h: f64, field: &mut impl Field) -> Step {
-        let mut accelerations = [f64x2::new(start.acceleration); 6];
-        let mut quadratures = [f64x2::new(start_quadrature_rate); 6];
-        let (x, v) = (f64x2::new(start.position), f64x2::new(start.velocity));
+    pub fn stride<V: Values>(
+        x: V,
+        v: V,
+        start: Rate<V>,
+        h: V::Length,
+        field: &mut impl Field<V>,
+    ) -> Stride<V> {
+        let mut accelerations = [start.acceleration; 6];
+        let mut quadratures = [start.quadrature; 6];
         let h2 = h * h;
         let mut position;
         // Each stage has its own number of terms; written out so that the sums unroll.
         macro_rules! stage {
             ($n:literal) => {
-                position = sum::<$n>(x + v * (C[$n] * h), h2, &A_POSITION[$n], &accelerations);
-                let velocity = sum::<$n>(v, h, &A_VELOCITY[$n], &accelerations);
-                let now = field.rate(C[$n] * h, position, velocity);
+                position = sum::<$n, V>(x + v.over(h * C[$n]), h2, &A_POSITION[$n], &accelerations);
+                let velocity = sum::<$n, V>(v, h, &A_VELOCITY[$n], &accelerations);
+                let now = field.rate(h * C[$n], position, velocity);
                 accelerations[$n] = now.acceleration;
                 quadratures[$n] = now.quadrature;
             };
@@ -120,32 +189,27 @@ impl Nystrom {
         stage!(3);
         stage!(4);
         stage!(5);
-        let velocity = sum::<6>(v, h, &B, &accelerations);
-        let landed = field.land(h, position, velocity);
-        Step {
-            h,
-            start,
-            end: Point {
-                position: position.to_array(),
-                velocity: velocity.to_array(),
-                acceleration: landed.acceleration.to_array(),
-            },
-            quadrature: sum::<6>(f64x2::ZERO, h, &B, &quadratures).to_array(),
-            end_quadrature_rate: landed.quadrature.to_array(),
-            position_error: sum::<5>(f64x2::ZERO, h2, &E_POSITION, &accelerations).to_array(),
-            velocity_error: sum::<5>(f64x2::ZERO, h, &E_VELOCITY, &accelerations).to_array(),
+        let velocity = sum::<6, V>(v, h, &B, &accelerations);
+        let end = field.land(h, position, velocity);
+        Stride {
+            position,
+            velocity,
+            end,
+            quadrature: sum::<6, V>(V::ZERO, h, &B, &quadratures),
+            position_error: sum::<5, V>(V::ZERO, h2, &E_POSITION, &accelerations),
+            velocity_error: sum::<5, V>(V::ZERO, h, &E_VELOCITY, &accelerations),
         }
     }
 }
 
 /// x + f Σ w_j r_j over the first `N` rates; what waits for the last of them is one product and one sum.
 #[inline(always)]
-fn sum<const N: usize>(x: f64x2, factor: f64, weights: &[f64], rates: &[f64x2; 6]) -> f64x2 {
-    let mut earlier = f64x2::ZERO;
+fn sum<const N: usize, V: Values>(x: V, factor: V::Length, weights: &[f64], rates: &[V; 6]) -> V {
+    let mut earlier = V::ZERO;
     for j in 0..N - 1 {
-        earlier += rates[j] * weights[j];
+        earlier = earlier + rates[j] * weights[j];
     }
-    (x + earlier * factor) + rates[N - 1] * (weights[N - 1] * factor)
+    (x + earlier.over(factor)) + rates[N - 1].over(factor * weights[N - 1])
 }
 
 #[cfg(test)]

@@ -7,11 +7,12 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use indicatif::ProgressBar;
 use mrbd::aggregate::aggregate;
+use mrbd::batch::Simulate;
 use mrbd::batch::Tally;
 use mrbd::campaign::{Layout, Shard, Standing, Work, compact, run_missing};
 use mrbd::model::Wall;
 use mrbd::plan::Plan;
-use mrbd::simulate::{Accuracy, Response, Shaking};
+use mrbd::simulate::{Accuracy, Shaking};
 use mrbd::store::{Earlier, Manifest, OutputFolder, file_sha256, run_files};
 
 use crate::pipeline_support::{SMALL, pipeline, plan, stand_in};
@@ -43,15 +44,12 @@ pub fn merge(folder: &OutputFolder) -> mrbd::Result<()> {
     compact(folder, &standing(folder))
 }
 
-pub fn do_missing<S>(
+pub fn do_missing(
     plan: &Plan,
     folder: &OutputFolder,
     (shard, threads): (Shard, usize),
-    simulate: &S,
-) -> mrbd::Result<Tally>
-where
-    S: Fn(&Wall, &Shaking, Accuracy) -> Response + Sync,
-{
+    simulate: &(impl Simulate + Sync),
+) -> mrbd::Result<Tally> {
     let (stop, progress) = (AtomicBool::new(false), ProgressBar::hidden());
     let work = Work { plan, folder, shard, threads, simulate, stop: &stop, progress: &progress };
     run_missing(&work, &standing(folder), |_| {})

@@ -54,6 +54,7 @@ mod report_browser;
 mod report_kinds;
 mod report_pages;
 mod shared;
+mod side_by_side;
 mod slurm;
 #[cfg(target_os = "linux")]
 mod slurm_cluster;

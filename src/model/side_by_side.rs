@@ -1,0 +1,301 @@
+//! The equations of motion of several walls side by side, in the lanes of vector registers.
+//!
+//! The same sums in the same order as in [`super::motion`] and [`super::balance`], lane by lane: a wall moves the same to the
+//! bit alone and beside others. Only for walls without dampers, held tops and cubic springs; the others move alone.
+
+use wide::f64x4;
+
+use super::balance::Aftermath;
+use super::joint::{JointForce, JointForces};
+use super::mass_matrix::Freedom;
+use super::motion::Motion;
+use super::vector::{COS, SIN, sin_cos};
+use super::wall::G_M_S2;
+
+/// Walls side by side.
+pub(crate) const LANES: usize = 4;
+type F = f64x4;
+
+/// One number of every lane.
+#[inline(always)]
+fn lanes(of: impl Fn(usize) -> f64) -> F {
+    F::new(std::array::from_fn(of))
+}
+
+/// The motions of several contact states side by side.
+pub(crate) struct Motions {
+    one: bool,
+    upper: F,
+    any_upper: bool,
+    o_x: F,
+    o_c: F,
+    q_x: F,
+    q: [F; 2],
+    c: [F; 2],
+    v: [F; 2],
+    u: [F; 2],
+    whole_arm: [F; 2],
+    whole_moment: [F; 2],
+    whole_inertia: F,
+    inertias: [F; 2],
+    lower_mass: F,
+    upper_mass: F,
+    lower_inertia: F,
+    m_dp: F,
+    stiffness: F,
+    offset: F,
+}
+
+/// Arms and static moments at one posture.
+#[derive(Clone, Copy)]
+pub(crate) struct TurnedLanes {
+    sin_1: F,
+    cos_1: F,
+    /// r_Q, r_C, V, U.
+    q: [F; 2],
+    c: [F; 2],
+    v: [F; 2],
+    u: [F; 2],
+}
+
+/// Angular accelerations of both bodies, and the power of the ground.
+#[derive(Clone, Copy)]
+pub(crate) struct RateLanes {
+    pub theta_dd: [F; 2],
+    pub ground_power_w: F,
+}
+
+struct Law {
+    m11: F,
+    m12: F,
+    m22: F,
+    f: [F; 2],
+    squares: [F; 2],
+    x_c: F,
+    v_c: F,
+    spring: F,
+}
+
+/// [`Aftermath`] of every lane.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct AftermathLanes {
+    ground: [F; 3],
+    crack: [F; 3],
+    top: [F; 3],
+}
+
+impl Motion {
+    /// How this motion may go side by side with others: none, or whether it turns as one.
+    #[inline]
+    pub fn side_by_side(&self) -> Option<bool> {
+        let plain = !self.damped && !self.held && self.laws.cubic_n_per_m3 == 0.0;
+        plain.then(|| self.freedom == Freedom::Monolithic)
+    }
+}
+
+#[inline(always)]
+fn rotated([x, y]: [F; 2], sin: F, cos: F) -> [F; 2] {
+    [x * cos + y * sin, y * cos - x * sin]
+}
+
+#[inline(always)]
+fn sin_cos_lanes(theta: F) -> (F, F) {
+    if theta.abs().simd_gt(F::splat(std::f64::consts::FRAC_PI_4)).any() {
+        return library_sin_cos(theta);
+    }
+    let z = theta * theta;
+    let zz = z * z;
+    let sum = |c: &[f64; 6]| (z * c[1] + c[0]) + zz * ((z * c[3] + c[2]) + zz * (z * c[5] + c[4]));
+    (theta + theta * z * sum(&SIN), F::ONE - (z * 0.5 - zz * sum(&COS)))
+}
+
+#[cold]
+fn library_sin_cos(theta: F) -> (F, F) {
+    let pairs = theta.to_array().map(sin_cos);
+    (F::new(pairs.map(|p| p.0)), F::new(pairs.map(|p| p.1)))
+}
+
+impl Motions {
+    /// All of them turn as one, or none.
+    #[inline(always)]
+    pub fn new(m: [&Motion; LANES]) -> Self {
+        let upper = |i: usize| f64::from(u8::from(m[i].freedom == Freedom::Upper));
+        let upper = lanes(upper).simd_eq(F::ONE);
+        Self {
+            one: m[0].freedom == Freedom::Monolithic,
+            upper,
+            any_upper: upper.any(),
+            o_x: lanes(|i| m[i].o_x),
+            o_c: lanes(|i| m[i].o_c),
+            q_x: lanes(|i| m[i].q_x),
+            q: [lanes(|i| m[i].q.x), lanes(|i| m[i].q.y)],
+            c: [lanes(|i| m[i].c.x), lanes(|i| m[i].c.y)],
+            v: [lanes(|i| m[i].v.x), lanes(|i| m[i].v.y)],
+            u: [lanes(|i| m[i].u.x), lanes(|i| m[i].u.y)],
+            whole_arm: [lanes(|i| m[i].whole_arm.x), lanes(|i| m[i].whole_arm.y)],
+            whole_moment: [lanes(|i| m[i].whole_moment.x), lanes(|i| m[i].whole_moment.y)],
+            whole_inertia: lanes(|i| m[i].whole_inertia),
+            inertias: [0, 1].map(|b| lanes(|i| m[i].inertias.to_array()[b])),
+            lower_mass: lanes(|i| m[i].lower_mass),
+            upper_mass: lanes(|i| m[i].upper_mass),
+            lower_inertia: lanes(|i| m[i].lower_inertia),
+            m_dp: lanes(|i| m[i].laws.carriage_mass_kg),
+            stiffness: lanes(|i| m[i].laws.stiffness_n_per_m),
+            offset: lanes(|i| m[i].laws.spring_offset_n),
+        }
+    }
+
+    #[inline(always)]
+    pub fn turned(&self, theta: [F; 2]) -> TurnedLanes {
+        let (sin_1, cos_1) = sin_cos_lanes(theta[0]);
+        let (sin_2, cos_2) = if self.one { (sin_1, cos_1) } else { sin_cos_lanes(theta[1]) };
+        TurnedLanes {
+            sin_1,
+            cos_1,
+            q: rotated(self.q, sin_1, cos_1),
+            c: rotated(self.c, sin_2, cos_2),
+            v: rotated(self.v, sin_1, cos_1),
+            u: rotated(self.u, sin_2, cos_2),
+        }
+    }
+
+    #[inline(always)]
+    fn spring_force_n(&self, x_c: F) -> F {
+        self.offset - self.stiffness * x_c
+    }
+
+    /// As [`Motion::monolithic_rate`].
+    #[inline(always)]
+    pub fn monolithic_rate(&self, theta: F, omega: F, [g_x, g_y]: [F; 2]) -> (F, F) {
+        let (sin, cos) = sin_cos_lanes(theta);
+        let r = rotated(self.whole_arm, sin, cos);
+        let w = rotated(self.whole_moment, sin, cos);
+        let (a_x, a_y) = (g_x, g_y + G_M_S2);
+        let v_c = r[1] * omega;
+        let carriage = self.m_dp * (a_x - r[0] * omega * omega);
+        let top = self.spring_force_n(r[0] + self.o_c) - carriage;
+        let weight_and_ground = w[0] * a_y - w[1] * a_x;
+        let inverse = F::ONE / (self.whole_inertia + self.m_dp * r[1] * r[1]);
+        let theta_dd = (weight_and_ground + r[1] * top) * inverse;
+        let power = g_y * w[0] * omega - g_x * (w[1] * omega + self.m_dp * v_c);
+        (theta_dd, power)
+    }
+
+    #[inline(always)]
+    pub fn rate(&self, t: &TurnedLanes, omega: [F; 2], ground: [F; 2]) -> RateLanes {
+        self.rate_by(&self.law(t, omega, ground), t, omega, ground)
+    }
+
+    #[inline(always)]
+    fn law(&self, t: &TurnedLanes, [w1, w2]: [F; 2], [g_x, g_y]: [F; 2]) -> Law {
+        let (a_x, a_y) = (g_x, g_y + G_M_S2);
+        let squares = [w1 * w1, w2 * w2];
+        let x_c = (t.q[0] + t.c[0]) + self.o_c;
+        let v_c = t.q[1] * w1 + t.c[1] * w2;
+        let spring = self.spring_force_n(x_c);
+        let carriage = self.m_dp * (a_x - t.q[0] * squares[0] - t.c[0] * squares[1]);
+        let kappa = t.q[1] * t.u[0] - t.q[0] * t.u[1];
+        let forces = [
+            t.v[0] * a_y - t.v[1] * a_x + kappa * squares[1],
+            t.u[0] * a_y - t.u[1] * a_x - kappa * squares[0],
+        ];
+        let top = spring - carriage;
+        Law {
+            m11: self.inertias[0] + t.q[1] * t.q[1] * self.m_dp,
+            m22: self.inertias[1] + t.c[1] * t.c[1] * self.m_dp,
+            m12: t.q[0] * t.u[0] + t.q[1] * t.u[1] + self.m_dp * t.q[1] * t.c[1],
+            f: [forces[0] + t.q[1] * top, forces[1] + t.c[1] * top],
+            squares,
+            x_c,
+            v_c,
+            spring,
+        }
+    }
+
+    #[inline(always)]
+    fn rate_by(&self, law: &Law, t: &TurnedLanes, [w1, w2]: [F; 2], [g_x, g_y]: [F; 2]) -> RateLanes {
+        let momentum_x = t.v[1] * w1 + t.u[1] * w2 + self.m_dp * law.v_c;
+        let ground_power_w = g_y * (t.v[0] * w1 + t.u[0] * w2) - g_x * momentum_x;
+        RateLanes { theta_dd: self.solve(law), ground_power_w }
+    }
+
+    /// As [`super::mass_matrix::MassMatrix::solve`].
+    #[inline(always)]
+    fn solve(&self, &Law { m11, m12, m22, f: [f1, f2], .. }: &Law) -> [F; 2] {
+        if self.one {
+            let x = (f1 + f2) / (m11 + m12 * 2.0 + m22);
+            return [x, x];
+        }
+        let inverse = F::ONE / (m11 * m22 - m12 * m12);
+        let both = [(m22 * f1 - m12 * f2) * inverse, (m11 * f2 - m12 * f1) * inverse];
+        if !self.any_upper {
+            return both;
+        }
+        [self.upper.bitselect(F::ZERO, both[0]), self.upper.bitselect(f2 / m22, both[1])]
+    }
+
+    /// As [`Motion::arrival`].
+    #[inline(always)]
+    pub fn arrival(&self, t: &TurnedLanes, omega: [F; 2], ground: [F; 2]) -> (RateLanes, AftermathLanes) {
+        let law = self.law(t, omega, ground);
+        let rate = self.rate_by(&law, t, omega, ground);
+        (rate, self.aftermath(&law, t, rate.theta_dd, ground))
+    }
+
+    #[inline(always)]
+    fn aftermath(
+        &self,
+        law: &Law,
+        t: &TurnedLanes,
+        [dd_1, dd_2]: [F; 2],
+        [g_x, g_y]: [F; 2],
+    ) -> AftermathLanes {
+        let (a_x, a_y) = (g_x, g_y + G_M_S2);
+        let [w1, w2] = law.squares;
+        let q_x = t.q[1] * dd_1 - t.q[0] * w1;
+        let c_x = t.c[1] * dd_2 - t.c[0] * w2;
+        let q_y = t.q[0] * dd_1 + t.q[1] * w1;
+        let u_x = t.u[1] * dd_2 - t.u[0] * w2;
+        let u_y = t.u[0] * dd_2 + t.u[1] * w2;
+        let top = self.m_dp * (a_x + q_x + c_x) - law.spring;
+        let at_q = [a_x + q_x, a_y - q_y];
+        let crack = [self.upper_mass * at_q[0] + u_x + top, self.upper_mass * at_q[1] - u_y];
+        let about_q = (t.u[1] * at_q[0] - t.u[0] * at_q[1]) + self.inertias[1] * dd_2 + t.c[1] * top;
+        let w = [t.v[0] - self.upper_mass * t.q[0], t.v[1] - self.upper_mass * t.q[1]];
+        let lower = [
+            a_x * self.lower_mass + w[1] * dd_1 - w[0] * w1,
+            a_y * self.lower_mass + -w[0] * dd_1 - w[1] * w1,
+        ];
+        let through_ground = [lower[0] + crack[0], lower[1] + crack[1]];
+        let about_o = (w[1] * a_x - w[0] * a_y)
+            + self.lower_inertia * dd_1
+            + about_q
+            + (t.q[1] * crack[0] - t.q[0] * crack[1]);
+        let in_crack = [crack[0] * t.cos_1 - crack[1] * t.sin_1, crack[1] * t.cos_1 + crack[0] * t.sin_1];
+        AftermathLanes {
+            ground: [through_ground[0], through_ground[1], about_o - self.o_x * through_ground[1]],
+            crack: [in_crack[0], in_crack[1], about_q - self.q_x * in_crack[1]],
+            top: [law.x_c, law.v_c, q_x + c_x],
+        }
+    }
+}
+
+impl AftermathLanes {
+    /// That of one lane.
+    #[inline(always)]
+    pub fn unpacked(&self) -> [Aftermath; LANES] {
+        let [ground, crack, top] = [self.ground, self.crack, self.top].map(|of| of.map(F::to_array));
+        let force = |of: &[[f64; LANES]; 3], i: usize| JointForce {
+            shear: of[0][i],
+            normal: of[1][i],
+            moment: of[2][i],
+        };
+        std::array::from_fn(|i| Aftermath {
+            forces: JointForces { ground: force(&ground, i), crack: force(&crack, i) },
+            top_displacement_m: top[0][i],
+            top_velocity_m_s: top[1][i],
+            top_acceleration_m_s2: top[2][i],
+            holding_n: 0.0,
+        })
+    }
+}

@@ -1,0 +1,202 @@
+//! On over a step, or up to the first event inside it: found, placed, and let happen.
+
+use wide::f64x2;
+
+use super::super::events::{Event, first_event};
+use super::super::ground_path::Piece;
+use super::super::history::Observer;
+use super::super::kinks;
+use super::{Doing, Run, Stop, failed};
+use crate::model::{Aftermath, Joint, Kink, Touching, Vector, opening};
+use crate::solver::{Point, Quintic, Step};
+
+/// An opening is placed this share of a sample step after the instant its corner force vanishes, so that the joint
+/// does accelerate apart; it moves nothing by more than roundings.
+pub(super) const AFTER_OPENING: f64 = 1e-9;
+
+/// A share of a sample step so short that a parabola is exact over it: its cube times any jerk of a wall is below
+/// roundings. A share and no time, so that a wall four times as large moves the same to the bit.
+const SHORT: f64 = 2e-7;
+/// Newton corrections of an event's time; one suffices but for grazing impacts.
+const MOST_CORRECTIONS: u32 = 4;
+
+/// Events without progress, one after another, that count as a defect: the longest burst of impacts, that of a wall sixty
+/// times as high as thick with a capture velocity of zero, takes some ten thousand to come to rest.
+const MOST_EVENTS_AT_ONCE: u32 = 50_000;
+/// Progress, as a share of a sample step, that an event must make not to count as stalled.
+const PROGRESS: f64 = 1e-6;
+
+impl<O: Observer> Run<O> {
+    /// Moves over a step, or asks for one up to the first event inside it.
+    #[inline]
+    pub(super) fn advance(&mut self, piece: &Piece, step: &Step, after: &Aftermath) -> Result<(), Stop> {
+        if !self.controller.accepts(step) {
+            self.tally.work.rejected_steps += 1;
+            return Ok(());
+        }
+        let from_s = self.offset_s;
+        let motion = Quintic::new(&step.start, &step.end, step.h);
+        let end_force = self.wall.least_hold(self.contact, after);
+        let force_at =
+            |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
+        let corner_force = (self.corner_force, end_force);
+        let event = first_event(self.contact, &motion, self.collapse_rad, corner_force, force_at);
+        let kink = kinks::first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
+        match earlier(event, kink) {
+            None => {
+                self.corner_force = end_force;
+                self.keep(piece.start_s + from_s, step, &motion, after);
+                self.stalled = 0;
+                // The end of a piece is reached exactly, not up to a rounding.
+                let reached = step.h == piece.length_s - from_s;
+                self.offset_s = if reached { piece.length_s } else { from_s + step.h };
+                Ok(())
+            }
+            Some((event, share)) => self.meet(event, share, piece, step.h),
+        }
+    }
+
+    fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
+        let law = self.wall.motion(self.contact);
+        let [theta, omega] = [motion.position(share), motion.velocity(share)].map(f64x2::new);
+        let (_, after) = law.arrival(&law.turned(theta), omega, ground);
+        self.wall.least_hold(self.contact, &after).unwrap_or(f64::INFINITY)
+    }
+
+    /// Asks for a step up to the event.
+    fn meet(&mut self, event: Event, share: f64, piece: &Piece, whole_s: f64) -> Result<(), Stop> {
+        if let (Event::Bends(kink), true) = (event, share == 0.0) {
+            let from_s = self.offset_s;
+            return self.bend(kink, piece.at(from_s), piece.start_s + from_s);
+        }
+        let mut h = share * whole_s;
+        if matches!(event, Event::Opens) {
+            h = (h + AFTER_OPENING * self.ground.step_s()).min(whole_s);
+        }
+        self.doing = Doing::Meeting { event, h, most_s: whole_s };
+        Ok(())
+    }
+
+    /// Lets the event happen at the end of a step.
+    pub(super) fn met(&mut self, event: Event, piece: &Piece, step: &Step) -> Result<(), Stop> {
+        self.doing = Doing::On { h: 0.0 };
+        let from_s = self.offset_s;
+        let to_s = from_s + step.h;
+        let (start_s, time_s) = (piece.start_s + from_s, piece.start_s + to_s);
+        self.progress(step.h, time_s)?;
+        let after = self.aftermath(&step.end, piece.at(to_s));
+        self.keep(start_s, step, &Quintic::new(&step.start, &step.end, step.h), &after);
+        match event {
+            Event::Collapses => return Err(Stop::Collapsed { time_s }),
+            Event::Opens => self.enter(self.contact, piece.at(to_s), time_s)?,
+            Event::Bends(kink) => self.bend(kink, piece.at(to_s), time_s)?,
+            Event::Strikes(touching) => self.strike(touching, piece.at(to_s), time_s)?,
+        }
+        self.offset_s = to_s.min(piece.length_s);
+        Ok(())
+    }
+
+    /// What is left to an event at an instant, and its rate; none for events that a share of a step places well enough.
+    #[inline]
+    pub(super) fn left_to(&self, event: Event, at: &Point) -> Option<(f64, f64)> {
+        if let Event::Bends(kink) = event {
+            return Some(kinks::left(&self.wall, self.contact, kink, at));
+        }
+        event.gap().map(|gap| (gap(at.position), gap(at.velocity)))
+    }
+
+    /// Goes on beyond a kink of the laws at the top.
+    fn bend(&mut self, kink: Kink, ground: Vector, time_s: f64) -> Result<(), Stop> {
+        if matches!(kink, Kink::Stops { .. }) {
+            self.now.velocity = self.wall.stopped(self.contact, self.now.position, self.now.velocity);
+        }
+        self.wall.pass(kink, self.contact, self.now.position);
+        self.progress(0.0, time_s)?;
+        self.enter(self.contact, ground, time_s)
+    }
+
+    /// Moves the end of a step onto the zero of what is left to an event, told together with its rate: the quintic that
+    /// found it is only as accurate as the step.
+    ///
+    /// To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow, and what is
+    /// small beside the wall's rotation is not small beside it. Not beyond the step that was searched: behind it may lie
+    /// the end of the piece.
+    #[inline]
+    pub(super) fn onto_event(
+        &mut self,
+        event: Event,
+        piece: &Piece,
+        mut step: Step,
+        most_s: f64,
+        corrections: u32,
+    ) -> Result<(), Stop> {
+        let left = if corrections < MOST_CORRECTIONS { self.left_to(event, &step.end) } else { None };
+        if let Some((gap, rate)) = left {
+            let late_s = gap / rate;
+            let h = (step.h - late_s).min(most_s);
+            if late_s.abs() <= SHORT * self.ground.step_s() {
+                step.end = step.end.after(-late_s);
+                step.h -= late_s;
+            } else if h > 0.0 && h < 2.0 * step.h {
+                let (gap, corrections) = (gap.abs(), corrections + 1);
+                self.doing = Doing::Nearing { event, h, most_s, step, gap, corrections };
+                return Ok(());
+            }
+        }
+        self.met(event, piece, &step)
+    }
+
+    fn progress(&mut self, h: f64, time_s: f64) -> Result<(), Stop> {
+        self.stalled = if h < PROGRESS * self.ground.step_s() { self.stalled + 1 } else { 0 };
+        if self.stalled > MOST_EVENTS_AT_ONCE {
+            let reason =
+                format!("{MOST_EVENTS_AT_ONCE} events without progress in pattern {}", self.contact.name());
+            return Err(Stop::Failed { time_s, reason });
+        }
+        Ok(())
+    }
+
+    /// An impact: joints that touch close exactly, velocities change, and the wall goes on.
+    pub(super) fn strike(&mut self, touching: Touching, ground: Vector, time_s: f64) -> Result<(), Stop> {
+        let touching = Touching {
+            ground: self.touches(Joint::Ground, touching.ground),
+            crack: self.touches(Joint::Crack, touching.crack),
+        };
+        let sign = |joint: Joint| self.contact.at(joint).sign();
+        let [ground_gap, crack_gap] =
+            [Joint::Ground, Joint::Crack].map(|joint| sign(joint) * opening(joint, self.now.position));
+        if touching.ground || ground_gap < 0.0 {
+            self.now.position[0] = 0.0;
+        }
+        if touching.crack || crack_gap < 0.0 {
+            self.now.position[1] = self.now.position[0];
+        }
+        if touching == Touching::closed_in(self.contact) {
+            // A flight lower than the error of a step: the root was thought to be where the joint still opens.
+            return self.enter(self.contact, ground, time_s);
+        }
+        let impact =
+            self.wall.impact(self.contact, touching, &self.state()).map_err(|e| failed(time_s, &e))?;
+        self.tally.impact(&impact);
+        self.now.velocity = impact.omega;
+        self.enter(impact.contact, ground, time_s)
+    }
+
+    /// Whether a joint takes part in an impact: it is closed, or does not separate and either strikes or stands within a
+    /// rounding of contact, so that its own impact would follow at the same instant.
+    fn touches(&self, joint: Joint, strikes: bool) -> bool {
+        let sign = self.contact.at(joint).sign();
+        let gap = sign * opening(joint, self.now.position);
+        let reached = strikes || gap <= f64::EPSILON * self.wall.wall().alpha_rad();
+        reached && sign * opening(joint, self.now.velocity) <= 0.0
+    }
+}
+
+/// The first of what may happen inside a step; what happens to the joints goes first.
+fn earlier(event: Option<(Event, f64)>, kink: Option<(Kink, f64)>) -> Option<(Event, f64)> {
+    match (event, kink) {
+        (Some((_, at)), Some((kink, share))) if share < at => Some((Event::Bends(kink), share)),
+        (None, Some((kink, share))) => Some((Event::Bends(kink), share)),
+        (event, _) => event,
+    }
+}

@@ -1,0 +1,52 @@
+//! While the wall stands still: through as much of the record as holds it.
+
+use super::super::ground_path::Piece;
+use super::super::history::Observer;
+use super::meeting::AFTER_OPENING;
+use super::{Run, Stop};
+use crate::model::Contact;
+
+impl<O: Observer> Run<O> {
+    /// Stands through all pieces from the `k`-th on at whose ends no corner has lifted; gives the first that is left.
+    pub(super) fn stand_through(&mut self, k: usize) -> usize {
+        let mut friction = 0.0_f64;
+        let next = self.ground.first_end_against(k, |ground| {
+            let holds = self.rest.holds(ground);
+            if holds {
+                friction = friction.max(self.rest.friction(ground));
+            }
+            holds
+        });
+        // The piece that ends the run may be cut short: it is left to be stood piece by piece.
+        let next = next.min(self.ground.whole_pieces());
+        if next <= k {
+            return k;
+        }
+        self.stood(self.ground.start_s(k), self.ground.start_s(next), friction);
+        next
+    }
+
+    /// Stands until a corner lifts or the piece ends; gives the offset reached.
+    pub(super) fn stand(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
+        let lift_off = self.rest.lift_off_s(piece, from_s);
+        let to_s = lift_off.map_or(piece.length_s, |s| self.after_opening(s, piece));
+        let friction = self.rest.friction(piece.at(from_s)).max(self.rest.friction(piece.at(to_s)));
+        self.stood(piece.start_s + from_s, piece.start_s + to_s, friction);
+        if lift_off.is_some() {
+            self.enter(Contact::REST, piece.at(to_s), piece.start_s + to_s)?;
+        }
+        Ok(to_s)
+    }
+
+    pub(super) fn stood(&mut self, from_s: f64, to_s: f64, friction: f64) {
+        self.tally.pattern_time_s[Contact::REST.index()] += to_s - from_s;
+        for (demand, factor) in self.tally.demand.iter_mut().zip(self.rest.friction_factors()) {
+            demand.friction = demand.friction.max(friction * factor);
+        }
+        self.observer.stood(from_s, to_s);
+    }
+
+    pub(super) fn after_opening(&self, offset_s: f64, piece: &Piece) -> f64 {
+        (offset_s + AFTER_OPENING * self.ground.step_s()).min(piece.length_s)
+    }
+}

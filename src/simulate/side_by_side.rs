@@ -1,0 +1,304 @@
+//! Runs side by side: those that ask for a step of the same kind take it together, in the lanes of vector registers.
+//!
+//! What a run gives does not depend on those beside it: every lane does the sums that the run would do alone.
+
+use std::ops::{Add, Mul};
+
+use wide::f64x4;
+
+use super::response::Response;
+use super::run::{Asked, Run};
+use crate::model::{Aftermath, AftermathLanes, LANES, Motions, TurnedLanes};
+use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
+
+type F = f64x4;
+
+/// One coordinate of every run, or both of them.
+#[derive(Clone, Copy)]
+struct One(F);
+
+#[derive(Clone, Copy)]
+struct Two([F; 2]);
+
+impl Add for One {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self(self.0 + other.0)
+    }
+}
+
+impl Mul<f64> for One {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        Self(self.0 * factor)
+    }
+}
+
+impl Values for One {
+    const ZERO: Self = Self(F::ZERO);
+    type Length = F;
+    #[inline(always)]
+    fn over(self, length: F) -> Self {
+        Self(self.0 * length)
+    }
+}
+
+impl Add for Two {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self([self.0[0] + other.0[0], self.0[1] + other.0[1]])
+    }
+}
+
+impl Mul<f64> for Two {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        Self(self.0.map(|x| x * factor))
+    }
+}
+
+impl Values for Two {
+    const ZERO: Self = Self([F::ZERO; 2]);
+    type Length = F;
+    #[inline(always)]
+    fn over(self, length: F) -> Self {
+        Self([self.0[0] * length, self.0[1] * length])
+    }
+}
+
+struct Shaken {
+    motions: Motions,
+    from: [F; 2],
+    slope: [F; 2],
+    from_s: F,
+    posture: Option<TurnedLanes>,
+    after: AftermathLanes,
+}
+
+impl Shaken {
+    #[inline(always)]
+    fn new(asked: &[Asked; LANES]) -> Self {
+        let lanes = |of: fn(&Asked) -> f64| F::new(std::array::from_fn(|i| of(&asked[i])));
+        Self {
+            motions: Motions::new(std::array::from_fn(|i| asked[i].law)),
+            from: [lanes(|a| a.piece.from.x), lanes(|a| a.piece.from.y)],
+            slope: [lanes(|a| a.piece.slope.x), lanes(|a| a.piece.slope.y)],
+            from_s: lanes(|a| a.from_s),
+            posture: None,
+            after: AftermathLanes::default(),
+        }
+    }
+
+    #[inline(always)]
+    fn ground(&self, after_s: F) -> [F; 2] {
+        let offset_s = self.from_s + after_s;
+        [0, 1].map(|i| self.from[i] + self.slope[i] * offset_s)
+    }
+}
+
+impl Field<One> for Shaken {
+    #[inline(always)]
+    fn rate(&mut self, after_s: F, theta: One, omega: One) -> Rate<One> {
+        let (theta_dd, power) = self.motions.monolithic_rate(theta.0, omega.0, self.ground(after_s));
+        Rate { acceleration: One(theta_dd), quadrature: One(power) }
+    }
+
+    #[inline(always)]
+    fn land(&mut self, after_s: F, theta: One, omega: One) -> Rate<One> {
+        let turned = self.motions.turned([theta.0; 2]);
+        let (rate, after) = self.motions.arrival(&turned, [omega.0; 2], self.ground(after_s));
+        self.after = after;
+        Rate { acceleration: One(rate.theta_dd[0]), quadrature: One(rate.ground_power_w) }
+    }
+}
+
+/// Both coordinates, and the one quadrature in the place of the first.
+impl Field<Two> for Shaken {
+    #[inline(always)]
+    fn rate(&mut self, after_s: F, theta: Two, omega: Two) -> Rate<Two> {
+        let turned = self.motions.turned(theta.0);
+        let rate = self.motions.rate(&turned, omega.0, self.ground(after_s));
+        self.posture = Some(turned);
+        Rate { acceleration: Two(rate.theta_dd), quadrature: Two([rate.ground_power_w, F::ZERO]) }
+    }
+
+    #[inline(always)]
+    fn land(&mut self, after_s: F, theta: Two, omega: Two) -> Rate<Two> {
+        let turned = self.posture.unwrap_or_else(|| self.motions.turned(theta.0));
+        let (rate, after) = self.motions.arrival(&turned, omega.0, self.ground(after_s));
+        self.after = after;
+        Rate { acceleration: Two(rate.theta_dd), quadrature: Two([rate.ground_power_w, F::ZERO]) }
+    }
+}
+
+/// The steps of walls that turn as one.
+#[inline(never)]
+fn steps_as_one(asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
+    let mut shaken = Shaken::new(asked);
+    let lanes = |of: fn(&Asked) -> f64| One(F::new(std::array::from_fn(|i| of(&asked[i]))));
+    let start =
+        Rate { acceleration: lanes(|a| a.now.acceleration[0]), quadrature: lanes(|a| a.quadrature_rate[0]) };
+    let h = lanes(|a| a.h).0;
+    let stride =
+        Nystrom::stride(lanes(|a| a.now.position[0]), lanes(|a| a.now.velocity[0]), start, h, &mut shaken);
+    let after = shaken.after.unpacked();
+    let [x, v, a, rate, gained, e_x, e_v] = [
+        stride.position,
+        stride.velocity,
+        stride.end.acceleration,
+        stride.end.quadrature,
+        stride.quadrature,
+        stride.position_error,
+        stride.velocity_error,
+    ]
+    .map(|of| of.0.to_array());
+    std::array::from_fn(|i| {
+        let step = Step {
+            h: asked[i].h,
+            start: *asked[i].now,
+            end: Point { position: [x[i]; 2], velocity: [v[i]; 2], acceleration: [a[i]; 2] },
+            quadrature: [gained[i], 0.0],
+            end_quadrature_rate: [rate[i], 0.0],
+            position_error: [e_x[i]; 2],
+            velocity_error: [e_v[i]; 2],
+        };
+        (step, after[i])
+    })
+}
+
+/// The steps of walls whose bodies turn apart.
+#[inline(never)]
+fn steps_apart(asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
+    let mut shaken = Shaken::new(asked);
+    let lanes = |of: fn(&Asked) -> f64| F::new(std::array::from_fn(|i| of(&asked[i])));
+    let start = Rate {
+        acceleration: Two([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
+        quadrature: Two([lanes(|a| a.quadrature_rate[0]), F::ZERO]),
+    };
+    let x = Two([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
+    let v = Two([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
+    let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
+    let after = shaken.after.unpacked();
+    let [x, v, a, e_x, e_v] = [
+        stride.position,
+        stride.velocity,
+        stride.end.acceleration,
+        stride.position_error,
+        stride.velocity_error,
+    ]
+    .map(|of| of.0.map(F::to_array));
+    let [rate, gained] = [stride.end.quadrature, stride.quadrature].map(|of| of.0[0].to_array());
+    std::array::from_fn(|i| {
+        let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
+        let step = Step {
+            h: asked[i].h,
+            start: *asked[i].now,
+            end: Point { position: both(&x), velocity: both(&v), acceleration: both(&a) },
+            quadrature: [gained[i], 0.0],
+            end_quadrature_rate: [rate[i], 0.0],
+            position_error: both(&e_x),
+            velocity_error: both(&e_v),
+        };
+        (step, after[i])
+    })
+}
+
+/// Runs that are at work at once: enough that there mostly are as many of a kind as there are lanes.
+const AT_ONCE: usize = 6 * LANES;
+
+/// A wall under a shaking, from the start, ready to run beside others.
+pub struct Prepared(Run<()>);
+
+impl Prepared {
+    pub(super) fn new(run: Run<()>) -> Self {
+        Self(run)
+    }
+}
+
+/// Runs what `next` gives side by side until it gives no more, and tells `done` each response, as they end.
+///
+/// A response is that of [`super::simulate`] to the bit, whatever runs beside it.
+pub fn simulate_side_by_side<T>(next: impl FnMut() -> Option<(T, Prepared)>, done: impl FnMut(T, Response)) {
+    let mut work = Work {
+        next,
+        done,
+        slots: Vec::with_capacity(AT_ONCE),
+        as_one: Vec::with_capacity(AT_ONCE),
+        apart: Vec::with_capacity(AT_ONCE),
+    };
+    while work.slots.len() < AT_ONCE {
+        let Some(run) = work.begin_next() else { break };
+        work.slots.push(Some(run));
+        work.go_on(work.slots.len() - 1);
+    }
+    while work.step() {}
+}
+
+struct Work<T, N, D> {
+    next: N,
+    done: D,
+    slots: Vec<Option<(T, Run<()>)>>,
+    /// Slots that ask for a step of a wall that turns as one, and of one whose bodies turn apart.
+    as_one: Vec<usize>,
+    apart: Vec<usize>,
+}
+
+impl<T, N: FnMut() -> Option<(T, Prepared)>, D: FnMut(T, Response)> Work<T, N, D> {
+    fn begin_next(&mut self) -> Option<(T, Run<()>)> {
+        let (tag, Prepared(mut run)) = (self.next)()?;
+        run.begin(0.0);
+        Some((tag, run))
+    }
+
+    /// Brings the run in a slot, or the next one in its place, to where it asks for a step that others may share.
+    fn go_on(&mut self, slot: usize) {
+        while let Some((_, run)) = &mut self.slots[slot] {
+            if !run.wants_step() {
+                if let Some((tag, run)) = self.slots[slot].take() {
+                    (self.done)(tag, run.end());
+                }
+                self.slots[slot] = self.begin_next();
+                continue;
+            }
+            match run.asked().law.side_by_side() {
+                Some(true) => return self.as_one.push(slot),
+                Some(false) => return self.apart.push(slot),
+                None => {
+                    let (step, after) = run.asked().take();
+                    run.answer(&step, &after);
+                }
+            }
+        }
+    }
+
+    /// Takes the steps of the kind that most slots ask for; false when none asks.
+    fn step(&mut self) -> bool {
+        let one = self.as_one.len() >= self.apart.len();
+        let queue = if one { &mut self.as_one } else { &mut self.apart };
+        let from = queue.len().saturating_sub(LANES);
+        let Some(&last) = queue.last() else { return false };
+        // A lane without a run does the work of another once more.
+        let mut of = [last; LANES];
+        let count = queue.len() - from;
+        of[..count].copy_from_slice(&queue[from..]);
+        queue.truncate(from);
+        let taken = {
+            let asked = of.map(|slot| {
+                let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
+                run.asked()
+            });
+            if one { steps_as_one(&asked) } else { steps_apart(&asked) }
+        };
+        for (slot, (step, after)) in of.into_iter().zip(&taken).take(count) {
+            if let Some((_, run)) = &mut self.slots[slot] {
+                run.answer(step, after);
+            }
+            self.go_on(slot);
+        }
+        true
+    }
+}
