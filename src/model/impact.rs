@@ -66,7 +66,8 @@ impl RockingWall {
             let count = self.admissible(from, &strike).iter().flatten().count();
             return Err(MechanicsError::ImpactOutcomes { from: from.name(), touching, state: *state, count });
         };
-        let (contact, projected) = self.captured(plastic, &strike);
+        let (plastic, projected) = plastic;
+        let (contact, projected) = self.captured(plastic, projected, &strike);
         let change = Table2Change::of(from, contact);
         let omega = self.scaled(change, contact, projected, &strike);
         let before_j = self.motion(from).kinetic_energy_j(strike.turns, state.omega);
@@ -84,7 +85,8 @@ impl RockingWall {
         touching: Touching,
         state: &State,
     ) -> [Option<Contact>; 9] {
-        self.admissible(from, &self.strike(from, touching, state))
+        let admissible = self.admissible(from, &self.strike(from, touching, state));
+        admissible.map(|found| found.map(|(contact, _)| contact))
     }
 
     fn strike(&self, from: Contact, touching: Touching, state: &State) -> Strike {
@@ -92,15 +94,17 @@ impl RockingWall {
         Strike { touching, turns, v_before: self.posture(from, turns).rates(state.omega) }
     }
 
-    fn admissible(&self, from: Contact, strike: &Strike) -> [Option<Contact>; 9] {
+    /// The admissible contact states, with the velocities in them.
+    fn admissible(&self, from: Contact, strike: &Strike) -> [Option<(Contact, Pair)>; 9] {
         let mut clear = [None; 9];
-        let mut tie: Option<Contact> = None;
+        let mut tie: Option<(Contact, Pair)> = None;
         for to in self.states_touching(from, strike.touching) {
-            let margin = self.margin(to, strike);
+            let (margin, omega) = self.margin(to, strike);
             if margin > ROUNDING {
-                clear[to.index()] = Some(to);
-            } else if margin >= -ROUNDING && tie.is_none_or(|tied| to.open_joints() < tied.open_joints()) {
-                tie = Some(to);
+                clear[to.index()] = Some((to, omega));
+            } else if margin >= -ROUNDING && tie.is_none_or(|(tied, _)| to.open_joints() < tied.open_joints())
+            {
+                tie = Some((to, omega));
             }
         }
         if clear.iter().all(Option::is_none) {
@@ -110,8 +114,8 @@ impl RockingWall {
     }
 
     /// By how much a contact state is admissible: the smallest corner impulse of its closed joints or separation of its
-    /// opened ones, over the momentum or speed before.
-    fn margin(&self, to: Contact, strike: &Strike) -> f64 {
+    /// opened ones, over the momentum or speed before; and the velocities in it.
+    fn margin(&self, to: Contact, strike: &Strike) -> (f64, Pair) {
         let posture = self.posture(to, strike.turns);
         let omega = self.projected_onto(to, &posture, strike);
         // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
@@ -122,9 +126,9 @@ impl RockingWall {
             .map(|joint| to.at(joint).sign() * opening(joint, omega) / w1.max(w2))
             .fold(f64::INFINITY, f64::min);
         if separation < -ROUNDING {
-            return separation;
+            return (separation, omega);
         }
-        separation.min(self.smallest_impulse(to, &posture, omega, &strike.v_before))
+        (separation.min(self.smallest_impulse(to, &posture, omega, &strike.v_before)), omega)
     }
 
     /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
@@ -160,10 +164,9 @@ impl RockingWall {
 
     /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
     /// the impact, until none is left.
-    fn captured(&self, plastic: Contact, strike: &Strike) -> (Contact, Pair) {
-        let mut contact = plastic;
+    fn captured(&self, plastic: Contact, projected: Pair, strike: &Strike) -> (Contact, Pair) {
+        let (mut contact, mut omega) = (plastic, projected);
         loop {
-            let omega = self.projected(contact, strike);
             let slow = self.joints().find(|joint| {
                 let opened = strike.touching.at(*joint) && contact.at(*joint).is_open();
                 opened && opening(*joint, omega).abs() < self.capture_rad_s
@@ -172,6 +175,7 @@ impl RockingWall {
                 Some(joint) => contact = contact.with(joint, Pivot::Closed),
                 None => return (contact, omega),
             }
+            omega = self.projected(contact, strike);
         }
     }
 

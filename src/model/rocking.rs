@@ -1,6 +1,7 @@
 //! The nine contact states of one wall, each with its arms and equations of motion.
 
 use super::MechanicsError;
+use super::balance::Aftermath;
 use super::contact::{Contact, Joint, Pivot, Touching};
 use super::joint::{JointForces, Masses};
 use super::laws::Laws;
@@ -180,17 +181,28 @@ impl RockingWall {
     /// # Errors
     /// [`MechanicsError::NoContactState`] where there is none.
     pub fn settle(&self, contact: Contact, state: &State, ground: Vector) -> Result<Contact, MechanicsError> {
+        self.settled(contact, state, ground).map(|(settled, _)| settled)
+    }
+
+    /// [`RockingWall::settle`] with the motion in that state, where it is known.
+    pub(crate) fn settled(
+        &self,
+        contact: Contact,
+        state: &State,
+        ground: Vector,
+    ) -> Result<(Contact, Option<(MotionRate, Aftermath)>), MechanicsError> {
         for opened in 0..=2 {
-            let mut candidates = self.states_opening(contact, opened);
-            if let Some(found) = candidates.find(|c| self.carries(contact, *c, state, ground)) {
-                return Ok(found);
+            for candidate in self.states_opening(contact, opened) {
+                if let Some(carried) = self.carried(contact, candidate, state, ground) {
+                    return Ok((candidate, Some(carried)));
+                }
             }
         }
         // A corner force so near zero that neither it nor the opening that would follow has a sign beyond roundings.
         let theta_dd = self.rate(contact, state, ground).theta_dd;
         let forces = self.joint_forces(contact, state, theta_dd, ground);
         if self.smallest_corner_force(contact, &forces).is_none_or(|least| least >= -FORCE_ROUNDING) {
-            return Ok(contact);
+            return Ok((contact, None));
         }
         Err(MechanicsError::NoContactState { from: contact.name() })
     }
@@ -223,16 +235,27 @@ impl RockingWall {
     }
 
     pub(super) fn carries(&self, before: Contact, candidate: Contact, state: &State, ground: Vector) -> bool {
-        let theta_dd = self.rate(candidate, state, ground).theta_dd;
+        self.carried(before, candidate, state, ground).is_some()
+    }
+
+    /// The motion in a contact state that carries its forces and whose opened joints accelerate apart.
+    fn carried(
+        &self,
+        before: Contact,
+        candidate: Contact,
+        state: &State,
+        ground: Vector,
+    ) -> Option<(MotionRate, Aftermath)> {
+        let rate = self.rate(candidate, state, ground);
         let apart = |joint: Joint| {
             let opens = before.at(joint).is_closed() && candidate.at(joint).is_open();
-            !opens || candidate.at(joint).sign() * opening(joint, theta_dd) > 0.0
+            !opens || candidate.at(joint).sign() * opening(joint, rate.theta_dd) > 0.0
         };
         if !self.joints().all(apart) {
-            return false;
+            return None;
         }
-        let after = self.motion(candidate).aftermath(state.theta, state.omega, theta_dd, ground);
-        self.least_hold(candidate, &after).is_none_or(|least| least >= 0.0)
+        let after = self.motion(candidate).aftermath(state.theta, state.omega, rate.theta_dd, ground);
+        self.least_hold(candidate, &after).is_none_or(|least| least >= 0.0).then_some((rate, after))
     }
 }
 

@@ -11,9 +11,14 @@ use super::response::{Outcome, Peak, Response};
 use super::rest::RestLimits;
 use super::simulator::{Placed, Simulator};
 use super::tally::Tally;
-use crate::model::{Aftermath, Contact, MechanicsError, Pair, RockingWall, State, Touching, Vector, opening};
+use crate::model::{
+    Aftermath, Contact, MechanicsError, MotionRate, Pair, RockingWall, State, Touching, Vector, opening,
+};
 use crate::solver::{Controller, Point, Quintic, STAGES, Step};
 pub(super) use step::Asked;
+
+/// A contact state, and the motion in it where that is known.
+type Settled = (Contact, Option<(MotionRate, Aftermath)>);
 
 /// Where the run stands.
 pub(super) struct Run<O> {
@@ -199,24 +204,27 @@ impl<O: Observer> Run<O> {
 
     /// Goes on in the contact state that carries the joint forces, opening joints where it must.
     fn enter(&mut self, contact: Contact, ground: Vector, time_s: f64) -> Result<(), Stop> {
-        let settled = self.settle(contact, ground).map_err(|e| failed(time_s, &e))?;
+        let (settled, known) = self.settle(contact, ground).map_err(|e| failed(time_s, &e))?;
         if settled != contact {
             self.tally.opening(contact, settled);
         }
         self.contact = settled;
-        let rate = self.wall.rate(settled, &self.state(), ground);
+        let (rate, after) = known.unwrap_or_else(|| {
+            let rate = self.wall.rate(settled, &self.state(), ground);
+            (rate, self.aftermath(&Point { acceleration: rate.theta_dd, ..self.now }, ground))
+        });
         self.tally.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
-        let after = self.aftermath(&self.now, ground);
         self.corner_force = self.wall.least_hold(settled, &after);
         self.top_velocity_m_s = after.top_velocity_m_s;
         Ok(())
     }
 
-    fn settle(&mut self, contact: Contact, ground: Vector) -> Result<Contact, MechanicsError> {
+    /// The contact state that carries the joint forces, with its motion where that is known.
+    fn settle(&mut self, contact: Contact, ground: Vector) -> Result<Settled, MechanicsError> {
         let Some(restraint) = self.wall.restraint().copied() else {
-            return self.wall.settle(contact, &self.state(), ground);
+            return self.wall.settled(contact, &self.state(), ground);
         };
         self.now.velocity = self.wall.come_to_stand(contact, &self.state());
         let state = self.state();
@@ -226,7 +234,8 @@ impl<O: Observer> Run<O> {
             self.rest = RestLimits::new(&self.wall);
         }
         let rest_hold = self.rest.hold(ground);
-        self.wall.settle_restrained(&restraint, contact, &state, ground, rest_hold)
+        let settled = self.wall.settle_restrained(&restraint, contact, &state, ground, rest_hold)?;
+        Ok((settled, None))
     }
 
     /// Goes on to where a step is to be taken; false at the end of the record and its free motion.
