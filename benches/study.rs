@@ -50,10 +50,10 @@ impl Study {
         Self { pipeline, plan }
     }
 
-    /// Plans, runs and stores all of it; gives seconds.
-    fn seconds(&self, threads: usize, simulate: &(impl Simulate + Sync)) -> f64 {
+    /// Plans, runs and stores all of it.
+    fn spent(&self, threads: usize, simulate: &(impl Simulate + Sync)) -> Spent {
         let out = tempfile::tempdir().expect("a temporary folder");
-        seconds(|| {
+        spent(|| {
             let plan = Plan::load(&self.pipeline, None).expect("a plan");
             let manifest =
                 Manifest::of(&plan, &self.pipeline, &self.pipeline.suite, BLOCK_RUNS).expect("a manifest");
@@ -99,6 +99,20 @@ fn arithmetic(wall: &RockingWall, evaluations: u64) -> State {
     state
 }
 
+/// What a piece of work took, s.
+#[derive(Debug, Clone, Copy)]
+struct Spent {
+    wall_s: f64,
+    /// Processor time of all threads.
+    cpu_s: f64,
+}
+
+fn spent<T>(work: impl FnOnce() -> T) -> Spent {
+    let (start, cpu_s) = (Instant::now(), cpu_seconds());
+    black_box(work());
+    Spent { wall_s: start.elapsed().as_secs_f64(), cpu_s: cpu_seconds() - cpu_s }
+}
+
 fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
     let start = Instant::now();
     black_box(work());
@@ -124,15 +138,16 @@ fn print(what: &str, unit: &str, values: impl IntoIterator<Item = f64>) -> f64 {
     median
 }
 
-/// Times of the turns, s.
+/// What the turns took.
 #[derive(Default)]
 struct Times {
-    evaluation: Vec<f64>,
-    table_wall: Vec<f64>,
-    monte_carlo: [Vec<f64>; 2],
-    without_simulations: Vec<f64>,
-    simulations_alone: Vec<f64>,
-    case: [Vec<f64>; 2],
+    evaluation_s: Vec<f64>,
+    table_wall_s: Vec<f64>,
+    monte_carlo: [Vec<Spent>; 2],
+    without_simulations: Vec<Spent>,
+    simulations_alone: Vec<Spent>,
+    /// Ten times over, for the sake of the clock of processor time.
+    case: [Vec<Spent>; 2],
 }
 
 fn main() {
@@ -150,70 +165,60 @@ fn main() {
         evaluations.fetch_add(response.work.evaluations, Ordering::Relaxed);
         response
     };
-    study.seconds(2, &counted);
+    study.spent(2, &counted);
     let evaluations = evaluations.into_inner() as f64 / study.runs();
     let told = |_: &Wall, _: &Shaking, _: Accuracy| once.clone();
     let pools = [1, 2].map(|threads| mrbd::batch::threads(threads).expect("threads"));
     let rocking = RockingWall::new(&wall);
     let mut times = Times::default();
     for _ in 0..TURNS {
-        times.evaluation.push(seconds(|| arithmetic(&rocking, 100_000)) / 1e5);
-        times.table_wall.extend((0..20).map(|_| seconds(|| simulate(&wall, &shaking, accuracy))));
+        times.evaluation_s.push(seconds(|| arithmetic(&rocking, 100_000)) / 1e5);
+        times.table_wall_s.extend((0..20).map(|_| seconds(|| simulate(&wall, &shaking, accuracy))));
         for (i, pool) in pools.iter().enumerate() {
-            times.monte_carlo[i].push(study.seconds(1 + i, &SideBySide));
-            let all = || run_all(&sweep, case.clone(), &SideBySide, &bar).len();
-            times.case[i].push(pool.install(|| seconds(all)));
+            times.monte_carlo[i].push(study.spent(1 + i, &SideBySide));
+            let once = || run_all(&sweep, case.clone(), &SideBySide, &bar).len();
+            let all = || (0..10).map(|_| once()).sum::<usize>();
+            times.case[i].push(pool.install(|| spent(all)));
         }
-        times.without_simulations.push(study.seconds(1, &told));
-        let (before, all) = (cpu_seconds(), (0..study.plan.len()).collect());
-        pools[0].install(|| run_all(&study.plan, all, &SideBySide, &bar));
-        times.simulations_alone.push(cpu_seconds() - before);
+        times.without_simulations.push(study.spent(1, &told));
+        let all = (0..study.plan.len()).collect();
+        let run = || run_all(&study.plan, all, &SideBySide, &bar).len();
+        times.simulations_alone.push(pools[0].install(|| spent(run)));
     }
     tell(&times, &once, study.runs(), case.len(), evaluations);
 }
 
 fn tell(times: &Times, once: &Response, runs: f64, case: usize, evaluations: f64) {
-    println!("medians and quartiles, everything in turns in one process");
+    let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    println!(
+        "medians and quartiles, everything in turns in one process; load of the machine: {}",
+        load.trim()
+    );
+    let of = |spent: &[Spent], value: fn(&Spent) -> f64| spent.iter().map(value).collect::<Vec<f64>>();
     let bare =
-        print("bare evaluation of the equations of motion", "ns", times.evaluation.iter().map(|t| t * 1e9));
-    let table = print("table wall, 30 s at 0.005 s", "ms", times.table_wall.iter().map(|t| t * 1e3));
+        print("bare evaluation of the equations of motion", "ns", times.evaluation_s.iter().map(|t| t * 1e9));
+    let table = print("table wall, 30 s at 0.005 s", "ms", times.table_wall_s.iter().map(|t| t * 1e3));
     let share = |evaluations: f64, time_ms: f64| evaluations * bare * 1e-6 / time_ms;
     let own = once.work.evaluations as f64;
-    println!(
-        "  {own} evaluations, {} impacts; the bare evaluations are {:.2} of it",
-        once.impacts.total(),
-        share(own, table)
-    );
-    for (threads, of) in [("one thread", 0), ("two threads", 1)] {
-        let times_s = &times.monte_carlo[of];
-        print(
-            &format!("Monte Carlo of Table 3, {runs} runs stored, {threads}"),
-            "runs/s",
-            times_s.iter().map(|t| runs / t),
-        );
+    let impacts = once.impacts.total();
+    println!("  {own} evaluations, {impacts} impacts; bare, they are {:.2} of it", share(own, table));
+    for (i, spent) in times.monte_carlo.iter().enumerate() {
+        let what = format!("Monte Carlo of Table 3, {runs} runs stored, threads: {}", 1 + i);
+        print(&what, "runs/s", of(spent, |s| s.wall_s).into_iter().map(|t| runs / t));
+        print("  processor time of a run", "ms", of(spent, |s| s.cpu_s).into_iter().map(|t| t * 1e3 / runs));
+        print("  processors it got", "", of(spent, |s| s.cpu_s / s.wall_s));
     }
-    let pairs = times.monte_carlo[0].iter().zip(&times.monte_carlo[1]);
-    print("  two threads over one", "", pairs.map(|(one, two)| one / two));
-    let alone = print(
-        "  its simulations alone, one thread, a run",
-        "ms",
-        times.simulations_alone.iter().map(|t| t * 1e3 / runs),
-    );
-    println!(
-        "  {evaluations:.0} evaluations a run; bare, they are {:.2} of its time",
-        share(evaluations, alone)
-    );
-    let around = times.without_simulations.iter().zip(&times.monte_carlo[0]);
-    print(
-        "  share of everything but simulations, one thread",
-        "",
-        around.map(|(without, all)| without / all),
-    );
-    for (threads, of) in [("one thread", 0), ("two threads", 1)] {
-        print(
-            &format!("reference case, {case} runs, {threads}"),
-            "ms",
-            times.case[of].iter().map(|t| t * 1e3),
-        );
+    let [one, two] = &times.monte_carlo;
+    print("  two threads over one", "", one.iter().zip(two).map(|(one, two)| one.wall_s / two.wall_s));
+    let alone = of(&times.simulations_alone, |s| s.cpu_s);
+    let alone =
+        print("  processor time of a run planned and run alone", "ms", alone.iter().map(|t| t * 1e3 / runs));
+    println!("  {evaluations:.0} evaluations a run; bare, they are {:.2} of that", share(evaluations, alone));
+    let around = times.without_simulations.iter().zip(one);
+    print("  share of all but simulations in processor time", "", around.map(|(w, all)| w.cpu_s / all.cpu_s));
+    for (i, spent) in times.case.iter().enumerate() {
+        let what = format!("reference case, {case} runs, threads: {}", 1 + i);
+        print(&what, "ms", of(spent, |s| s.wall_s * 100.0));
+        print("  processor time", "ms", of(spent, |s| s.cpu_s * 100.0));
     }
 }
