@@ -4,6 +4,8 @@
 //! lumped into m_d, which acts vertically too, C_l = 1. The findings checked are those of the paper's section 3.2:
 //! the calibrated model rotates least; the lumped model opens its crack less than the updated one.
 
+mod histories;
+
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -18,6 +20,8 @@ use crate::model::{Contact, ImpactLaw, Pair, Wall, WallParameters};
 use crate::simulate::{Accuracy, Observer, Shaking, simulate_observed};
 use crate::solver::Quintic;
 use crate::store::FileNote;
+
+pub use histories::{HistoryPoint, write_histories};
 
 /// A pipeline file with a `[comparison]`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -107,6 +111,8 @@ pub struct ModelComparison {
     pub rows: Vec<ComparisonRow>,
     /// The claims.
     pub findings: Vec<Finding>,
+    /// The runs under one record, in time.
+    pub histories: Vec<HistoryPoint>,
 }
 
 /// Whether a pipeline file is a comparison of models.
@@ -154,6 +160,7 @@ pub fn compare(path: &Path, suite: Option<&Path>) -> Result<ModelComparison> {
         suite: suite.name.clone(),
         generated: suite.generated,
         inputs,
+        histories: histories::histories(&cases, &rows, settings),
         rows: rows.into_iter().flatten().collect(),
         findings,
     })

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::output;
-use crate::comparison::{Finding, ModelComparison, compare, print_rows};
+use crate::comparison::{Finding, ModelComparison, compare, print_rows, write_histories};
 use crate::error::{Error, InputError, Result};
 use crate::store::write_durably;
 
@@ -33,6 +33,7 @@ fn write(comparison: &ModelComparison, folder: &Path) -> Result<()> {
     let mut rows = Vec::new();
     print_rows(&mut rows, &comparison.rows).map_err(|e| Error::io("write the rows", folder, e))?;
     write_durably(&folder.join("comparison.csv"), &rows)?;
+    write_histories(&folder.join("histories.parquet"), &comparison.histories)?;
     let findings = serde_json::to_vec_pretty(&comparison.findings)
         .map_err(|e| Error::io("write the findings", folder, e.into()))?;
     write_durably(&folder.join("findings.json"), &findings)

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::candidates::candidates;
 use super::experiment::Experiment;
 use super::fit::Problem;
+use super::force::{acts_at_top, force_points};
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
 use super::search::{Data, Tried, refit, shared_states, try_hypothesis, try_second, untouched};
 use super::verdict::{
@@ -219,7 +220,11 @@ impl<P: Progress> Search<'_, P> {
             }
             tried.extend(pairs);
         }
-        let place = self.place(&recalibrated, &tried);
+        let place = self.place(&recalibrated, &tried).or_else(|| {
+            // What no law of the catalogue follows may still be measured.
+            let physics = before.hypothesis.physics(&before.fit.values)?;
+            acts_at_top(&force_points(&self.experiment.tests, &physics)).then_some("top")
+        });
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
         found(verdict, recalibrated.clone(), Vec::new(), place, tried)
     }

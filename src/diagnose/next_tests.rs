@@ -30,8 +30,9 @@ const FACTORS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
 const FITTED: usize = 3;
 /// Seed of the noise.
 const SEED: u64 = 7;
-/// Shares of the largest measured displacement of the top that a slow pull might reach.
-const PULLS: [f64; 2] = [0.5, 1.0];
+/// Displacements of the top that a slow pull might reach, as shares of the wall's thickness: far from where it would tip,
+/// and no farther than the tests went.
+const PULLS: [f64; 2] = [0.05, 0.1];
 
 /// What would part two hypotheses.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -66,7 +67,7 @@ pub struct NextShaking {
 pub struct NextPull {
     /// Displacement of the top, m.
     pub displacement_m: f64,
-    /// Force on the top by the floor and what is added there, N, under both hypotheses.
+    /// Force that holds the top there against its floor and what is added to it, N, under both hypotheses.
     pub force_n: [f64; 2],
 }
 
@@ -211,10 +212,11 @@ impl Pair<'_> {
     fn pulls(&self) -> Option<Vec<NextPull>> {
         let wall = |tried: &Tried| Some(RockingWall::new(&tried.hypothesis.physics(&tried.fit.values)?.wall));
         let walls = [wall(self.first)?, wall(self.second)?];
-        let largest_m = self.experiment.scales.displacement_m;
-        let pull = |share: f64| NextPull {
-            displacement_m: share * largest_m,
-            force_n: walls.each_ref().map(|wall| wall.top_force_n(share * largest_m, 0.0, 0.0)),
+        let thickness_m = self.experiment.wall.parameters().thickness_m;
+        let pull = |share: f64| {
+            let displacement_m = (share * thickness_m).min(self.experiment.scales.displacement_m);
+            let force_n = walls.each_ref().map(|wall| -wall.top_force_n(displacement_m, 0.0, 0.0));
+            NextPull { displacement_m, force_n }
         };
         Some(PULLS.map(pull).to_vec())
     }

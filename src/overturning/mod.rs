@@ -8,6 +8,7 @@ mod picture;
 mod spectrum;
 mod store;
 mod study;
+mod words;
 
 pub use picture::picture;
 pub use spectrum::{Boundary, Spectrum, Trial, rocking_frequency_rad_s, spectrum};

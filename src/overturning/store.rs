@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::spectrum::{Boundary, Spectrum, Trial};
 use super::study::Study;
+use super::words::assumptions;
 use crate::error::{InputError, Result};
 use crate::store::{Column, Read, write_table};
 
@@ -80,12 +81,12 @@ pub fn prepare(folder: &Path) -> Result<()> {
 /// # Errors
 /// What the file system says.
 pub fn store(folder: &Path, study: &Study, spectrum: &Spectrum) -> Result<()> {
-    let metadata = [
+    let mut metadata = vec![
         ("tool".to_owned(), format!("mrbd {}", env!("CARGO_PKG_VERSION"))),
         ("study".to_owned(), study.name.clone()),
-        ("pulse".to_owned(), study.pulse.name().to_owned()),
-        ("assumptions".to_owned(), format!("{study:?}")),
+        ("shape".to_owned(), study.pulse.name().to_owned()),
     ];
+    metadata.extend(assumptions(study));
     write_table(&folder.join("trials.parquet"), &TRIALS, &metadata, &spectrum.trials)?;
     write_table(&folder.join("boundaries.parquet"), &BOUNDARIES, &metadata, &spectrum.boundaries)
 }

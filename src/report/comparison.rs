@@ -1,5 +1,7 @@
 //! The page of a comparison of models (Fig. 9): one wall as three models under the same records.
 
+mod histories;
+
 use std::path::Path;
 
 use serde::Deserialize;
@@ -12,6 +14,7 @@ use super::words::rounded_up;
 use crate::aggregate::Middle;
 use crate::comparison::MODELS;
 use crate::error::{InputError, Result};
+use histories::Histories;
 
 /// A row of `comparison.csv`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -53,9 +56,14 @@ pub fn page(folder: &Path) -> Result<Page> {
     let rows = read_rows(&folder.join("comparison.csv"))?;
     let findings = read_findings(&folder.join("findings.json"))?;
     let note = Note::read(&folder.join("manifest.json"))?;
+    let histories = Histories::read(folder)?;
     let mut sections = Vec::new();
     for law in distinct(rows.iter().map(|row| row.law.as_str())) {
-        sections.push(section(&rows, law)?);
+        let mut section = section(&rows, law)?;
+        if let Some(histories) = &histories {
+            section.figures.extend(histories.figure(law)?);
+        }
+        sections.push(section);
     }
     sections.push(claims(&findings));
     let failed = rows.iter().filter(|row| row.outcome == "failed").count();
@@ -69,7 +77,11 @@ pub fn page(folder: &Path) -> Result<Page> {
         notes: note.generated_note().into_iter().collect(),
         sections,
         provenance: note.pairs(),
-        files: ["manifest.json", "comparison.csv", "findings.json"].map(Link::to).to_vec(),
+        files: ["manifest.json", "comparison.csv", "findings.json"]
+            .into_iter()
+            .chain(histories.is_some().then_some(histories::FILE))
+            .map(Link::to)
+            .collect(),
     })
 }
 

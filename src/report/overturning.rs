@@ -37,7 +37,7 @@ pub fn page(folder: &Path) -> Result<Page> {
         title: format!("Overturning spectrum “{}”", of("study")),
         lead: format!(
             "Which pulses of the form “{}” overturn the wall, by frequency and amplitude.",
-            of("pulse")
+            of("shape")
         ),
         numbers: vec![number(trials.len(), "pulses"), number(overturned, "overturned the wall")],
         sections: vec![Section {

@@ -6,6 +6,7 @@
 //! derivatives onto the test function (the weak form). Over an impact, the velocities after it are compared with those
 //! the model gives from the state before it.
 
+mod at_top;
 mod explained;
 mod jumps;
 mod kernel;
@@ -13,6 +14,7 @@ mod law_curves;
 mod points;
 mod stretch;
 
+pub use at_top::acts_at_top;
 pub use explained::explained_by;
 pub use jumps::{Jump, jumps};
 pub use kernel::Kernel;

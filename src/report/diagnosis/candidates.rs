@@ -106,7 +106,7 @@ fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
     let against = Graph {
         title: String::new(),
         format: Format::Half,
-        x: Axis::log_holding("what speaks against it, logarithms of likelihood", all),
+        x: Axis::log_holding("against it, ln of likelihood", all),
         y: names(),
         layers: vec![Layer::Dots { colour: PALETTE[2], mark: Mark::Triangle, size: 7, hollow: false, dots }],
     };

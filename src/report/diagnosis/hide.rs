@@ -57,8 +57,7 @@ fn figure(powers: &[&StoredPower]) -> Result<Figure> {
         name: String::new(),
         points: vec![(1.0, -0.5), (1.0, powers.len() as f64 - 0.5)],
     };
-    let x =
-        Axis::log_holding("smallest size told, over one that matters", dots.iter().map(|d| d.x).chain([1.5]));
+    let x = Axis::log_holding("smallest told over what matters", dots.iter().map(|d| d.x).chain([1.5]));
     let graph = Graph {
         title: String::new(),
         format: Format::Half,

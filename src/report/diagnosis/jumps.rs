@@ -98,7 +98,7 @@ pub fn figure(path: &Path, stored: &Stored) -> Result<Option<Figure>> {
         title: "Velocities after impacts".into(),
         legend,
         panels: vec![graph.svg()?],
-        caption: "From the measured state before an impact, or a burst of them, the model is run to where the measured pattern is clear again: 1 is the model’s impact law, C_l included. Bars are standard deviations by the noise of the velocities after it; a force missing meanwhile moves a ratio too.".into(),
+        caption: "From the measured state before an impact, or a burst of them, the model is run to where the measured pattern is clear again: 1 is the model’s impact law, C_l included. Bars are standard deviations by the noise of the velocities after it; a force missing meanwhile moves a ratio too. Ratios beyond the axis stand at its ends.".into(),
         links: vec![Link::to("jumps.parquet")],
         ..Figure::default()
     }))

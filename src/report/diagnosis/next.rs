@@ -69,7 +69,7 @@ fn pull(next: &StoredNext) -> Table {
             format!("{apart:.1} %"),
         ]
     };
-    let head = ["top pulled by", "force of the first, N", "of the second, N", "apart"];
+    let head = ["top pulled by", "held by, the first, N", "the second, N", "apart"];
     Table::of(
         "A slow pull of the top against its floor, the wall’s own weight apart",
         &head,

@@ -5,18 +5,18 @@ use super::super::colours::Mark;
 use super::super::colours::PALETTE;
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Key, Section};
-use super::{medians, titled};
+use super::{along, medians, titled};
 use crate::aggregate::{Distribution, Distributions, VariantNote};
 use crate::error::Result;
 use crate::input::pipeline::Kind;
 
 /// Places of the 16, 50 and 84 % quantiles among those that are told.
-const LOW: usize = 1;
-const MIDDLE: usize = 3;
-const HIGH: usize = 5;
+pub(super) const LOW: usize = 1;
+pub(super) const MIDDLE: usize = 3;
+pub(super) const HIGH: usize = 5;
 
 /// Quantities and their names in the legend.
-fn quantities(kind: Kind) -> &'static [(&'static str, &'static str)] {
+pub(super) fn quantities(kind: Kind) -> &'static [(&'static str, &'static str)] {
     match kind {
         Kind::Incremental => &[("intensity", "intensity that reaches the limit")],
         _ => &[
@@ -41,6 +41,10 @@ pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
         }
     }
     let x = axis(study, &own);
+    let all = groups.len();
+    if study.kind == Kind::Stripes {
+        groups = few_stripes(groups);
+    }
     let panel = |(configuration, stratum): &(String, String)| {
         let own: Vec<&Distribution> = own
             .iter()
@@ -56,7 +60,15 @@ pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
         colour: PALETTE[index].hex(),
         mark: Mark::Circle,
     };
-    let mut section = titled("quantiles", "The response, record by record");
+    let mut section = titled("quantiles", "The response");
+    if study.kind == Kind::Stripes {
+        section.figures.push(along::figure(study, base)?);
+    }
+    if groups.len() < all {
+        section
+            .text
+            .push("Record by record, two stripes of each floor; the others are in medians.parquet.".into());
+    }
     section.figures.push(Figure {
         id: "quantiles-by-record".into(),
         title: "16, 50 and 84 % of the façades".into(),
@@ -67,6 +79,17 @@ pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
         ..Figure::default()
     });
     Ok(section)
+}
+
+/// Of each floor, the stripes at a quarter of all and in the middle; at the strongest most walls have collapsed.
+fn few_stripes(groups: Vec<(String, String)>) -> Vec<(String, String)> {
+    let floors = groups.chunk_by(|a, b| a.0 == b.0);
+    let few = |floor: &[(String, String)]| {
+        let mut chosen = vec![floor.len() / 4, (floor.len() - 1) / 2];
+        chosen.dedup();
+        chosen.into_iter().map(|k| floor[k].clone()).collect::<Vec<_>>()
+    };
+    floors.flat_map(few).collect()
 }
 
 fn axis(study: &Distributions, own: &[&Distribution]) -> Axis {
