@@ -5,6 +5,7 @@ SUITE ?= inputs/records/emilia7/suite.toml
 
 include make/records.mk
 include make/examples.mk
+include make/peers.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help

@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::measured::Measured;
 use crate::error::{InputError, Result};
@@ -32,7 +32,7 @@ const MOST_MISMATCH: f64 = 0.1;
 const HALVINGS: u32 = 12;
 
 /// How the clocks were brought together.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Alignment {
     /// Time of the record at which the measured time is zero, s.
     pub start_s: f64,

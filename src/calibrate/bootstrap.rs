@@ -12,10 +12,12 @@
 
 use nalgebra::{DMatrix, DVector};
 use rand::{Rng, RngExt};
+use rand_distr::StandardNormal;
 
 use super::draws::Draws;
-use super::gauss_newton::median_size;
+use super::least_sizes::median_size;
 use super::misfit::BLOCKS;
+use super::prior::LnPrior;
 use super::search::Bounds;
 use super::slopes::{Fit, sides, slopes};
 use crate::error::Result;
@@ -83,8 +85,9 @@ impl Bootstrap<'_> {
         let around = fit.fitted(generation + 1, &sides)?;
         let slopes = slopes(best, &sides, &around, &middle, self.bounds).select_columns(self.free);
         let blocks = self.blocks_of(&slopes, &middle.residuals);
+        let prior = self.prior(fit.ln_prior(best), &middle.residuals);
         let replicate = |b: usize| {
-            let step = self.step(&blocks, &mut draws.of(0, b as u32, 0));
+            let step = self.step(&blocks, &prior, &mut draws.of(0, b as u32, 0));
             let mut values = best.to_vec();
             for (step, &v) in step.iter().zip(self.free) {
                 values[v] = self.bounds[v].clamp(best[v] + step * self.bounds[v].width());
@@ -115,10 +118,20 @@ impl Bootstrap<'_> {
         blocks
     }
 
-    /// Newton's step for blocks drawn anew in every test.
-    fn step(&self, blocks: &[Block], rng: &mut impl Rng) -> DVector<f64> {
+    /// What was known beforehand of the variables that move, in the units of the errors' slopes: the cost is the sum of
+    /// their sizes times the prior's factor.
+    fn prior(&self, ln: LnPrior, residuals: &[f64]) -> LnPrior {
+        let cost = residuals.iter().map(|r| r.abs()).sum::<f64>();
+        let free = |x: DVector<f64>| cost * x.select_rows(self.free);
+        LnPrior { slope: free(ln.slope), curvature: free(ln.curvature), scatter: free(ln.scatter) }
+    }
+
+    /// Newton's step for blocks drawn anew in every test, and what was known drawn anew too.
+    fn step(&self, blocks: &[Block], prior: &LnPrior, rng: &mut impl Rng) -> DVector<f64> {
         let p = self.free.len();
-        let (mut slope, mut curvature) = (DVector::zeros(p), DMatrix::zeros(p, p));
+        let known = prior.scatter.map(|sd| sd * rng.sample::<f64, _>(StandardNormal));
+        let mut slope = &prior.slope + known;
+        let mut curvature = DMatrix::from_diagonal(&prior.curvature);
         for test in blocks.chunks(BLOCKS) {
             for _ in 0..BLOCKS {
                 let block = &test[rng.random_range(0..BLOCKS)];
@@ -136,41 +149,11 @@ impl Bootstrap<'_> {
     }
 }
 
-/// Value below which a share of the values lies, linear between order statistics; NaN of no values.
-pub fn quantile(values: &[f64], share: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
-    let place = share * last as f64;
-    let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
-    low + (place - place.floor()) * (high - low)
-}
-
-/// Correlation of two variables over vectors; none where one does not vary.
-pub fn correlation(vectors: &[Vec<f64>], i: usize, j: usize) -> Option<f64> {
-    let n = vectors.len() as f64;
-    let mean = |v: usize| vectors.iter().map(|x| x[v]).sum::<f64>() / n;
-    let (mean_i, mean_j) = (mean(i), mean(j));
-    let sum =
-        |a: usize, ma: f64, b: usize, mb: f64| vectors.iter().map(|x| (x[a] - ma) * (x[b] - mb)).sum::<f64>();
-    let r = sum(i, mean_i, j, mean_j) / (sum(i, mean_i, i, mean_i) * sum(j, mean_j, j, mean_j)).sqrt();
-    r.is_finite().then_some(r)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::calibrate::slopes::Fitted;
-    use rand_distr::{Distribution, StandardNormal};
-
-    #[test]
-    fn analytic_quantiles_and_correlations_of_small_sets() {
-        assert_eq!(quantile(&[3.0, 1.0, 2.0], 0.5), 2.0);
-        assert_eq!(quantile(&[0.0, 10.0], 0.25), 2.5);
-        let line = [[0.0, 5.0, 1.0], [1.0, 3.0, 1.0], [2.0, 1.0, 1.0]].map(|x| x.to_vec());
-        assert_eq!(correlation(&line, 0, 1), Some(-1.0));
-        assert_eq!(correlation(&line, 0, 2), None);
-    }
+    use rand_distr::Distribution;
 
     /// Normal errors about a constant.
     struct Constant(Vec<f64>);

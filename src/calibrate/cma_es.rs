@@ -10,51 +10,15 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rand_distr::{Distribution, StandardNormal};
 
+use super::cma_constants::Constants;
 use super::draws::Draws;
 use super::search::{Bounds, Evaluate, Found, Member};
 use crate::error::Result;
 
 /// Step sizes are kept between these, as shares of the bounds.
-const SIGMA_RANGE: (f64, f64) = (1e-12, 0.5);
+const SIGMA_RANGE: (f64, f64) = (1e-12, 4.0);
 
-/// Constants of the strategy: table 1 of the tutorial.
-#[derive(Debug, Clone)]
-struct Constants {
-    weights: Vec<f64>,
-    mu_eff: f64,
-    c_sigma: f64,
-    d_sigma: f64,
-    c_c: f64,
-    c_1: f64,
-    c_mu: f64,
-    chi_n: f64,
-}
-
-impl Constants {
-    fn new(n: usize, lambda: usize) -> Self {
-        let n = n as f64;
-        let mu = lambda / 2;
-        let raw = (1..=mu).map(|i| (0.5 * (lambda as f64 + 1.0)).ln() - (i as f64).ln()).collect::<Vec<_>>();
-        let sum = raw.iter().sum::<f64>();
-        let weights = raw.iter().map(|w| w / sum).collect::<Vec<_>>();
-        let mu_eff = 1.0 / weights.iter().map(|w| w * w).sum::<f64>();
-        let c_sigma = (mu_eff + 2.0) / (n + mu_eff + 5.0);
-        let c_1 = 2.0 / ((n + 1.3).powi(2) + mu_eff);
-        let c_mu = (1.0 - c_1).min(2.0 * (mu_eff - 2.0 + 1.0 / mu_eff) / ((n + 2.0).powi(2) + mu_eff));
-        Self {
-            d_sigma: 1.0 + 2.0 * (((mu_eff - 1.0) / (n + 1.0)).sqrt() - 1.0).max(0.0) + c_sigma,
-            c_c: (4.0 + mu_eff / n) / (n + 4.0 + 2.0 * mu_eff / n),
-            chi_n: n.sqrt() * (1.0 - 1.0 / (4.0 * n) + 1.0 / (21.0 * n * n)),
-            weights,
-            mu_eff,
-            c_sigma,
-            c_1,
-            c_mu,
-        }
-    }
-}
-
-/// The cloud: it can go on under another cost, such as a longer part of the tests.
+/// The cloud.
 #[derive(Debug, Clone)]
 pub struct CmaEs {
     lambda: usize,
@@ -85,22 +49,15 @@ impl CmaEs {
         }
     }
 
-    /// Widens the cloud to at least this size, keeping its shape.
-    pub fn widen(&mut self, sigma: f64) {
-        let largest = self.covariance.diagonal().max().sqrt();
-        self.sigma = self.sigma.max(sigma / largest);
-        self.p_sigma.fill(0.0);
-        self.p_c.fill(0.0);
+    /// A cloud of another shape: square root of its covariance, in shares of the bounds.
+    #[must_use]
+    pub fn shaped(self, root: &DMatrix<f64>) -> Self {
+        Self { sigma: 1.0, covariance: root * root.transpose(), ..self }
     }
 
     /// Size of the cloud in its widest direction, as a share of the bounds.
     pub fn width(&self) -> f64 {
         self.sigma * self.covariance.clone().symmetric_eigenvalues().max().sqrt()
-    }
-
-    /// The middle of the cloud.
-    pub fn middle(&self, bounds: &[Bounds]) -> Vec<f64> {
-        to_values(&self.mean, bounds)
     }
 
     /// Minimises the cost until the budget is spent, the cloud is narrower than `least_width`, or the cost is zero.

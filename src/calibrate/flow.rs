@@ -5,17 +5,18 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::archive::Archive;
+use super::assembly::Assembly;
 use super::capture;
 use super::draws::Draws;
 use super::experiment::Experiment;
+use super::horizons::stage_names;
 use super::identifiability::{BOOTSTRAP, Judge};
-use super::objective::{Objective, simulate};
+use super::objective::Objective;
 use super::paper_de::PaperDe;
-use super::result::{Calibration, MethodResult, TestResult, Vector};
+use super::result::{Calibration, MethodResult, Vector};
 use super::search::Found;
 use super::similarity::most_similar;
-use super::staged::{Staged, stage_names};
-use super::trial::Simulated;
+use super::staged::Staged;
 use crate::error::Result;
 
 /// Calibrates an experiment; every simulation goes into the archive.
@@ -50,17 +51,19 @@ impl Flow<'_> {
         let paper_simulations = paper.iter().map(|found| found.evaluations).sum::<usize>();
         let adaptive = self.adaptive_in_each_test(&paper)?;
         let budget = paper_simulations / self.fit.len();
-        let joint = self.staged("joint", &self.fit, budget).minimise(&self.middle(), &self.draws("joint"))?;
+        let joint =
+            self.staged("joint", &self.fit, budget).minimise(&[self.middle()], &self.draws("joint"))?;
         let refine = self.staged("refined", &self.fit, self.experiment.settings.refine_vectors);
-        let refined = refine.minimise(&self.elsewhere(), &self.draws("refined"))?;
-        let methods = self.methods(&paper, &adaptive, similar, [&joint, &refined]);
+        let refined = refine.minimise(&[self.elsewhere()], &self.draws("refined"))?;
+        let assembly = Assembly { experiment: self.experiment, fit: &self.fit };
+        let methods = assembly.methods(&paper, &adaptive, similar, [&joint, &refined]);
         let (vector, joint_from) = cheaper(&methods);
-        let vector = self.without_idle(&vector);
+        let vector = assembly.without_idle(&vector);
         let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
         let per_test = self.better_of(&paper, &adaptive);
         let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
         let capture_study = capture::study(self.experiment, self.archive, &self.fit, &vector.values)?;
-        let tests = self.tests(&vector, &per_test);
+        let tests = assembly.tests(&vector, &per_test);
         let base = self.experiment.space.base();
         let seconds = start.elapsed().as_secs_f64();
         let simulations = self.archive.simulated();
@@ -109,7 +112,7 @@ impl Flow<'_> {
     fn adaptive_in_each_test(&self, paper: &[Found]) -> Result<Vec<Found>> {
         let search = |(&test, paper): (&usize, &Found)| {
             let draws = self.draws(&format!("adaptive/{}", self.experiment.tests[test].name));
-            self.staged("adaptive", &[test], paper.evaluations).minimise(&self.middle(), &draws)
+            self.staged("adaptive", &[test], paper.evaluations).minimise(&[self.middle()], &draws)
         };
         self.fit.par_iter().zip(paper).map(search).collect()
     }
@@ -161,78 +164,6 @@ impl Flow<'_> {
         })
     }
 
-    fn methods(
-        &self,
-        paper: &[Found],
-        adaptive: &[Found],
-        similar: Option<(Vec<f64>, f64)>,
-        [joint, refined]: [&Found; 2],
-    ) -> Vec<MethodResult> {
-        let mut methods = Vec::new();
-        for (method, all) in [("paper", paper), ("adaptive", adaptive)] {
-            for (found, &test) in all.iter().zip(&self.fit) {
-                let name = Some(self.experiment.tests[test].name.clone());
-                methods.push(self.method(method, name, found, 1));
-            }
-        }
-        if let Some((values, similarity)) = similar {
-            methods.push(MethodResult {
-                method: "similarity".into(),
-                test: None,
-                best: self.vector(&values),
-                simulations: paper.iter().map(|found| found.evaluations).sum(),
-                generations: paper.iter().map(|found| found.best_costs.len() - 1).max().unwrap_or(0),
-                vectors: Vec::new(),
-                best_costs: Vec::new(),
-                cost_sums: Vec::new(),
-                similarity: Some(similarity),
-            });
-        }
-        methods.push(self.method("joint", None, joint, self.fit.len()));
-        methods.push(self.method("refined", None, refined, self.fit.len()));
-        methods
-    }
-
-    fn method(&self, method: &str, test: Option<String>, found: &Found, runs_each: usize) -> MethodResult {
-        MethodResult {
-            method: method.to_owned(),
-            test,
-            best: self.vector(&found.best().values),
-            simulations: found.evaluations * runs_each,
-            generations: found.best_costs.len() - 1,
-            vectors: found.vectors.clone(),
-            best_costs: found.best_costs.clone(),
-            cost_sums: found.cost_sums.clone(),
-            similarity: None,
-        }
-    }
-
-    /// A vector in every test.
-    fn vector(&self, values: &[f64]) -> Vector {
-        let wme = self.simulated(values).into_iter().map(|s| s.and_then(|s| s.wme)).collect::<Vec<_>>();
-        let sum = self.fit.iter().map(|&k| wme[k]).sum::<Option<f64>>();
-        let mean_wme = sum.map(|sum| sum / self.fit.len() as f64);
-        Vector { values: values.to_vec(), mean_wme, wme }
-    }
-
-    fn simulated(&self, values: &[f64]) -> Vec<Option<Simulated>> {
-        let Experiment { space, tests, .. } = self.experiment;
-        tests.par_iter().map(|test| simulate(space, test, values, self.experiment.accuracy())).collect()
-    }
-
-    /// The vector with the coefficients that never act in it at 1, which changes none of its runs.
-    fn without_idle(&self, vector: &Vector) -> Vector {
-        let acting = Judge::acting(&self.simulated(&vector.values), &self.fit);
-        let parameters = &self.experiment.space.parameters;
-        let law = self.experiment.space.base().restitution.law;
-        let values =
-            vector.values.iter().zip(parameters).map(|(&value, parameter)| match parameter.coefficient() {
-                Some(l) if Judge::idle(l, &acting, law).is_some() => 1.0,
-                _ => value,
-            });
-        self.vector(&values.collect::<Vec<_>>())
-    }
-
     /// Best vector and WME of each test to fit, by the better of the two searches.
     fn better_of(&self, paper: &[Found], adaptive: &[Found]) -> Vec<(Vec<f64>, f64)> {
         let better = |(p, a): (&Found, &Found)| {
@@ -240,30 +171,6 @@ impl Flow<'_> {
             (best.values.clone(), best.cost)
         };
         paper.iter().zip(adaptive).map(better).collect()
-    }
-
-    fn tests(&self, joint: &Vector, per_test: &[(Vec<f64>, f64)]) -> Vec<TestResult> {
-        let before = self.simulated(&self.experiment.space.nominal());
-        let after = self.simulated(&joint.values);
-        let result = |k: usize| {
-            let test = &self.experiment.tests[k];
-            let alone = self.fit.iter().position(|&f| f == k).map(|f| per_test[f].1);
-            TestResult {
-                name: test.name.clone(),
-                purpose: test.purpose.name().to_owned(),
-                wme_before: before[k].as_ref().and_then(|s| s.wme),
-                wme_joint: after[k].as_ref().and_then(|s| s.wme),
-                wme_alone: alone.filter(|wme| wme.is_finite()),
-                transitions: after[k].as_ref().map_or([0; 8], |s| s.transitions),
-                measured_collapse_s: test.collapse_s,
-                simulated_collapse_s: after[k].as_ref().and_then(|s| s.collapse_s),
-                lost_channels: test.target.counted_s().map(|s| s == 0.0),
-                channels_at_rest: test.target.at_rest(),
-                alignment: test.alignment,
-                independent_samples: test.target.independent_samples(),
-            }
-        };
-        (0..self.experiment.tests.len()).map(result).collect()
     }
 }
 

@@ -2,26 +2,36 @@
 //! thousands.
 //!
 //! An iteration takes the errors' slopes by central differences, wide ones at first, which average the roughness that
-//! bursts of impacts leave under `whole`. Errors weigh as in Eq. 8, by their size and not its square, through iteratively
-//! reweighted least squares (P. W. Holland, R. E. Welsch (1977), "Robust regression using iteratively reweighted
-//! least-squares", Communications in Statistics A6). The steps of several dampings (Levenberg and Marquardt) are
-//! simulated, and the cheapest vector is the next.
+//! bursts of impacts leave under `whole`. Errors weigh as in Eq. 8, by their size and not its square ([`Linear`]), and what
+//! was known beforehand counts as in the cost. The steps of several dampings (Levenberg and Marquardt) are simulated, and
+//! the cheapest vector is the next.
 
 use nalgebra::{DMatrix, DVector};
+use rand_distr::{Distribution, StandardNormal};
 
-use super::search::{Bounds, Found, Member};
+use super::draws::Draws;
+use super::least_sizes::Linear;
+use super::search::{Bounds, Found, Member, members};
 use super::slopes::{Fit, Fitted, sides, slopes};
 use crate::error::Result;
 
-/// Dampings, as shares of the largest curvature.
+/// Dampings, as shares of each variable's own curvature.
 const DAMPINGS: [f64; 8] = [1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0];
 /// Half-widths of the central differences, as shares of the bounds: at first, and at least, where roundings and the
 /// roughness of a burst still do not show.
 const DIFFERENCE: [f64; 2] = [0.1, 0.005];
+/// The cloud is as wide as this share of the misfit more allows, and at most so wide, as a share of the bounds.
+const CLOUD_SHARE: f64 = 0.01;
+const CLOUD_WIDEST: f64 = 0.1;
 /// The most a half-width shrinks in an iteration.
 const SHRINK: f64 = 0.2;
-/// An iteration that lowers the cost by less than this share is the last.
+/// An iteration that lowers the cost by less than this share is idle. After it, slopes over wider differences may still
+/// see a way that near ones do not, such as out of a corner of the bounds; after two, the search ends.
 const SETTLED: f64 = 0.01;
+const MOST_IDLE: u32 = 2;
+const ANOTHER_DIFFERENCE: f64 = 0.05;
+/// A misfit of the roundings of the simulations.
+const NOTHING_LEFT: f64 = 1e-9;
 
 /// Where the search stands.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,38 +40,69 @@ pub(super) struct GaussNewton {
     pub values: Vec<f64>,
     /// Half-widths of the next differences, as shares of the bounds.
     differences: Vec<f64>,
+    /// The shape of the valley as the last slopes show it: square root of a covariance, in shares of the bounds.
+    pub cloud: Option<DMatrix<f64>>,
 }
 
 impl GaussNewton {
     /// Begins at a vector.
     pub fn new(values: Vec<f64>) -> Self {
-        Self { differences: vec![DIFFERENCE[0]; values.len()], values }
+        Self { differences: vec![DIFFERENCE[0]; values.len()], values, cloud: None }
     }
 
     /// Begins near the vector sought: differences are small from the start.
     pub fn near(values: Vec<f64>) -> Self {
-        Self { differences: vec![DIFFERENCE[1]; values.len()], values }
+        Self { differences: vec![DIFFERENCE[1]; values.len()], values, cloud: None }
     }
 
-    /// Goes down until the cost has settled, or as long as `budget` vectors allow.
+    /// Goes down from here, or from a cheaper one of `others`, until the cost has settled or `budget` vectors are spent.
     ///
     /// # Errors
     /// What the simulation meets.
-    pub fn minimise(&mut self, bounds: &[Bounds], budget: usize, fit: &mut dyn Fit) -> Result<Found> {
-        let start = fit.fitted(0, std::slice::from_ref(&self.values))?.pop().flatten();
-        let cost = start.as_ref().map_or(f64::INFINITY, |fitted| fitted.cost);
-        let mut found = Found::start(vec![Member { values: self.values.clone(), cost }]);
+    pub fn minimise(
+        &mut self,
+        others: Vec<Vec<f64>>,
+        bounds: &[Bounds],
+        budget: usize,
+        fit: &mut dyn Fit,
+    ) -> Result<Found> {
+        let starts = [vec![self.values.clone()], others].concat();
+        let mut fitted = fit.fitted(0, &starts)?;
+        let cost = |fitted: &Option<Fitted>| fitted.as_ref().map_or(f64::INFINITY, |fitted| fitted.cost);
+        let costs = fitted.iter().map(cost).collect::<Vec<_>>();
+        let cheapest = (1..costs.len()).fold(0, |best, k| if costs[k] < costs[best] { k } else { best });
+        let mut found = Found::start(members(starts, costs));
+        self.values.clone_from(&found.population[cheapest].values);
+        found.population = vec![found.population.swap_remove(cheapest)];
+        let start = fitted.swap_remove(cheapest);
         let vectors_each = 2 * bounds.len() + DAMPINGS.len();
         let mut now = start;
-        let mut iteration = 0;
+        let (mut iteration, mut idle) = (0, 0);
         while let Some(fitted) = now.take().filter(|_| found.evaluations + vectors_each <= budget) {
             let next = self.iterate(1 + 2 * iteration, bounds, &fitted, fit, &mut found)?;
             let settled = next.cost > (1.0 - SETTLED) * fitted.cost;
             // The first iteration's differences may have been too wide to lower anything.
-            now = Some(next).filter(|_| !settled || iteration == 0);
+            idle = if settled && iteration > 0 { idle + 1 } else { 0 };
+            if idle > 0 {
+                self.differences.fill(ANOTHER_DIFFERENCE);
+            }
+            now = Some(next).filter(|next| idle < MOST_IDLE && next.cost > NOTHING_LEFT);
             iteration += 1;
         }
         Ok(found)
+    }
+
+    /// Vectors of the cloud, from near to far; none before the first slopes.
+    pub fn around(&self, count: usize, bounds: &[Bounds], draws: &Draws) -> Vec<Vec<f64>> {
+        let Some(root) = &self.cloud else { return Vec::new() };
+        let vector = |k: usize| {
+            let far = (k + 1) as f64 / count as f64;
+            let normal = |v: usize| StandardNormal.sample(&mut draws.of(0, k as u32, v as u32));
+            let step = far * root * DVector::from_fn(bounds.len(), |v, _| normal(v));
+            let all = self.values.iter().zip(bounds).zip(step.iter());
+            all.map(|((x, b), step): ((&f64, &Bounds), &f64)| b.clamp(x + step * b.width())).collect()
+        };
+        (0..count).map(vector).collect()
     }
 
     /// Moves to the cheapest vector of an iteration, which may be where it stands.
@@ -75,7 +116,10 @@ impl GaussNewton {
     ) -> Result<Fitted> {
         let sides = sides(&self.values, &self.differences, bounds);
         let around = fit.fitted(generation, &sides)?;
-        let steps = steps(&slopes(&self.values, &sides, &around, now, bounds), &now.residuals);
+        let slopes = slopes(&self.values, &sides, &around, now, bounds);
+        let linear = Linear::new(&slopes, &now.residuals, fit.ln_prior(&self.values));
+        let steps = linear.steps(&DAMPINGS);
+        self.cloud = linear.cloud(CLOUD_SHARE, CLOUD_WIDEST);
         let moved = |step: &DVector<f64>| -> Vec<f64> {
             let all = self.values.iter().zip(bounds).zip(step.iter());
             all.map(|((x, b), step)| b.clamp(x + step * b.width())).collect()
@@ -104,34 +148,6 @@ impl GaussNewton {
     }
 }
 
-/// Steps of the dampings, in shares of the bounds.
-fn steps(slopes: &DMatrix<f64>, residuals: &[f64]) -> Vec<DVector<f64>> {
-    let typical = median_size(residuals);
-    // 1 / |r| makes r² weigh like |r|; below the median they weigh as squares, for |r| has a corner at zero.
-    let weight = |r: &f64| 1.0 / r.abs().max(typical);
-    let weights = DVector::from_iterator(residuals.len(), residuals.iter().map(weight));
-    let mut weighted = slopes.clone();
-    weighted.column_iter_mut().for_each(|mut column| column.component_mul_assign(&weights));
-    let curvature = weighted.transpose() * slopes;
-    let slope = weighted.transpose() * DVector::from_column_slice(residuals);
-    let largest = curvature.diagonal().max();
-    let step = |damping: &f64| {
-        let damped = &curvature + DMatrix::from_diagonal_element(slope.len(), slope.len(), damping * largest);
-        damped.cholesky().map(|factors| factors.solve(&-&slope))
-    };
-    DAMPINGS.iter().filter_map(step).collect()
-}
-
-/// Median of the sizes, above zero.
-pub(super) fn median_size(residuals: &[f64]) -> f64 {
-    let mut sizes = residuals.iter().map(|r| r.abs()).collect::<Vec<_>>();
-    if sizes.is_empty() {
-        return f64::MIN_POSITIVE;
-    }
-    let middle = sizes.len() / 2;
-    sizes.select_nth_unstable_by(middle, f64::total_cmp).1.max(f64::MIN_POSITIVE)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -155,7 +171,7 @@ mod tests {
     fn analytic_linear_errors_vanish_in_a_few_iterations() {
         let bounds = [Bounds { lower: 0.0, upper: 1.0 }; 2];
         let mut search = GaussNewton::new(vec![0.9, 0.1]);
-        let found = search.minimise(&bounds, 100, &mut Lines).expect("no simulation");
+        let found = search.minimise(Vec::new(), &bounds, 100, &mut Lines).expect("no simulation");
         // Linear errors take one step; the least damping, 1e-7, leaves some 1e-7 of them.
         assert!(found.best().cost < 1e-4 && found.evaluations <= 61, "{found:?}");
         assert!((search.values[0] - 0.3).abs() < 1e-5 && (search.values[1] - 0.4).abs() < 1e-5);

@@ -1,14 +1,15 @@
 //! What the tests can tell about each parameter, and what they cannot.
 
 use super::archive::{Archive, Row};
-use super::bootstrap::{Bootstrap, correlation, quantile};
+use super::bootstrap::Bootstrap;
 use super::draws::Draws;
 use super::experiment::Experiment;
+use super::horizons::stage_names;
 use super::misfit::BLOCKS;
 use super::objective::{Objective, simulate};
 use super::parameter::Parameter;
 use super::result::{Estimate, Identifiability, ProfilePoint, Vector};
-use super::staged::stage_names;
+use super::statistics::{correlation, quantile};
 use super::trial::Simulated;
 use crate::error::Result;
 use crate::model::ImpactLaw;
@@ -19,6 +20,8 @@ const TELLS_NOTHING: f64 = 0.9;
 const ON_BOUND: f64 = 0.01;
 /// The most that counts of a misfit's share above the noise: beyond, it is the model's and no search's.
 const MOST_ABOVE_NOISE: f64 = 0.1;
+/// Half the 95 % quantile of χ² with one degree of freedom.
+const HALF_CHI_SQUARED: f64 = 1.92;
 /// Stretches between the bounds a profile is made of.
 const PROFILE_POINTS: usize = 15;
 /// C_7 and C_8, whose impacts end in sticking: under `contact` nothing is left to scale.
@@ -72,7 +75,7 @@ impl Judge<'_> {
             vectors: self.bootstrapped(&joint.values, &free)?,
             by_test: self.by_test(per_test),
             costs: self.joint_costs(),
-            not_excluded: self.above_noise(joint.mean_wme),
+            not_excluded: self.above_noise(joint.mean_wme).max(self.by_likelihood()),
         };
         let parameters = space.parameters.iter().enumerate();
         let estimate = |(v, p): (usize, &Parameter)| told.estimate(v, p, joint.values[v], idle(p));
@@ -90,6 +93,13 @@ impl Judge<'_> {
         let noise = self.fit.iter().map(|&k| self.experiment.tests[k].target.noise_wme()).sum::<f64>();
         let noise = noise / self.fit.len() as f64;
         mean_wme.map_or(0.0, |wme| (1.0 - noise / wme).clamp(0.0, MOST_ABOVE_NOISE))
+    }
+
+    /// The share above the lowest misfit at which a profile of the likelihood excludes a value: -ln likelihood is n ln WME,
+    /// as in [`super::prior_factor`].
+    fn by_likelihood(&self) -> f64 {
+        let samples = |&k: &usize| self.experiment.tests[k].target.independent_samples();
+        (HALF_CHI_SQUARED / self.fit.iter().map(samples).sum::<f64>()).min(MOST_ABOVE_NOISE)
     }
 
     /// The vectors of the bootstrap's replicates.

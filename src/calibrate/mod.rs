@@ -5,14 +5,15 @@
 //! Beside it stands a stronger search ([`Staged`]) in each test and in all tests jointly, with no more simulations:
 //! Gauss-Newton in windows that begin anew from the measured motion and reach ever farther, then [`CmaEs`] on the WME
 //! itself. Then comes what the tests can tell: counts of transitions, bootstrap intervals, correlations, and the
-//! dependence on the capture velocity. [`AdaptiveDe`] is a further search for users of the library.
+//! dependence on the capture velocity.
 
-mod adaptive_de;
 mod alignment;
 mod archive;
+mod assembly;
 mod bootstrap;
 mod candidates;
 mod capture;
+mod cma_constants;
 mod cma_es;
 mod comparison;
 mod draws;
@@ -20,7 +21,10 @@ mod experiment;
 mod flow;
 mod gauss_newton;
 mod generations;
+mod horizons;
 mod identifiability;
+mod journal;
+mod least_sizes;
 mod manifest;
 mod measured;
 pub mod misfit;
@@ -28,6 +32,7 @@ mod objective;
 mod output;
 mod paper_de;
 mod parameter;
+mod prior;
 mod reading;
 mod report;
 mod resolver;
@@ -39,14 +44,13 @@ mod slopes;
 mod space;
 mod staged;
 mod start_state;
+mod statistics;
 mod stretches;
 mod trial;
 mod windows;
 
-pub use adaptive_de::AdaptiveDe;
 pub use alignment::Alignment;
 pub use archive::{Address, Archive, Row};
-pub use bootstrap::{correlation, quantile};
 pub use cma_es::CmaEs;
 pub use draws::Draws;
 pub use experiment::Experiment;
@@ -55,10 +59,11 @@ pub use flow::calibrate;
 pub use manifest::KIND;
 pub use measured::Measured;
 pub(crate) use measured::median_step;
-pub use objective::{Objective, prior_factor, simulate};
+pub use objective::{Objective, simulate};
 pub use output::{OutputNames, write_results};
 pub use paper_de::{F, PaperDe, first_generation};
 pub use parameter::{Parameter, Target};
+pub use prior::prior_factor;
 pub use reading::{lower_rotation_rad, upper_rotation_rad};
 pub use report::{print_parameters, summary};
 pub use result::{
@@ -68,4 +73,5 @@ pub use search::{Bounds, Evaluate, Found, Member};
 pub use similarity::{MostSimilar, most_similar, sim};
 pub use space::ParameterSpace;
 pub use staged::Staged;
+pub use statistics::{correlation, quantile};
 pub use trial::{Simulated, Test};

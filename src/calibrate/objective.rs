@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::archive::{Address, Archive, Row};
-use super::parameter::Parameter;
+use super::prior::{LnPrior, ln_prior, prior_factor};
 use super::search::Evaluate;
 use super::slopes::{Fit, Fitted};
 use super::space::ParameterSpace;
@@ -62,8 +62,7 @@ impl Objective<'_> {
         values: &[f64],
         most: f64,
     ) -> (f64, Vec<(Row, bool)>) {
-        let samples = self.chosen.iter().map(|&k| self.tests[k].target.independent_samples()).sum();
-        let factor = prior_factor(&self.space.parameters, values, samples);
+        let factor = prior_factor(&self.space.parameters, values, self.independent_samples());
         let count = self.chosen.len() as f64;
         let most_wme = most * count / factor;
         let (mut sum, mut rows) = (0.0, Vec::new());
@@ -115,9 +114,17 @@ impl Fit for Objective<'_> {
         }
         Ok(all)
     }
+
+    fn ln_prior(&self, values: &[f64]) -> LnPrior {
+        ln_prior(&self.space.parameters, values, self.independent_samples())
+    }
 }
 
 impl Objective<'_> {
+    fn independent_samples(&self) -> f64 {
+        self.chosen.iter().map(|&k| self.tests[k].target.independent_samples()).sum()
+    }
+
     /// The errors of a candidate in every test one after another; none if a run could not be finished.
     fn fit_every_test(&self, generation: u32, index: usize, values: &[f64]) -> (Option<Fitted>, Vec<Row>) {
         let (mut rows, mut residuals, mut sum) = (Vec::new(), Vec::new(), Some(0.0));
@@ -130,8 +137,7 @@ impl Objective<'_> {
             sum = sum.zip(simulated.as_ref().and_then(|s| s.wme)).map(|(sum, wme)| sum + wme);
             rows.push(Row::of(address, values, simulated.as_ref()));
         }
-        let samples = self.chosen.iter().map(|&k| self.tests[k].target.independent_samples()).sum();
-        let factor = prior_factor(&self.space.parameters, values, samples);
+        let factor = prior_factor(&self.space.parameters, values, self.independent_samples());
         (sum.map(|sum| Fitted { cost: sum / self.chosen.len() as f64 * factor, residuals }), rows)
     }
 }
@@ -144,14 +150,4 @@ pub fn simulate(
     accuracy: Accuracy,
 ) -> Option<Simulated> {
     space.wall(values).ok().map(|wall| test.simulate(&wall, accuracy))
-}
-
-/// exp(½ Σ z² / n), z in standard deviations known beforehand, n independent samples.
-///
-/// With absolute errors after Laplace, of unknown size, -ln likelihood is n ln WME; adding ½ Σ z² for the prior and
-/// taking the n-th root gives this factor. One when nothing was known.
-pub fn prior_factor(parameters: &[Parameter], values: &[f64], independent_samples: f64) -> f64 {
-    let z = |(p, x): (&Parameter, &f64)| p.prior_sd.map_or(0.0, |sd| (x - p.nominal) / sd);
-    let squares = parameters.iter().zip(values).map(|pair| z(pair).powi(2)).sum::<f64>();
-    (0.5 * squares / independent_samples).exp()
 }

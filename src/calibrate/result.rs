@@ -1,11 +1,11 @@
 //! What a calibration found, as it is written to `calibration.json`.
 
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::alignment::Alignment;
 
 /// Everything a calibration found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     /// Version of the program.
     pub tool_version: String,
@@ -48,7 +48,7 @@ pub struct Calibration {
 }
 
 /// A vector and its misfits.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Vector {
     /// Values, in the order of `parameters`; coefficients that never act are 1.
     pub values: Vec<f64>,
@@ -59,7 +59,7 @@ pub struct Vector {
 }
 
 /// What a search found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MethodResult {
     /// `paper`, `adaptive`, `similarity`, `joint` or `refined`.
     pub method: String,
@@ -73,16 +73,24 @@ pub struct MethodResult {
     pub generations: usize,
     /// Vectors simulated up to the end of each generation.
     pub vectors: Vec<usize>,
-    /// Lowest cost after each generation.
+    /// Lowest cost after each generation; null while no vector has a finite one.
+    #[serde(deserialize_with = "null_as_infinity")]
     pub best_costs: Vec<f64>,
     /// Sum of costs after each generation; null while a vector of the population has no finite cost (Fig. 6).
+    #[serde(deserialize_with = "null_as_infinity")]
     pub cost_sums: Vec<f64>,
     /// Eq. 10, for the similarity.
     pub similarity: Option<f64>,
 }
 
+/// JSON has no infinity: costs that are not finite are written as null.
+fn null_as_infinity<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+    let costs = Vec::<Option<f64>>::deserialize(deserializer)?;
+    Ok(costs.into_iter().map(|cost| cost.unwrap_or(f64::INFINITY)).collect())
+}
+
 /// Whether the tests tell a parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Identifiability {
     /// The interval is narrower than the bounds.
@@ -108,7 +116,7 @@ impl Identifiability {
 }
 
 /// A point of a profile.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ProfilePoint {
     /// From this value of the parameter ...
     pub from: f64,
@@ -119,7 +127,7 @@ pub struct ProfilePoint {
 }
 
 /// What the tests tell about a parameter.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// Its name.
     pub name: String,
@@ -145,7 +153,7 @@ pub struct Estimate {
 }
 
 /// A test under the joint vector.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TestResult {
     /// Its name.
     pub name: String,
@@ -174,7 +182,7 @@ pub struct TestResult {
 }
 
 /// The joint search under one law and capture velocity.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CaptureRow {
     /// Impact law.
     pub law: String,

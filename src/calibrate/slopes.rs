@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::prior::LnPrior;
 use super::search::Bounds;
 use crate::error::Result;
 
@@ -15,6 +16,11 @@ pub(super) struct Fitted {
 /// Simulates vectors with their errors; none for one whose runs could not be finished.
 pub(super) trait Fit {
     fn fitted(&mut self, generation: u32, candidates: &[Vec<f64>]) -> Result<Vec<Option<Fitted>>>;
+
+    /// How the logarithm of the cost grows with what was known beforehand, about a vector.
+    fn ln_prior(&self, values: &[f64]) -> LnPrior {
+        LnPrior::flat(values.len())
+    }
 }
 
 /// Vectors below and above in each variable by turns; differences are shares of the bounds.

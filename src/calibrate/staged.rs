@@ -8,43 +8,33 @@
 //! first tenth, quarter, half and three quarters of each test's motion, which start from rest and are not led astray by
 //! noise. CMA-ES goes on about the better end.
 
+use nalgebra::DMatrix;
+
 use super::archive::Archive;
 use super::cma_es::CmaEs;
 use super::draws::Draws;
 use super::experiment::Experiment;
 use super::gauss_newton::GaussNewton;
+use super::horizons::{BEGINNING, Horizon, MOST_BEGINNINGS, ROUTES, name};
 use super::objective::Objective;
 use super::search::{Found, Member};
 use super::space::ParameterSpace;
 use super::trial::Test;
 use crate::error::Result;
 
-/// How much of the tests is simulated in one go.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Horizon {
-    /// Windows from each so many-th stretch without impacts.
-    Windows(usize),
-    /// The first share of the motion.
-    First(f64),
-    /// The free-running test: Eq. 8.
-    Whole,
-}
-
-/// Where both routes begin.
-const BEGINNING: Horizon = Horizon::Windows(1);
-/// How each route leads from there to the whole.
-const ROUTES: [(&str, &[Horizon]); 2] = [
-    ("by windows", &[Horizon::Windows(3), Horizon::Windows(9)]),
-    ("from rest", &[Horizon::First(0.1), Horizon::First(0.25), Horizon::First(0.5), Horizon::First(0.75)]),
-];
-
-/// The most of the budget that the beginning and each route take; CMA-ES has the rest.
+/// The most of the budget that all beginnings take; CMA-ES has the rest.
+const DESCENTS_SHARE: f64 = 0.75;
+/// A misfit above that of the noise by less than this share is the noise's.
+const NEAR_NOISE: f64 = 1.01;
+/// The most of the budget that the windows of one beginning and each route take.
 const BEGINNING_SHARE: f64 = 0.25;
 const ROUTE_SHARE: f64 = 0.25;
-/// Most vectors of a stage: some five iterations with eight variables.
-const STAGE_VECTORS: usize = 125;
+/// Most vectors of a stage: some ten iterations with eight variables.
+const STAGE_VECTORS: usize = 250;
+/// Vectors tried near where the stage before ended.
+const NEAR_VECTORS: usize = 16;
 
-/// Size of the last cloud, as a share of the bounds: on twins with 1 % noise, what Gauss-Newton leaves.
+/// Size of the last cloud where no slopes tell its shape, as a share of the bounds.
 const SIGMA: f64 = 0.02;
 /// Width of the cloud at which it has told what it can, as a share of the bounds: hundred times below the accuracy sought.
 const LEAST_WIDTH: f64 = 1e-4;
@@ -72,76 +62,132 @@ pub struct Staged<'a> {
     pub budget: usize,
 }
 
-/// Names under which the simulations of a search's stages are kept, in their order; the last, CMA-ES over the
-/// free-running tests, has the search's own name.
-pub fn stage_names(method: &str) -> Vec<String> {
-    let of_route = |(route, horizons): &(&str, &[Horizon])| {
-        let stages = horizons.iter().chain([&Horizon::Whole]);
-        stages.map(|horizon| name(method, route, *horizon)).collect::<Vec<_>>()
-    };
-    let beginning = name(method, "", BEGINNING);
-    let stages = ROUTES.iter().flat_map(of_route);
-    std::iter::once(beginning).chain(stages).chain([method.to_owned()]).collect()
-}
-
-fn name(method: &str, route: &str, horizon: Horizon) -> String {
-    match horizon {
-        Horizon::Windows(reach) => format!("{method} windows {reach}"),
-        Horizon::First(share) => format!("{method} first {}%", 100.0 * share),
-        Horizon::Whole => format!("{method} {route}"),
-    }
+/// Where a descent ends.
+#[derive(Debug, Clone)]
+struct End {
+    values: Vec<f64>,
+    /// In the free-running tests.
+    cost: f64,
+    /// The shape of the valley over the last horizon before them, where it is still smooth.
+    cloud: Option<DMatrix<f64>>,
 }
 
 impl Staged<'_> {
-    /// Searches from a vector on; what is found is the best of the free-running tests, with all evaluations counted.
+    /// Searches from these vectors on, and then from drawn ones, until one leads to what the noise alone would cost, or
+    /// the budget is spent; what is found is the best of the free-running tests, with all evaluations counted.
     ///
     /// # Errors
     /// [`crate::Error::Io`] if a simulation cannot be kept.
-    pub fn minimise(&self, from: &[f64], draws: &Draws) -> Result<Found> {
-        let budget = |share: f64| (share * self.budget as f64) as usize;
-        let mut beginning = GaussNewton::new(from.to_vec());
-        let mut spent = self.stage("", BEGINNING, &mut beginning, budget(BEGINNING_SHARE))?;
-        let [by_windows, from_rest] = ROUTES
-            .map(|(route, horizons)| self.route(route, horizons, beginning.clone(), budget(ROUTE_SHARE)));
-        let (mut best, other) = (by_windows?, from_rest?);
-        spent += best.evaluations + other.evaluations;
-        if other.best().cost < best.best().cost {
-            best = other;
+    pub fn minimise(&self, beginnings: &[Vec<f64>], draws: &Draws) -> Result<Found> {
+        let descents = self.share(DESCENTS_SHARE);
+        let first = beginnings.first().cloned().unwrap_or_else(|| self.drawn(0, draws));
+        let (mut best, mut spent) = self.descent(0, first, descents, draws)?;
+        for number in 1..MOST_BEGINNINGS {
+            let left = descents.saturating_sub(spent);
+            if best.cost <= self.enough() || left < self.least_descent() {
+                break;
+            }
+            let from = beginnings.get(number).cloned().unwrap_or_else(|| self.drawn(number, draws));
+            let (end, vectors) = self.descent(number, from, left, draws)?;
+            spent += vectors;
+            best = if end.cost < best.cost { end } else { best };
         }
-        let Member { values, cost } = best.best().clone();
         let left = self.budget.saturating_sub(spent);
-        let mut found = self
-            .cloud(&values, left, cost, draws)?
-            .unwrap_or_else(|| Found::start(vec![Member { values, cost }]));
+        let End { values, cost, .. } = &best;
+        let alone = || Found::start(vec![Member { values: values.clone(), cost: *cost }]);
+        let mut found = self.cloud(&best, left, draws)?.unwrap_or_else(alone);
         found.evaluations += spent;
         found.vectors.iter_mut().for_each(|vectors| *vectors += spent);
         Ok(found)
     }
 
-    /// From stage to stage, to what the free-running tests give, all evaluations counted.
-    fn route(&self, route: &str, horizons: &[Horizon], mut at: GaussNewton, budget: usize) -> Result<Found> {
+    fn share(&self, share: f64) -> usize {
+        (share * self.budget as f64) as usize
+    }
+
+    /// A vector anywhere between the bounds.
+    fn drawn(&self, number: usize, draws: &Draws) -> Vec<f64> {
+        let draws = draws.part("beginnings");
+        let bounds = self.space.bounds();
+        bounds.iter().enumerate().map(|(v, b)| b.at(draws.uniform(number as u32, 0, v as u32))).collect()
+    }
+
+    /// A cost below which no other beginning can be told from this one.
+    fn enough(&self) -> f64 {
+        let noise = self.chosen.iter().map(|&k| self.experiment.tests[k].target.noise_wme()).sum::<f64>();
+        GOOD_ENOUGH + NEAR_NOISE * noise / self.chosen.len() as f64
+    }
+
+    /// One iteration of every stage.
+    fn least_descent(&self) -> usize {
+        8 * (2 * self.space.parameters.len() + 8)
+    }
+
+    /// From a vector by both routes; the better end, and the vectors of all.
+    fn descent(&self, number: usize, from: Vec<f64>, budget: usize, draws: &Draws) -> Result<(End, usize)> {
+        let mut beginning = GaussNewton::new(from);
+        let own = budget.min(self.share(BEGINNING_SHARE));
+        let spent =
+            self.stage(&name(self.method, number, "", BEGINNING), BEGINNING, &mut beginning, own, draws)?;
+        let each = (budget.saturating_sub(spent) / 2).min(self.share(ROUTE_SHARE));
+        let [by_windows, from_rest] = ROUTES
+            .map(|(route, horizons)| self.route(number, route, horizons, beginning.clone(), each, draws));
+        let ((by_windows, by_windows_spent), (from_rest, from_rest_spent)) = (by_windows?, from_rest?);
+        let end = if from_rest.cost < by_windows.cost { from_rest } else { by_windows };
+        Ok((end, spent + by_windows_spent + from_rest_spent))
+    }
+
+    /// From stage to stage, to what the free-running tests give, and the vectors of all.
+    fn route(
+        &self,
+        number: usize,
+        route: &str,
+        horizons: &[Horizon],
+        mut at: GaussNewton,
+        budget: usize,
+        draws: &Draws,
+    ) -> Result<(End, usize)> {
         let mut spent = 0;
         for horizon in horizons {
-            spent += self.stage(route, *horizon, &mut at, budget.saturating_sub(spent))?;
+            let method = name(self.method, number, route, *horizon);
+            spent += self.stage(&method, *horizon, &mut at, budget.saturating_sub(spent), draws)?;
         }
-        let method = name(self.method, route, Horizon::Whole);
-        let mut found =
-            self.descend(&method, &self.experiment.tests, &mut at, budget.saturating_sub(spent))?;
-        found.evaluations += spent;
-        Ok(found)
+        let cloud = at.cloud.clone();
+        let method = name(self.method, number, route, Horizon::Whole);
+        let left = budget.saturating_sub(spent);
+        let found = self.descend(&method, &self.experiment.tests, &mut at, left, draws)?;
+        let Member { values, cost } = found.best().clone();
+        Ok((End { values, cost, cloud }, spent + found.evaluations))
     }
 
     /// One stage before the whole; gives the vectors it took, none where windows would reach over the whole of every
     /// test.
-    fn stage(&self, route: &str, horizon: Horizon, at: &mut GaussNewton, budget: usize) -> Result<usize> {
+    fn stage(
+        &self,
+        method: &str,
+        horizon: Horizon,
+        at: &mut GaussNewton,
+        budget: usize,
+        draws: &Draws,
+    ) -> Result<usize> {
         let Some(tests) = self.tests(horizon, &at.values) else { return Ok(0) };
-        let found = self.descend(&name(self.method, route, horizon), &tests, at, budget)?;
-        Ok(found.evaluations)
+        Ok(self.descend(method, &tests, at, budget, draws)?.evaluations)
     }
 
-    fn descend(&self, method: &str, tests: &[Test], at: &mut GaussNewton, budget: usize) -> Result<Found> {
+    /// Gauss-Newton from where the last stage ended, or from a vector near it that is cheaper in this one: where its
+    /// motion bends into another valley, slopes do not lead back.
+    fn descend(
+        &self,
+        method: &str,
+        tests: &[Test],
+        at: &mut GaussNewton,
+        budget: usize,
+        draws: &Draws,
+    ) -> Result<Found> {
         let mut objective = self.objective(method, tests);
-        at.minimise(&self.space.bounds(), budget.min(STAGE_VECTORS), &mut objective)
+        let bounds = self.space.bounds();
+        let others = at.around(NEAR_VECTORS.min(budget / 2), &bounds, &draws.part(method));
+        at.minimise(others, &bounds, budget.min(STAGE_VECTORS), &mut objective)
     }
 
     /// The tests over a horizon; between impacts the wall moves as the vector makes it, the best known.
@@ -161,15 +207,19 @@ impl Staged<'_> {
         (!no_windows).then_some(tests)
     }
 
-    /// CMA-ES about a vector; none where nothing is left to find, or to find it with.
-    fn cloud(&self, about: &[f64], budget: usize, cost: f64, draws: &Draws) -> Result<Option<Found>> {
+    /// CMA-ES about the best end; none where nothing is left to find, or to find it with.
+    fn cloud(&self, about: &End, budget: usize, draws: &Draws) -> Result<Option<Found>> {
         let bounds = self.space.bounds();
         let lambda = (VECTORS_PER_VARIABLE * bounds.len()).max(LEAST_VECTORS);
-        if cost <= GOOD_ENOUGH || budget <= lambda {
+        if about.cost <= GOOD_ENOUGH || budget <= lambda {
             return Ok(None);
         }
         let mut objective = self.objective(self.method, &self.experiment.tests);
-        let mut cloud = CmaEs::new(about, &bounds, SIGMA, lambda);
+        let round = CmaEs::new(&about.values, &bounds, SIGMA, lambda);
+        let mut cloud = match &about.cloud {
+            Some(root) => round.shaped(root),
+            None => round,
+        };
         cloud.minimise(&bounds, budget, LEAST_WIDTH, draws, &mut objective).map(Some)
     }
 

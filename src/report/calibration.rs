@@ -3,23 +3,23 @@
 mod convergence;
 mod histories;
 mod parameters;
-mod stored;
 mod tests;
 
 use std::path::Path;
 
 use super::page::{Link, Number, Page};
-use super::provenance::Note;
+use super::provenance::{Note, read_json};
+use crate::calibrate::{Calibration, Identifiability};
 use crate::error::Result;
 use histories::Again;
-use stored::Stored;
 
 /// The page of the calibration in a folder.
 ///
 /// # Errors
 /// Input errors for files that are none of a calibration; whatever drawing meets.
 pub fn page(folder: &Path) -> Result<Page> {
-    let stored = Stored::read(&folder.join("calibration.json"))?;
+    let stored: Calibration =
+        read_json(&folder.join("calibration.json"), "results as `mrbd calibrate` writes them, finished")?;
     let note = Note::read(&folder.join("manifest.json"))?;
     let again = Again::of(folder, &note, &stored);
     let sections = vec![
@@ -47,10 +47,10 @@ pub fn page(folder: &Path) -> Result<Page> {
     })
 }
 
-fn lead(stored: &Stored) -> String {
+fn lead(stored: &Calibration) -> String {
     let fit = stored.tests.iter().filter(|test| test.purpose == "fit").count();
     let held = stored.tests.len() - fit;
-    let told = stored.parameters.iter().filter(|p| p.identifiability == "identified").count();
+    let told = stored.parameters.iter().filter(|p| p.identifiability == Identifiability::Identified).count();
     format!(
         "{} numbers of a wall sought in {fit} shaking-table test{}, {held} held out; {told} of them are told by the tests.",
         stored.parameters.len(),
@@ -69,7 +69,7 @@ fn wme(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| format!("{value:.3}"))
 }
 
-fn numbers(stored: &Stored) -> Vec<Number> {
+fn numbers(stored: &Calibration) -> Vec<Number> {
     let of = |purpose: &str, joint: bool| {
         let tests = stored.tests.iter().filter(|test| test.purpose == purpose);
         mean(tests.map(|test| if joint { test.wme_joint } else { test.wme_before }))
@@ -86,7 +86,7 @@ fn numbers(stored: &Stored) -> Vec<Number> {
     numbers
 }
 
-fn notes(stored: &Stored) -> Vec<String> {
+fn notes(stored: &Calibration) -> Vec<String> {
     let mut notes = vec![format!(
         "Assumed: impact law “{}”, capture velocity {:e} rad/s. WME: mean absolute error of both rotations, each over its mean absolute measured rotation (Eq. 8).",
         stored.law, stored.capture_velocity_rad_s
@@ -99,7 +99,7 @@ fn notes(stored: &Stored) -> Vec<String> {
     notes
 }
 
-fn origin(stored: &Stored, note: &Note) -> Vec<(String, String)> {
+fn origin(stored: &Calibration, note: &Note) -> Vec<(String, String)> {
     let pair = |name: &str, value: String| (name.to_owned(), value);
     let mut pairs = note.pairs();
     pairs.extend([

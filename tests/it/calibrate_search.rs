@@ -1,6 +1,6 @@
 //! The searches on functions with known minima.
 
-use mrbd::calibrate::{AdaptiveDe, Bounds, CmaEs, Draws, Evaluate, F, PaperDe, first_generation};
+use mrbd::calibrate::{Bounds, CmaEs, Draws, Evaluate, F, PaperDe, first_generation};
 use mrbd::error::Result;
 
 const N: usize = 8;
@@ -56,10 +56,6 @@ fn analytic_every_search_finds_the_minimum_of_a_sphere() {
     let found = paper().minimise(&unit(), &draws, &mut Function(sphere)).expect("no simulation");
     // 8400 evaluations of differential evolution with F = 0.9, which contracts slowly: distances below 0.01.
     assert!(found.best().cost < 1e-4, "{}", found.best().cost);
-    let adaptive = AdaptiveDe { population: 48, budget: 8000, good_enough: 0.0 };
-    let found = adaptive.minimise(&unit(), &[], &draws, &mut Function(sphere)).expect("no simulation");
-    assert!(found.best().cost < 1e-10, "{}", found.best().cost);
-    assert_eq!(found.evaluations, 8000);
     let mut cloud = CmaEs::new(&[0.9; N], &unit(), 0.3, 12);
     let found = cloud.minimise(&unit(), 3000, 0.0, &draws, &mut Function(sphere)).expect("no simulation");
     // Linear convergence by about a tenth every 10 n evaluations.

@@ -1,44 +1,28 @@
-"""Simulations scipy's differential_evolution needs for the misfit that `mrbd calibrate` reaches.
+"""Simulations scipy's differential_evolution needs for the misfit that `mrbd calibrate` reaches: `make bench-calibration`.
 
-Run by hand: python -m venv /tmp/venv && /tmp/venv/bin/pip install scipy
-             /tmp/venv/bin/python tests/python/compare_scipy_de.py target/release/mrbd EXPERIMENT.toml [SEED ...]
+Usage: compare_scipy_de.py MRBD [SEED ...]
 
-For each seed mrbd calibrates the experiment with its joint search; then scipy minimises the same mean WME, evaluated
-by `mrbd calibrate --evaluate`, with its default settings (best1bin, population 15 times the variables, no polish),
-and stops as soon as it reaches the misfit of mrbd's, or after three times as many vectors.
-
-Measured on a six-test twin (contact law, 6 s of three sines at 70 to 120 %, no noise; vectors, each six simulations):
-
-    seed  search    WME      mrbd   scipy
-    1     joint     0.0106   1277   1441
-    1     refined   0.00172  2986   3872
-    2     joint     0.0186   1277    932
-    2     refined   0.00221  2986   4080
-
-The short joint search of seed 2 is the one case in which scipy needed fewer.
+The experiments are six-test twins as `noisy_twins.py` makes them, under both impact laws, without noise and with 1 %.
+For each seed mrbd calibrates with its joint searches; then scipy minimises the same mean WME, evaluated by
+`mrbd calibrate --evaluate`, with its default settings (best1bin, population 15 times the variables, no polish), and stops
+as soon as it reaches the misfit of mrbd's, or after three times as many vectors. A vector is six simulations.
 """
 
 import json
 import subprocess
 import sys
 import tempfile
+from pathlib import Path
 
 from scipy.optimize import differential_evolution
+
+from noisy_twins import write_twin
 
 LIMIT = 3.0
 
 
 class Reached(Exception):
     pass
-
-
-def first_vectors_at(costs_by_generation, target, vectors):
-    """Vectors after which a history of best costs first reaches a target."""
-    per_generation = vectors / max(1, len(costs_by_generation))
-    for generation, cost in enumerate(costs_by_generation):
-        if cost <= target:
-            return round((generation + 1) * per_generation)
-    return vectors
 
 
 def calibrate(mrbd, experiment, seed):
@@ -68,7 +52,7 @@ def scipy_vectors(mrbd, experiment, seed, bounds, target, limit):
         return cost
 
     try:
-        differential_evolution(mean_wme, bounds, seed=seed, polish=False, maxiter=100000, tol=0)
+        differential_evolution(mean_wme, bounds, rng=seed, polish=False, maxiter=100000, tol=0)
     except Reached:
         pass
     process.stdin.close()
@@ -76,21 +60,28 @@ def scipy_vectors(mrbd, experiment, seed, bounds, target, limit):
     return seen
 
 
+def compare(mrbd, experiment, title, seed):
+    c = calibrate(mrbd, experiment, seed)
+    bounds = [(p["lower_bound"], p["upper_bound"]) for p in c["parameters"]]
+    tests = sum(t["purpose"] == "fit" for t in c["tests"])
+    for method in ("joint", "refined"):
+        m = next(m for m in c["methods"] if m["method"] == method)
+        vectors = m["simulations"] // tests
+        target = m["best"]["mean_wme"]
+        scipy = scipy_vectors(mrbd, experiment, seed, bounds, target, LIMIT * vectors)
+        needed = scipy["vectors"] if scipy["best"] <= target else f"> {scipy['vectors']} (at {scipy['best']:.3g})"
+        print(f"{title:<22}{seed:>4}  {method:<9}{target:>10.3g}{vectors:>7}  {needed}", flush=True)
+
+
 def main():
-    mrbd, experiment, *seeds = sys.argv[1:]
-    for seed in [int(s) for s in seeds] or [1, 2, 3]:
-        c = calibrate(mrbd, experiment, seed)
-        bounds = [(p["lower_bound"], p["upper_bound"]) for p in c["parameters"]]
-        tests = sum(t["purpose"] == "fit" for t in c["tests"])
-        for method in ("joint", "refined"):
-            m = next(m for m in c["methods"] if m["method"] == method)
-            vectors = m["simulations"] // tests
-            target = m["best"]["mean_wme"]
-            scipy = scipy_vectors(mrbd, experiment, seed, bounds, target, LIMIT * vectors)
-            reached = scipy["best"] <= target
-            print(f"seed {seed} {method}: WME {target:.3g} after {vectors} vectors; scipy: "
-                  f"{scipy['vectors']} vectors, {'reached' if reached else 'not reached, best %.3g' % scipy['best']}",
-                  flush=True)
+    mrbd, *seeds = sys.argv[1:]
+    print(f"{'twin':<22}{'seed':>4}  {'search':<9}{'mean WME':>10}{'mrbd':>7}  scipy")
+    for law in ("contact", "whole"):
+        for noise in (0.0, 0.01):
+            for seed in [int(s) for s in seeds] or [1, 2, 3]:
+                with tempfile.TemporaryDirectory() as folder:
+                    write_twin(mrbd, Path(folder), law, noise, seed)
+                    compare(mrbd, folder + "/experiment.toml", f"{law}, noise {noise:g}", seed)
 
 
 if __name__ == "__main__":

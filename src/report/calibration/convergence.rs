@@ -4,15 +4,15 @@ use super::super::axis::Axis;
 use super::super::colours::of_curve;
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Key, Link, Section, Table};
-use super::stored::{Stored, StoredMethod};
 use super::wme;
+use crate::calibrate::{Calibration, MethodResult};
 use crate::error::Result;
 
 /// The section.
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(stored: &Stored) -> Result<Section> {
+pub fn section(stored: &Calibration) -> Result<Section> {
     let mut names: Vec<&str> = searches(stored).map(|m| m.method.as_str()).collect();
     names.dedup();
     let mut seen: Vec<&str> = Vec::new();
@@ -52,20 +52,21 @@ pub fn section(stored: &Stored) -> Result<Section> {
 }
 
 /// Searches that went through generations.
-fn searches(stored: &Stored) -> impl Iterator<Item = &StoredMethod> {
-    stored.methods.iter().filter(|m| m.best_costs.iter().flatten().count() > 1)
+fn searches(stored: &Calibration) -> impl Iterator<Item = &MethodResult> {
+    stored.methods.iter().filter(|m| m.best_costs.iter().filter(|cost| cost.is_finite()).count() > 1)
 }
 
-fn panel(stored: &Stored, names: &[&str], test: Option<&str>) -> Result<String> {
-    let own: Vec<&StoredMethod> = searches(stored).filter(|m| m.test.as_deref() == test).collect();
-    let costs = || own.iter().flat_map(|m| &m.best_costs).flatten().copied();
+fn panel(stored: &Calibration, names: &[&str], test: Option<&str>) -> Result<String> {
+    let own: Vec<&MethodResult> = searches(stored).filter(|m| m.test.as_deref() == test).collect();
+    let costs = || own.iter().flat_map(|m| &m.best_costs).copied().filter(|cost| cost.is_finite());
     let longest = own.iter().map(|m| m.best_costs.len()).max().unwrap_or(1);
     let mut layers = Vec::new();
     for method in &own {
         let index = names.iter().position(|name| *name == method.method).unwrap_or(0);
         let (colour, mark) = of_curve(index);
-        let numbered = method.best_costs.iter().zip((0..).map(f64::from));
-        let points: Vec<(f64, f64)> = numbered.map(|(cost, g)| (g, cost.unwrap_or(f64::NAN))).collect();
+        let numbered = (0..).map(f64::from).zip(&method.best_costs);
+        let finite = |cost: f64| if cost.is_finite() { cost } else { f64::NAN };
+        let points: Vec<(f64, f64)> = numbered.map(|(g, cost)| (g, finite(*cost))).collect();
         let tip = |&(x, y): &(f64, f64)| Dot {
             x,
             y,
@@ -85,10 +86,10 @@ fn panel(stored: &Stored, names: &[&str], test: Option<&str>) -> Result<String> 
     .svg()
 }
 
-fn table(stored: &Stored) -> Table {
-    let row = |m: &StoredMethod| {
+fn table(stored: &Calibration) -> Table {
+    let row = |m: &MethodResult| {
         let lowest = match m.test {
-            Some(_) => m.best_costs.last().copied().flatten(),
+            Some(_) => m.best_costs.last().copied().filter(|cost| cost.is_finite()),
             None => m.best.mean_wme,
         };
         let test = m.test.clone().unwrap_or_else(|| "all, mean".to_owned());

@@ -7,9 +7,8 @@ use super::super::colours::{Colour, Mark, PALETTE};
 use super::super::graph::{Format, Graph, Layer};
 use super::super::page::{Figure, Key, Link, Section};
 use super::super::provenance::{Note, found_again};
-use super::stored::{Stored, StoredTest};
 use super::wme;
-use crate::calibrate::{Experiment, Measured};
+use crate::calibrate::{Calibration, Experiment, Measured, TestResult};
 use crate::error::Result;
 use crate::model::Wall;
 use crate::simulate::History;
@@ -27,7 +26,7 @@ pub struct Again {
 
 impl Again {
     /// The experiment, if its files are still where they were and still the same.
-    pub fn of(folder: &Path, note: &Note, stored: &Stored) -> Option<Self> {
+    pub fn of(folder: &Path, note: &Note, stored: &Calibration) -> Option<Self> {
         let path = found_again(folder, &note.inputs, "experiment")?;
         let experiment = Experiment::load(&path, Some(stored.seed)).ok()?;
         if experiment.request != stored.request_sha256 {
@@ -42,7 +41,7 @@ impl Again {
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(again: Option<&Again>, stored: &Stored) -> Result<Section> {
+pub fn section(again: Option<&Again>, stored: &Calibration) -> Result<Section> {
     let mut section =
         Section { id: "histories".into(), title: "Measured against simulated".into(), ..Section::default() };
     let Some(again) = again else {
@@ -60,7 +59,7 @@ pub fn section(again: Option<&Again>, stored: &Stored) -> Result<Section> {
     Ok(section)
 }
 
-fn figure(again: &Again, index: usize, test: &StoredTest) -> Result<Figure> {
+fn figure(again: &Again, index: usize, test: &TestResult) -> Result<Figure> {
     let simulated = simulated(again, index);
     let alpha = again.wall.alpha_i_rad();
     let measured = &again.experiment.tests[index].measured;

@@ -4,14 +4,14 @@ use super::super::axis::Axis;
 use super::super::colours::{Mark, PALETTE};
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Key, Link, Section, Table};
-use super::stored::{Stored, StoredParameter};
+use crate::calibrate::{Calibration, Estimate, Identifiability};
 use crate::error::Result;
 
 /// The section.
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(stored: &Stored) -> Result<Section> {
+pub fn section(stored: &Calibration) -> Result<Section> {
     let mut figures = vec![intervals(stored)?];
     figures.extend(profiles(stored)?);
     Ok(Section {
@@ -28,11 +28,11 @@ pub fn section(stored: &Stored) -> Result<Section> {
 }
 
 /// Parameters have different units, so they are shown as shares of what was searched.
-fn share(p: &StoredParameter, value: f64) -> f64 {
+fn share(p: &Estimate, value: f64) -> f64 {
     (value - p.lower_bound) / (p.upper_bound - p.lower_bound)
 }
 
-fn intervals(stored: &Stored) -> Result<Figure> {
+fn intervals(stored: &Calibration) -> Result<Figure> {
     let rows = || stored.parameters.iter().zip((0..).map(f64::from));
     let names = stored.parameters.iter().map(|p| p.name.clone()).collect();
     let spans = rows().filter_map(|(p, row)| p.interval_95.map(|i| i.map(|end| (share(p, end), row))));
@@ -94,7 +94,7 @@ fn intervals(stored: &Stored) -> Result<Figure> {
 }
 
 /// The lowest misfit met along each parameter that was told; none if no parameter was.
-fn profiles(stored: &Stored) -> Result<Option<Figure>> {
+fn profiles(stored: &Calibration) -> Result<Option<Figure>> {
     let told = stored.parameters.iter().filter(|p| p.interval_95.is_some() && p.profile.len() > 1);
     let panels = told.map(profile).collect::<Result<Vec<_>>>()?;
     let figure = Figure {
@@ -108,7 +108,7 @@ fn profiles(stored: &Stored) -> Result<Option<Figure>> {
     Ok((!figure.panels.is_empty()).then_some(figure))
 }
 
-fn profile(p: &StoredParameter) -> Result<String> {
+fn profile(p: &Estimate) -> Result<String> {
     let middle = |from: f64, to: f64| (from + to) / 2.0;
     let points: Vec<(f64, f64)> =
         p.profile.iter().map(|s| (middle(s.from, s.to), s.mean_wme.unwrap_or(f64::NAN))).collect();
@@ -143,15 +143,13 @@ fn profile(p: &StoredParameter) -> Result<String> {
     .svg()
 }
 
-fn table(stored: &Stored) -> Table {
-    let row = |p: &StoredParameter| {
+fn table(stored: &Calibration) -> Table {
+    let row = |p: &Estimate| {
         let interval = p.interval_95.map_or("–".to_owned(), |[low, high]| format!("{low:.4} to {high:.4}"));
-        let told = match p.identifiability.as_str() {
-            "identified" => "told by the tests",
-            "not_told_by_the_tests" => "not told by the tests",
-            "never_acts" => "never acts, left at 1",
-            "nothing_to_scale" => "nothing to scale, left at 1",
-            other => other,
+        let told = match p.identifiability {
+            Identifiability::Identified => "told by the tests",
+            Identifiability::NotToldByTheTests => "not told by the tests",
+            left => left.words(),
         };
         let told = if p.on_bound { format!("{told}; on its bound") } else { told.to_owned() };
         let by_test: Vec<String> =

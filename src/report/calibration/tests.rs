@@ -1,11 +1,11 @@
 //! The tests: misfits before and after, impacts by change of pattern, and what law and capture velocity do.
 
 use super::super::page::{Section, Table};
-use super::stored::{Stored, StoredTest};
 use super::wme;
+use crate::calibrate::{Calibration, TestResult};
 
 /// The section.
-pub fn section(stored: &Stored) -> Section {
+pub fn section(stored: &Calibration) -> Section {
     let mut tables = vec![misfits(stored), transitions(stored)];
     if !stored.capture_study.is_empty() {
         tables.push(capture(stored));
@@ -13,9 +13,9 @@ pub fn section(stored: &Stored) -> Section {
     Section { id: "tests".into(), title: "The tests".into(), tables, ..Section::default() }
 }
 
-fn misfits(stored: &Stored) -> Table {
+fn misfits(stored: &Calibration) -> Table {
     let time = |s: Option<f64>| s.map_or("–".to_owned(), |s| format!("{s:.2} s"));
-    let row = |test: &StoredTest| {
+    let row = |test: &TestResult| {
         vec![
             test.name.clone(),
             if test.purpose == "fit" { "to fit" } else { "held out" }.to_owned(),
@@ -38,8 +38,8 @@ fn misfits(stored: &Stored) -> Table {
     Table::of("WME of each test (Eq. 8)", &head, stored.tests.iter().map(row))
 }
 
-fn transitions(stored: &Stored) -> Table {
-    let row = |test: &StoredTest| {
+fn transitions(stored: &Calibration) -> Table {
+    let row = |test: &TestResult| {
         let counts = test.transitions.iter().map(u64::to_string);
         std::iter::once(test.name.clone()).chain(counts).collect::<Vec<_>>()
     };
@@ -51,7 +51,7 @@ fn transitions(stored: &Stored) -> Table {
     )
 }
 
-fn capture(stored: &Stored) -> Table {
+fn capture(stored: &Calibration) -> Table {
     let rows = stored.capture_study.iter().map(|row| {
         let speed = format!("{:e} rad/s", row.capture_velocity_rad_s);
         vec![row.law.clone(), speed, wme(row.wme_of_joint), wme(row.wme_of_best)]
