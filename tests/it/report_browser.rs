@@ -141,8 +141,9 @@ fn regress_run_page_in_chromium() {
         let peak = data["peaks"][0].as_f64().expect("a time");
         assert!((found["peak"].as_f64().expect("a time") - peak).abs() <= 0.0026);
         assert_eq!(found["magnified"], "× 100");
-        // How many frames a headless browser draws in virtual time is its own affair; one moves time by 0.05 s at most.
-        assert!(found["played"].as_f64().expect("a time") > 0.02, "{found}");
+        // How many frames a headless browser draws in virtual time is its own affair, and the less the busier the machine: it
+        // moves at all.
+        assert!(found["played"].as_f64().expect("a time") > 0.0, "{found}");
         assert_eq!((&found["paused"], &found["cursor"]), (&true.into(), &1.into()));
     }
 }
