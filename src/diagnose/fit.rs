@@ -13,10 +13,20 @@ use super::test_data::TestData;
 use super::window_fit::{WindowFit, fit_window, newton_step, state_jacobian};
 use super::windows::Window;
 
-/// Most steps with each loss.
-const MOST_STEPS: usize = 10;
-/// Gain in the loss not worth another step.
-const LITTLE: f64 = 1.0;
+/// When to end the steps with one loss.
+#[derive(Debug, Clone, Copy)]
+struct Patience {
+    /// Most steps.
+    steps: usize,
+    /// Gain in the loss not worth another step: at least, and as a share of the loss.
+    little: f64,
+    little_share: f64,
+}
+
+/// To the end.
+const FINE: Patience = Patience { steps: 10, little: 1.0, little_share: 0.0 };
+/// To tell what is far from the truth.
+const COARSE: Patience = Patience { steps: 5, little: 1.0, little_share: 2e-3 };
 /// Damping of a step (Levenberg and Marquardt): first, factor, tries.
 const FIRST_DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 10.0;
@@ -64,6 +74,37 @@ impl Problem<'_> {
         self.windows.iter().map(|w| w.measured.clone()).collect()
     }
 
+    /// How the residuals of each window change with its state, for the values and states of a fit; none if there is no
+    /// such wall.
+    pub fn chords(&self, h: &Hypothesis, fit: &Fit) -> Option<Vec<DMatrix<f64>>> {
+        let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
+        let chord = |(window, state): (&Window, &WindowFit)| {
+            let r = replay.residual(window, &state.x);
+            state_jacobian(&replay, window, &state.x, &r)
+        };
+        Some(self.windows.par_iter().zip(&fit.windows).map(chord).collect())
+    }
+
+    /// The states of a fit moved by one step with the chords of another hypothesis nearby, where that helps: a cheap look
+    /// at what values would do; none if there is no such wall.
+    pub fn glance(&self, h: &Hypothesis, values: &[f64], from: &Fit, chords: &[DMatrix<f64>]) -> Option<Fit> {
+        let replay = Replay::new(self.tests, &h.physics(values)?);
+        let look = |((window, state), chord): ((&Window, &WindowFit), &DMatrix<f64>)| {
+            let at = |x: Vec<f64>| {
+                let r = replay.residual(window, &x);
+                (WindowFit { squares: r.norm_squared(), x, freedom: state.freedom }, r)
+            };
+            let (stay, r) = at(state.x.clone());
+            let step = newton_step(chord, &r).filter(|_| chord.ncols() > 0);
+            let moved = step.map(|dx| at(state.x.iter().zip(dx.iter()).map(|(x, d)| x + d).collect()).0);
+            moved.filter(|moved| moved.squares < stay.squares).unwrap_or(stay)
+        };
+        let windows = self.windows.par_iter().zip(&from.windows).zip(chords).map(look).collect();
+        let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
+        found.cost = cost(h, &found, Loss::NEAR);
+        Some(found)
+    }
+
     /// Fits the states alone, from given ones; none if there is no such wall.
     pub fn states(
         &self,
@@ -81,28 +122,45 @@ impl Problem<'_> {
         Some(found)
     }
 
-    /// Fits numbers and states, from given ones.
-    pub fn fit(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
-        let mut fit = start;
-        let moving = self.windows.iter().zip(&fit.windows).filter(|(w, _)| w.moves);
-        for loss in Loss::sequence(moving.map(|(_, f)| f.reduced()).collect()) {
-            fit = self.descend(h, fit, loss);
-            let x = fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
-            let again = self.states(h, &fit.values, &x, 2, true)?;
-            fit = Fit { covariance: fit.covariance, ..again };
+    /// Fits numbers and states from given ones, coarsely: under the widest loss, states from where they are.
+    ///
+    /// Enough to tell what is far from the truth; a tenth of the work of a whole fit goes to it.
+    pub fn fit_coarsely(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
+        let moving = self.windows.iter().zip(&start.windows).filter(|(w, _)| w.moves);
+        let widest = Loss::widest(moving.map(|(_, f)| f.reduced()).collect());
+        let fit = self.descend(h, start, widest, COARSE);
+        let mut fit = self.again(h, fit, false)?;
+        fit.cost = cost(h, &fit, Loss::Likelihood);
+        Some(fit)
+    }
+
+    /// Fits numbers and states to the end, from a coarse fit.
+    pub fn fit_finely(&self, h: &Hypothesis, coarse: Fit) -> Option<Fit> {
+        let mut fit = coarse;
+        for loss in Loss::NARROWING {
+            fit = self.descend(h, fit, loss, FINE);
+            // Other valleys are looked for once the numbers are about right.
+            fit = self.again(h, fit, loss != Loss::MIDDLE)?;
         }
         fit.cost = cost(h, &fit, Loss::Likelihood);
         Some(fit)
     }
 
-    fn descend(&self, h: &Hypothesis, mut fit: Fit, loss: Loss) -> Fit {
+    /// The states fitted once more.
+    fn again(&self, h: &Hypothesis, fit: Fit, thorough: bool) -> Option<Fit> {
+        let x = fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
+        let again = self.states(h, &fit.values, &x, 2, thorough)?;
+        Some(Fit { covariance: fit.covariance, ..again })
+    }
+
+    fn descend(&self, h: &Hypothesis, mut fit: Fit, loss: Loss, patience: Patience) -> Fit {
         if h.unknowns.is_empty() {
             return fit;
         }
         fit.cost = cost(h, &fit, loss);
         let mut changes = h.unknowns.iter().map(|u| 1e-3 * u.scale).collect::<Vec<_>>();
         let mut damping = FIRST_DAMPING;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..patience.steps {
             let Some(linear) = self.linear(h, &fit, &changes) else { return fit };
             changes = next_changes(h, &linear);
             let (a, g) = normal_equations(h, &fit, &linear, loss);
@@ -118,7 +176,7 @@ impl Problem<'_> {
                 }
                 damping *= DAMPING_FACTOR;
             }
-            if before - fit.cost < LITTLE {
+            if before - fit.cost < patience.little.max(patience.little_share * before) {
                 break;
             }
         }
@@ -137,7 +195,7 @@ impl Problem<'_> {
         let neighbours = neighbours.collect::<Option<Vec<_>>>()?;
         let linear = |(window, state): (&Window, &WindowFit)| {
             let r = replay.residual(window, &state.x);
-            let jx = state_jacobian(&replay, window, &state.x, r.len());
+            let jx = state_jacobian(&replay, window, &state.x, &r);
             let column = |(other, change): &(Replay, f64)| (other.residual(window, &state.x) - &r) / *change;
             let jp = DMatrix::from_columns(&neighbours.iter().map(column).collect::<Vec<_>>());
             let (mut jp_left, mut r_left) = (jp.clone(), r.clone());

@@ -7,7 +7,9 @@ use super::experiment::Experiment;
 use super::fit::Problem;
 use super::force::{acts_at_top, force_points};
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
-use super::search::{Data, Tried, refit, shared_states, try_hypothesis, try_second, untouched};
+use super::search::{
+    Data, Tried, finish, refit, shared_states, try_coarsely, try_hypothesis, try_second, untouched,
+};
 use super::verdict::{
     EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, does_something, is_noise, joint_error, kinds,
     moved_unknown, name_of_number, names,
@@ -22,8 +24,14 @@ const PAIRED: usize = 2;
 const WORTH_PAIRS: f64 = 60.0;
 /// Share of what speaks against the wall that a place must take away to be told.
 const PLACE_SHARE: f64 = 0.3;
-/// Rivals fitted once more from finer starts.
+/// Coarse fits that are always finished, and at most; between them those this near the best, in natural logarithms of
+/// likelihood.
+const FINISHED: [usize; 2] = [6, 12];
+const NEAR_BEST: f64 = 100.0;
+/// Rivals fitted once more from other starts.
 const POLISHED: usize = 3;
+/// Gain above which that is worth its time.
+const WORTH_POLISH: f64 = 10.0;
 /// Best rivals whose states the wall without effects tries too.
 const SHARING: usize = 8;
 /// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
@@ -77,13 +85,17 @@ fn data<'a>(experiment: &'a Experiment, windows: &'a [Vec<Window>; 2]) -> Data<'
 /// # Errors
 /// An input error if no window of a test to fit starts in a pattern beyond doubt.
 pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Diagnosis> {
-    let (fit, held_out) = windows(&experiment.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
+    let all = windows(&experiment.tests);
+    let readable = all.iter().any(|w| w.purpose == Purpose::Fit);
+    // A wall that stands says little, and would take half of the work.
+    let moving = all.into_iter().filter(|w| w.moves);
+    let (fit, held_out) = moving.partition(|w| w.purpose == Purpose::Fit);
     let windows: [Vec<Window>; 2] = [fit, held_out];
     let no_window = || {
         let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
         InputError::file(&experiment.path, "no window that starts in a pattern beyond doubt", allowed)
     };
-    if windows[0].is_empty() {
+    if !readable {
         return Err(no_window().into());
     }
     let search = Search { experiment, data: data(experiment, &windows), progress };
@@ -108,6 +120,15 @@ struct Found {
     tried: Vec<Tried>,
 }
 
+impl Found {
+    /// Too little moves for anything to show.
+    fn no_power(before: Tried) -> Self {
+        let (recalibrated, after) = (before.clone(), before.clone());
+        let (verdict, equivalent, place, tried) = (Verdict::NoPower, Vec::new(), None, Vec::new());
+        Self { verdict, before, recalibrated, after, equivalent, place, tried }
+    }
+}
+
 impl<P: Progress> Search<'_, P> {
     fn hypothesis(&self, nuisances: &[Nuisance], additions: &[Addition]) -> Hypothesis {
         Hypothesis::new(self.experiment.wall.parameters(), &self.experiment.scales, nuisances, additions)
@@ -118,12 +139,17 @@ impl<P: Progress> Search<'_, P> {
         self.progress.step("the wall as given", 2);
         let before = untouched(&self.data, self.hypothesis(&[], &[]))?;
         self.progress.fitted();
+        if self.data.fit.windows.len() < LEAST_MOVING {
+            return Some(Found::no_power(before));
+        }
         let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before)?;
         self.progress.fitted();
         let additions = candidates(self.experiment.wall.parameters());
         let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
         let singles = self.try_all("single effects", nuisances, &before, &sets);
-        let singles = self.polished(nuisances, &before, singles);
+        let gain =
+            against(&self.data, &recalibrated) - singles.first().map_or(0.0, |t| against(&self.data, t));
+        let singles = if gain > WORTH_POLISH { self.polished(nuisances, &before, singles) } else { singles };
         let best = singles.iter().take(SHARING).collect::<Vec<_>>();
         let [before, recalibrated] =
             [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
@@ -140,11 +166,30 @@ impl<P: Progress> Search<'_, P> {
     ) -> Vec<Tried> {
         self.progress.step(what, sets.len());
         let try_one = |additions: &Vec<Addition>| {
-            let tried = try_hypothesis(&self.data, self.hypothesis(nuisances, additions), from);
+            let tried = try_coarsely(&self.data, self.hypothesis(nuisances, additions), from);
             self.progress.fitted();
             tried
         };
-        self.ordered(sets.par_iter().filter_map(try_one).collect())
+        self.finished(self.ordered(sets.par_iter().filter_map(try_one).collect()))
+    }
+
+    /// Finishes the best of coarse fits in order; the others are so far behind that they cannot be the answer.
+    fn finished(&self, mut coarse: Vec<Tried>) -> Vec<Tried> {
+        let Some(best) = coarse.first() else { return coarse };
+        let limit = against(&self.data, best) + NEAR_BEST;
+        let near = coarse.iter().filter(|t| against(&self.data, t) < limit).count();
+        let count = near.clamp(FINISHED[0], FINISHED[1]).min(coarse.len());
+        self.progress.step("the best in full", count);
+        let finish_one = |tried: &Tried| {
+            let finished = finish(&self.data, tried);
+            self.progress.fitted();
+            finished
+                .filter(|new| against(&self.data, new) < against(&self.data, tried))
+                .unwrap_or_else(|| tried.clone())
+        };
+        let finished = coarse[..count].par_iter().map(finish_one).collect::<Vec<_>>();
+        coarse.splice(..count, finished);
+        self.ordered(coarse)
     }
 
     fn ordered(&self, mut tried: Vec<Tried>) -> Vec<Tried> {
@@ -167,7 +212,7 @@ impl<P: Progress> Search<'_, P> {
                 }
                 values
             };
-            let tries = [0.9, 0.95, 1.0, 1.05, 1.1].map(about);
+            let tries = [0.92, 1.0, 1.08].map(about);
             let fits = tries.par_iter().filter_map(|values| {
                 let one = std::slice::from_ref(values);
                 refit(&self.data, h.clone(), from, one)
@@ -184,7 +229,6 @@ impl<P: Progress> Search<'_, P> {
     fn judge(&self, before: Tried, recalibrated: Tried, singles: Vec<Tried>) -> Found {
         let data = &self.data;
         let gap = joint_error(data, &before);
-        let moving = data.fit.windows.iter().filter(|w| w.moves).count();
         let found = |verdict, after: Tried, equivalent, place, tried| Found {
             verdict,
             before: before.clone(),
@@ -194,7 +238,7 @@ impl<P: Progress> Search<'_, P> {
             place,
             tried,
         };
-        let Some(gap) = gap.filter(|_| moving >= LEAST_MOVING) else {
+        let Some(gap) = gap else {
             return found(Verdict::NoPower, before.clone(), Vec::new(), None, singles);
         };
         let gain = best_answer(&singles).map_or(0.0, |t| against(data, &recalibrated) - against(data, t));
@@ -317,7 +361,7 @@ impl<P: Progress> Search<'_, P> {
             tried
         };
         let tried = sets.par_iter().zip(&starts).filter_map(try_one).collect();
-        let tried = self.ordered(tried);
+        let tried = self.finished(self.ordered(tried));
         self.polished(&self.experiment.nuisances, before, tried)
     }
 

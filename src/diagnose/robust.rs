@@ -27,12 +27,16 @@ impl Loss {
     /// The loss in which starts are compared.
     pub const NEAR: Loss = Loss::Noise(NEAR_BOUND);
 
-    /// The losses in the order a fit goes through them, from one that two thirds of the windows lie well inside.
-    pub fn sequence(mut reduced: Vec<f64>) -> [Loss; 4] {
+    /// The loss between the widest and that in which starts are compared.
+    pub const MIDDLE: Loss = Loss::Noise(MIDDLE_BOUND);
+    /// The losses that follow the widest, in the order a fit goes through them.
+    pub const NARROWING: [Loss; 3] = [Loss::MIDDLE, Loss::NEAR, Loss::Likelihood];
+
+    /// The loss a fit begins with: one that two thirds of the windows lie well inside.
+    pub fn widest(mut reduced: Vec<f64>) -> Loss {
         reduced.sort_by(f64::total_cmp);
         let two_thirds = reduced.get(reduced.len() * 2 / 3).copied().unwrap_or(1.0);
-        let first = (3.0 * two_thirds).max(FIRST_BOUND);
-        [Loss::Noise(first), Loss::Noise(MIDDLE_BOUND), Loss::NEAR, Loss::Likelihood]
+        Loss::Noise((3.0 * two_thirds).max(FIRST_BOUND))
     }
 
     /// The loss of a window; its squares where they are those of noise.

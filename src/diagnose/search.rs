@@ -52,31 +52,38 @@ impl Tried {
     }
 }
 
-/// Fits a hypothesis from several starts; `from` gives the states of the windows.
+/// Fits a hypothesis coarsely from several starts; `from` gives the states of the windows.
 ///
 /// None if no start makes a wall.
-pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Option<Tried> {
+pub fn try_coarsely(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Option<Tried> {
     let starts = ladder(&hypothesis, &hypothesis.start(), hypothesis.nuisances);
-    let start = best_start(data, &hypothesis, &states_of(&from.fit), &starts, (1, false))?;
-    fitted(data, hypothesis, start, from)
+    let start = best_glance(data, &hypothesis, from, &starts)?;
+    let fit = data.fit.fit_coarsely(&hypothesis, start)?;
+    judged(data, hypothesis, fit, from, false)
 }
 
-/// The best of some starts, after so many steps of the states alone, thorough or not.
-fn best_start(
-    data: &Data,
-    h: &Hypothesis,
-    x: &[Vec<f64>],
-    starts: &[Vec<f64>],
-    (steps, thorough): (usize, bool),
-) -> Option<Fit> {
-    let fits = starts.iter().filter_map(|values| data.fit.states(h, values, x, steps, thorough));
+/// Fits to the end what was fitted coarsely.
+pub fn finish(data: &Data, coarse: &Tried) -> Option<Tried> {
+    let fit = data.fit.fit_finely(&coarse.hypothesis, coarse.fit.clone())?;
+    judged(data, coarse.hypothesis.clone(), fit, coarse, true)
+}
+
+/// Fits a hypothesis from several starts to the end.
+pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Option<Tried> {
+    finish(data, &try_coarsely(data, hypothesis, from)?)
+}
+
+/// The best of some starts at a glance.
+fn best_glance(data: &Data, h: &Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Fit> {
+    let chords = data.fit.chords(&from.hypothesis, &from.fit)?;
+    let fits = starts.iter().filter_map(|values| data.fit.glance(h, values, &from.fit, &chords));
     fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
-/// Fits from a start, and judges on the tests held out.
-fn fitted(data: &Data, hypothesis: Hypothesis, start: Fit, from: &Tried) -> Option<Tried> {
-    let fit = data.fit.fit(&hypothesis, start)?;
-    let held_out = data.held_out.states(&hypothesis, &fit.values, &states_of(&from.held_out), 3, true)?;
+/// A fit with the tests held out beside it, whose states alone are fitted.
+fn judged(data: &Data, hypothesis: Hypothesis, fit: Fit, from: &Tried, thorough: bool) -> Option<Tried> {
+    let x = states_of(&from.held_out);
+    let held_out = data.held_out.states(&hypothesis, &fit.values, &x, 3, thorough)?;
     Some(Tried { hypothesis, fit, held_out })
 }
 
@@ -117,11 +124,14 @@ fn ladder(h: &Hypothesis, start: &[f64], first: usize) -> Vec<Vec<f64>> {
 
 /// Fits from given starts only.
 pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Tried> {
-    let start = best_start(data, &hypothesis, &states_of(&from.fit), starts, (2, true))?;
-    fitted(data, hypothesis, start, from)
+    let x = states_of(&from.fit);
+    let fits = starts.iter().filter_map(|values| data.fit.states(&hypothesis, values, &x, 2, false));
+    let start = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+    let fit = data.fit.fit_finely(&hypothesis, start)?;
+    judged(data, hypothesis, fit, from, true)
 }
 
-/// Fits a second addition beside one that was fitted, from its values.
+/// Fits a second addition beside one that was fitted, coarsely, from its values.
 pub fn try_second(data: &Data, hypothesis: Hypothesis, first: &Tried, from: &Tried) -> Option<Tried> {
     let mut base = hypothesis.start();
     // The first addition's numbers follow those of the wall; fewer of the wall's may have a prior beside the second.
@@ -129,8 +139,9 @@ pub fn try_second(data: &Data, hypothesis: Hypothesis, first: &Tried, from: &Tri
     let second = hypothesis.nuisances + added.len();
     base[hypothesis.nuisances..second].copy_from_slice(added);
     let starts = ladder(&hypothesis, &base, second);
-    let start = best_start(data, &hypothesis, &states_of(&first.fit), &starts, (1, false))?;
-    fitted(data, hypothesis, start, from)
+    let start = best_glance(data, &hypothesis, first, &starts)?;
+    let fit = data.fit.fit_coarsely(&hypothesis, start)?;
+    judged(data, hypothesis, fit, from, false)
 }
 
 /// The same values with each window's state refitted from those that other hypotheses found, where that is better.

@@ -35,16 +35,14 @@ impl WindowFit {
     }
 }
 
-/// Sensitivity of the residuals to the state, by central differences of the spread of the smoothed state.
-pub fn state_jacobian(replay: &Replay, window: &Window, x: &[f64], rows: usize) -> DMatrix<f64> {
-    let mut jacobian = DMatrix::zeros(rows, x.len());
+/// Sensitivity of the residuals r at x to the state, over the spread of the smoothed state: well inside the noise, where
+/// one-sided differences do.
+pub fn state_jacobian(replay: &Replay, window: &Window, x: &[f64], r: &DVector<f64>) -> DMatrix<f64> {
+    let mut jacobian = DMatrix::zeros(r.len(), x.len());
     for (i, h) in window.spread.iter().enumerate() {
-        let moved = |by: f64| {
-            let mut y = x.to_vec();
-            y[i] += by;
-            replay.residual(window, &y)
-        };
-        jacobian.set_column(i, &((moved(*h) - moved(-h)) / (2.0 * h)));
+        let mut y = x.to_vec();
+        y[i] += h;
+        jacobian.set_column(i, &((replay.residual(window, &y) - r) / *h));
     }
     jacobian
 }
@@ -72,7 +70,7 @@ fn descend(replay: &Replay, window: &Window, x: &[f64], steps: usize) -> WindowF
         if x.is_empty() {
             break;
         }
-        let Some(step) = newton_step(&state_jacobian(replay, window, &x, r.len()), &r) else { break };
+        let Some(step) = newton_step(&state_jacobian(replay, window, &x, &r), &r) else { break };
         let before = r.norm_squared();
         for share in SHORTER {
             let y = x.iter().zip(step.iter()).map(|(x, dx)| x + share * dx).collect::<Vec<_>>();
