@@ -3,6 +3,7 @@
 use super::experiment::Experiment;
 use super::fit::Problem;
 use super::hypothesis::Hypothesis;
+use super::offset::rest_offset_rad;
 use super::score::{nats, windowed_error};
 use super::search::{Data, untouched};
 use super::test_data::TestData;
@@ -45,6 +46,7 @@ pub fn check_data(experiment: &Experiment) -> Result<()> {
         for (what, put_right) in MISREADINGS {
             let mut other = test.clone();
             put_right(&mut other);
+            other.rest_offset_rad = rest_offset_rad(&other.theta_rad, other.noise_rad);
             let Some((other_error, other_against)) = misfit(experiment, &other) else { continue };
             if error > FINE && other_error < HALF * error && against - other_against > PLAIN {
                 let found = format!(

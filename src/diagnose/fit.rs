@@ -10,7 +10,7 @@ use super::hypothesis::Hypothesis;
 use super::replay::Replay;
 use super::robust::Loss;
 use super::test_data::TestData;
-use super::window_fit::{WindowFit, fit_window, newton_step, state_jacobian};
+use super::window_fit::{POOR, WindowFit, fit_window, newton_step, other_valleys, state_jacobian};
 use super::windows::Window;
 
 /// When to end the steps with one loss.
@@ -31,6 +31,8 @@ const COARSE: Patience = Patience { steps: 5, little: 1.0, little_share: 2e-3 };
 const FIRST_DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 10.0;
 const TRIES: usize = 5;
+/// Share of poor windows above which no other valleys are looked for.
+const MOST_POOR: f64 = 0.4;
 /// A sensitivity is taken over a change of the residuals of this many standard deviations of the noise ...
 const CHANGE: f64 = 0.3;
 /// ... and over these shares of a number's scale.
@@ -105,7 +107,8 @@ impl Problem<'_> {
         Some(found)
     }
 
-    /// Fits the states alone, from given ones; none if there is no such wall.
+    /// Fits the states alone, from given ones; none if there is no such wall. `thorough` looks for other valleys of windows
+    /// that stay poor.
     pub fn states(
         &self,
         h: &Hypothesis,
@@ -115,8 +118,18 @@ impl Problem<'_> {
         thorough: bool,
     ) -> Option<Fit> {
         let replay = Replay::new(self.tests, &h.physics(values)?);
-        let fit = |(window, x): (&Window, &Vec<f64>)| fit_window(&replay, window, x, steps, thorough);
-        let windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
+        let fit = |(window, x): (&Window, &Vec<f64>)| fit_window(&replay, window, x, steps);
+        let mut windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
+        let poor = windows.iter().filter(|w| w.reduced() > POOR).count();
+        // A model that misses most windows is not in the wrong valley of each.
+        if thorough && poor as f64 <= MOST_POOR * windows.len() as f64 {
+            let search = |(window, fit): (&Window, &mut WindowFit)| {
+                if fit.reduced() > POOR {
+                    *fit = other_valleys(&replay, window, fit, steps);
+                }
+            };
+            self.windows.par_iter().zip(&mut windows).for_each(search);
+        }
         let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
         found.cost = cost(h, &found, Loss::NEAR);
         Some(found)

@@ -8,11 +8,11 @@ use super::fit::Problem;
 use super::force::{acts_at_top, force_points};
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
 use super::search::{
-    Data, Tried, finish, refit, shared_states, try_coarsely, try_hypothesis, try_second, untouched,
+    Data, Tried, finish, promise, refit, shared_states, try_coarsely, try_hypothesis, try_second, untouched,
 };
 use super::verdict::{
-    EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, does_something, is_noise, joint_error, kinds,
-    moved_unknown, name_of_number, names,
+    EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, could_show, does_something, is_noise, joint_error,
+    kinds, moved_unknown, name_of_number, names,
 };
 use super::windows::{Window, windows};
 use crate::error::{InputError, Result};
@@ -20,6 +20,8 @@ use crate::input::experiment::Purpose;
 
 /// Single additions whose pairs with all others are tried.
 const PAIRED: usize = 2;
+/// Pairs that are fitted, of all that are looked at.
+const PAIRS_FITTED: usize = 14;
 /// Gain of the best single addition below which pairs are not tried.
 const WORTH_PAIRS: f64 = 60.0;
 /// Share of what speaks against the wall that a place must take away to be told.
@@ -244,7 +246,8 @@ impl<P: Progress> Search<'_, P> {
         let gain = best_answer(&singles).map_or(0.0, |t| against(data, &recalibrated) - against(data, t));
         if gain < WORTH_A_NAME {
             if is_noise(data, &before) {
-                return found(Verdict::None, before.clone(), Vec::new(), None, singles);
+                let verdict = if could_show(&singles) { Verdict::None } else { Verdict::NoPower };
+                return found(verdict, before.clone(), Vec::new(), None, singles);
             }
             if is_noise(data, &recalibrated) || closes(data, &recalibrated, gap) {
                 return self.recalibrated(found, &before, &recalibrated, singles, gap);
@@ -353,16 +356,30 @@ impl<P: Progress> Search<'_, P> {
                 }
             }
         }
-        self.progress.step("pairs of effects", sets.len());
-        let try_one = |(set, first): (&Vec<Addition>, &&Tried)| {
-            let h = self.hypothesis(&self.experiment.nuisances, set);
-            let tried = try_second(&self.data, h, first, before);
+        let pairs = self.promising(sets.into_iter().zip(starts).collect());
+        self.progress.step("pairs of effects", pairs.len());
+        let try_one = |(h, first): &(Hypothesis, &Tried)| {
+            let tried = try_second(&self.data, h.clone(), first, before);
             self.progress.fitted();
             tried
         };
-        let tried = sets.par_iter().zip(&starts).filter_map(try_one).collect();
+        let tried = pairs.par_iter().filter_map(try_one).collect();
         let tried = self.finished(self.ordered(tried));
         self.polished(&self.experiment.nuisances, before, tried)
+    }
+
+    /// The pairs that promise most at a glance, and those of which only a fit would tell.
+    fn promising<'t>(&self, sets: Vec<(Vec<Addition>, &'t Tried)>) -> Vec<(Hypothesis, &'t Tried)> {
+        self.progress.step("a glance at pairs", sets.len());
+        let look = |(set, first): (Vec<Addition>, &'t Tried)| {
+            let h = self.hypothesis(&self.experiment.nuisances, &set);
+            let cost = promise(&self.data, &h, first).unwrap_or(f64::NEG_INFINITY);
+            self.progress.fitted();
+            (cost, h, first)
+        };
+        let mut pairs = sets.into_par_iter().map(look).collect::<Vec<_>>();
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        pairs.into_iter().take(PAIRS_FITTED).map(|(_, h, first)| (h, first)).collect()
     }
 
     /// The place whose effects take away a good part of what speaks against the wall, if there is one.

@@ -18,6 +18,7 @@ pub mod interval;
 mod manifest;
 pub mod next_tests;
 pub mod noise;
+pub mod offset;
 pub mod output;
 pub mod pattern;
 pub mod replay;

@@ -22,7 +22,7 @@ use super::score::windowed_error;
 use super::search::{Data, Tried};
 use super::tables::{TABLES, Tables, kept};
 use super::updated_wall::updated_wall;
-use super::verdict::{Verdict, against, joint_error, names};
+use super::verdict::{Verdict, against, detectable, joint_error, names};
 use super::window_fit::WindowFit;
 use super::windows::Window;
 use crate::calibrate::Test;
@@ -34,9 +34,6 @@ use crate::store::write_durably;
 
 /// Kind of the folder in its manifest and its report.
 pub const KIND: &str = "diagnosis";
-/// Standard deviations from doing nothing at which an effect is detected: it is then so large by chance once in a
-/// thousand times.
-const DETECTED: f64 = 3.3;
 
 /// Where things go in the output folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -255,16 +252,16 @@ fn test_error(windows: &[Vec<Window>; 2], tried: &Tried, test: usize) -> Option<
 fn could_hide(diagnosis: &Diagnosis) -> Vec<Value> {
     let singles = diagnosis.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
     let row = |tried: &Tried| {
+        let (smallest, matters) = detectable(tried)?;
         let h = &tried.hypothesis;
-        let i = h.nuisances;
-        let unknown = h.unknowns.get(i)?;
-        let kind = h.additions[0].kind()?;
-        let sd = sd(tried, i)?;
-        let estimate = tried.fit.values[i] - unknown.start;
-        Some(
-            json!({"kind": kind, "name": h.additions[0].name(), "parameter": unknown.key, "unit": unknown.unit,
-            "estimate": estimate, "sd": sd, "smallest_detectable": DETECTED * sd, "matters": unknown.scale}),
-        )
+        let unknown = &h.unknowns[h.nuisances];
+        let estimate = tried.fit.values[h.nuisances] - unknown.start;
+        let sd = sd(tried, h.nuisances)?;
+        Some(json!({
+            "kind": h.additions[0].kind()?, "name": h.additions[0].name(),
+            "parameter": unknown.key, "unit": unknown.unit,
+            "estimate": estimate, "sd": sd, "smallest_detectable": smallest, "matters": matters,
+        }))
     };
     singles.filter_map(row).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::smooth::{CUBIC, HALF, Local, local};
 use super::test_data::TestData;
-use crate::model::{Contact, Pivot, State};
+use crate::model::{Contact, Pair, Pivot, State};
 
 /// Samples that are looked at together.
 const COUNT: usize = 2 * HALF + 1;
@@ -62,7 +62,8 @@ pub struct MeasuredState {
 /// The pattern about a sample; none where the samples around it leave doubt or are not all there.
 pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     let from = k.checked_sub(HALF)?;
-    let around = test.theta_rad.get(from..from + COUNT)?;
+    test.theta_rad.get(from..from + COUNT)?;
+    let around: [Pair; COUNT] = std::array::from_fn(|i| test.from_rest_rad(from + i));
     let regular = test.time_s[from + COUNT - 1] - test.time_s[from] < test.step_s * COUNT as f64;
     if !regular || around.iter().flatten().any(|theta| theta.is_nan()) {
         return None;

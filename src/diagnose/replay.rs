@@ -93,8 +93,9 @@ pub(super) fn plastic_displacements_m(test: &TestData, physics: &Physics) -> Vec
     let count = test.theta_rad.len();
     let smoothed = |k: usize, channel: usize| {
         // Five samples: less noise, and no swing is shorter.
-        let around = &test.theta_rad[k.saturating_sub(2)..(k + 3).min(count)];
-        around.iter().map(|theta| theta[channel]).sum::<f64>() / around.len() as f64
+        let around = k.saturating_sub(2)..(k + 3).min(count);
+        let n = around.len() as f64;
+        around.map(|k| test.from_rest_rad(k)[channel]).sum::<f64>() / n
     };
     let at = |k: usize| {
         let theta = [smoothed(k, 0), smoothed(k, 1)];

@@ -4,10 +4,19 @@ use super::fit::{Fit, Problem};
 use super::hypothesis::Hypothesis;
 use super::score::{nats, windowed_error};
 
-/// Sizes tried for one added number, as shares of the size that matters.
-const LADDER: [f64; 7] = [0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 1.6];
-/// Sizes tried for each of two added numbers.
-const PAIRS: [f64; 5] = [0.05, 0.15, 0.4, 1.0, 3.0];
+/// Sizes tried for one added number, and for each of two, as shares of the size that matters.
+struct Sizes {
+    one: &'static [f64],
+    each_of_two: &'static [f64],
+}
+
+/// Every size that may be the best start.
+const SIZES: Sizes =
+    Sizes { one: &[0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 1.6], each_of_two: &[0.05, 0.1, 0.2, 0.4, 0.8, 1.6] };
+/// Enough to see whether an addition would help.
+const FEW_SIZES: Sizes = Sizes { one: &[0.05, 0.3], each_of_two: &[0.15, 0.6] };
+/// Most starts of two added numbers that are fitted coarsely.
+const BEGUN: usize = 3;
 
 /// A hypothesis, fitted, and judged on tests that the fit has not seen.
 #[derive(Debug, Clone)]
@@ -56,9 +65,7 @@ impl Tried {
 ///
 /// None if no start makes a wall.
 pub fn try_coarsely(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Option<Tried> {
-    let starts = ladder(&hypothesis, &hypothesis.start(), hypothesis.nuisances);
-    let start = best_glance(data, &hypothesis, from, &starts)?;
-    let fit = data.fit.fit_coarsely(&hypothesis, start)?;
+    let fit = best_coarse(data, &hypothesis, from, &hypothesis.start(), hypothesis.nuisances)?;
     judged(data, hypothesis, fit, from, false)
 }
 
@@ -73,11 +80,30 @@ pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Opti
     finish(data, &try_coarsely(data, hypothesis, from)?)
 }
 
-/// The best of some starts at a glance.
-fn best_glance(data: &Data, h: &Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Fit> {
-    let chords = data.fit.chords(&from.hypothesis, &from.fit)?;
-    let fits = starts.iter().filter_map(|values| data.fit.glance(h, values, &from.fit, &chords));
+/// The best coarse fit from starts about `base` that move the numbers from the `first` on; starts are compared at a glance.
+///
+/// Of two numbers, several sizes of the second are fitted: a spring that yields at too large a force does not feel that
+/// force at all.
+fn best_coarse(data: &Data, h: &Hypothesis, from: &Tried, base: &[f64], first: usize) -> Option<Fit> {
+    let mut glances = glances(data, h, from, &ladder(h, base, first, &SIZES))?;
+    glances.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let most = if h.unknowns.len() - first == 2 { BEGUN } else { 1 };
+    // Equal costs are one motion: a spring yields at neither force.
+    let same = |a: &Fit, b: &Fit| a.values.last() == b.values.last() || a.cost == b.cost;
+    let mut begun: Vec<Fit> = Vec::new();
+    for glance in glances {
+        if begun.len() < most && !begun.iter().any(|other| same(other, &glance)) {
+            begun.push(glance);
+        }
+    }
+    let fits = begun.into_iter().filter_map(|start| data.fit.fit_coarsely(h, start));
     fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
+/// The states of another hypothesis, looked at with values of this one.
+fn glances(data: &Data, h: &Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Vec<Fit>> {
+    let chords = data.fit.chords(&from.hypothesis, &from.fit)?;
+    Some(starts.iter().filter_map(|values| data.fit.glance(h, values, &from.fit, &chords)).collect())
 }
 
 /// A fit with the tests held out beside it, whose states alone are fitted.
@@ -99,7 +125,7 @@ fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
 }
 
 /// Starts about `start`: itself, and the numbers from the `first` on, one or two, at several sizes; one of either sign.
-fn ladder(h: &Hypothesis, start: &[f64], first: usize) -> Vec<Vec<f64>> {
+fn ladder(h: &Hypothesis, start: &[f64], first: usize, sizes: &Sizes) -> Vec<Vec<f64>> {
     let moved = |values: &[f64], i: usize, by: f64| {
         let unknown = &h.unknowns[i];
         let mut values = values.to_vec();
@@ -109,13 +135,16 @@ fn ladder(h: &Hypothesis, start: &[f64], first: usize) -> Vec<Vec<f64>> {
     let mut starts = vec![start.to_vec()];
     match h.unknowns.len() - first {
         1 => {
-            let shares = LADDER.iter().flat_map(|share| [*share, -share]);
+            let shares = sizes.one.iter().flat_map(|share| [*share, -share]);
             starts.extend(shares.filter_map(|share| moved(start, first, share)));
         }
         2 => {
-            let one = PAIRS.iter().filter_map(|share| moved(start, first, *share));
-            let two = |values: Vec<f64>| PAIRS.map(|share| moved(&values, first + 1, share));
-            starts.extend(one.flat_map(two).flatten());
+            let one = sizes.each_of_two.iter().filter_map(|share| moved(start, first, *share));
+            let two = |values: Vec<f64>| {
+                let of = |share: &f64| moved(&values, first + 1, *share);
+                sizes.each_of_two.iter().filter_map(of).collect::<Vec<_>>()
+            };
+            starts.extend(one.flat_map(two));
         }
         _ => {}
     }
@@ -131,17 +160,32 @@ pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, starts: &[Vec<f6
     judged(data, hypothesis, fit, from, true)
 }
 
+/// What a second addition beside one that was fitted promises at a glance, in the loss of starts; none where only a fit
+/// would tell.
+pub fn promise(data: &Data, hypothesis: &Hypothesis, first: &Tried) -> Option<f64> {
+    let (base, second) = beside(hypothesis, first);
+    let starts = ladder(hypothesis, &base, second, &FEW_SIZES);
+    if starts.len() == 1 {
+        return None;
+    }
+    glances(data, hypothesis, first, &starts)?.iter().map(|fit| fit.cost).min_by(f64::total_cmp)
+}
+
 /// Fits a second addition beside one that was fitted, coarsely, from its values.
 pub fn try_second(data: &Data, hypothesis: Hypothesis, first: &Tried, from: &Tried) -> Option<Tried> {
+    let (base, second) = beside(&hypothesis, first);
+    let fit = best_coarse(data, &hypothesis, first, &base, second)?;
+    judged(data, hypothesis, fit, from, false)
+}
+
+/// Values of a pair at which the second addition does nothing, and where its numbers begin.
+fn beside(hypothesis: &Hypothesis, first: &Tried) -> (Vec<f64>, usize) {
     let mut base = hypothesis.start();
     // The first addition's numbers follow those of the wall; fewer of the wall's may have a prior beside the second.
     let added = &first.fit.values[first.hypothesis.nuisances..];
     let second = hypothesis.nuisances + added.len();
     base[hypothesis.nuisances..second].copy_from_slice(added);
-    let starts = ladder(&hypothesis, &base, second);
-    let start = best_glance(data, &hypothesis, first, &starts)?;
-    let fit = data.fit.fit_coarsely(&hypothesis, start)?;
-    judged(data, hypothesis, fit, from, false)
+    (base, second)
 }
 
 /// The same values with each window's state refitted from those that other hypotheses found, where that is better.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::noise::noise_rad;
+use super::offset::rest_offset_rad;
 use crate::calibrate::{Test, median_step};
 use crate::error::InputError;
 use crate::ground::Accelerogram;
@@ -31,6 +32,8 @@ pub struct TestData {
     pub theta_rad: Vec<Pair>,
     /// Standard deviation of the noise of each channel, rad.
     pub noise_rad: Pair,
+    /// What each channel reads at rest, rad: taken off where a pattern is recognised, never where a model is judged.
+    pub rest_offset_rad: Pair,
     /// Time between samples, s: their median distance.
     pub step_s: f64,
     /// Samples farther apart than this are not joined, s.
@@ -89,10 +92,16 @@ impl TestData {
             shaking: Shaking { tail_s, ..test.shaking.clone() },
             step_s: median_step(&time_s),
             time_s,
+            rest_offset_rad: rest_offset_rad(&theta_rad, noise_rad),
             theta_rad,
             noise_rad,
             gap_s: measured.gap_s,
         })
+    }
+
+    /// Rotations of a sample, rad, with what is read at rest as zero.
+    pub fn from_rest_rad(&self, k: usize) -> Pair {
+        [0, 1].map(|i| self.theta_rad[k][i] - self.rest_offset_rad[i])
     }
 
     /// Samples per second times `seconds`, at least one.

@@ -31,6 +31,9 @@ pub const SIGNIFICANT: f64 = 4.0;
 /// ... and the share of the size that would matter. Both chosen; a null twin that was once named had 1.2 standard
 /// deviations and 7e-5.
 pub const FLOOR: f64 = 0.005;
+/// Standard deviations from doing nothing at which an effect is detected: it is then so large by chance once in a
+/// thousand times.
+pub const DETECTED: f64 = 3.3;
 /// A prior wider than this says that a number was not known.
 pub const WIDE_PRIOR: f64 = 0.1;
 
@@ -134,4 +137,20 @@ pub fn does_something(tried: &Tried) -> bool {
     };
     let all = h.nuisances..h.unknowns.len();
     (0..h.additions.len()).all(|index| all.clone().any(|i| h.unknowns[i].belongs_to(index) && acts(i)))
+}
+
+/// Whether at least half of the effects, at a size that matters, would have been told from nothing.
+pub fn could_show(singles: &[Tried]) -> bool {
+    let sizes = singles.iter().filter_map(detectable).collect::<Vec<_>>();
+    2 * sizes.iter().filter(|(smallest, matters)| smallest < matters).count() >= sizes.len()
+}
+
+/// The smallest size of a single effect that would be told from nothing, by its first number, and the size that matters;
+/// none where its fit leaves no covariance, or it is no effect.
+pub fn detectable(tried: &Tried) -> Option<(f64, f64)> {
+    let h = &tried.hypothesis;
+    let i = h.nuisances;
+    kinds(tried)?;
+    let variance = tried.fit.covariance.as_ref()?[(i, i)];
+    Some((DETECTED * variance.max(0.0).sqrt(), h.unknowns.get(i)?.scale))
 }

@@ -12,7 +12,7 @@ const SHORTER: [f64; 4] = [1.0, 0.4, 0.16, 0.06];
 /// Gain in the sum of squares, in squared noise, that is not worth another step.
 const LITTLE: f64 = 0.5;
 /// Reduced chi-square above which other starts are tried: an impact just missed or just met has valleys of its own.
-const POOR: f64 = 2.0;
+pub const POOR: f64 = 2.0;
 /// Other starts drawn about the smoothed state, and how many of the best are refined.
 const DRAWS: usize = 16;
 const REFINED: usize = 2;
@@ -47,23 +47,23 @@ pub fn state_jacobian(replay: &Replay, window: &Window, x: &[f64], r: &DVector<f
     jacobian
 }
 
-/// Fits the state of a window, from a given one, by at most `steps` steps of Gauss and Newton.
-///
-/// `thorough` tries other starts too where the fit stays poor.
-pub fn fit_window(replay: &Replay, window: &Window, x: &[f64], steps: usize, thorough: bool) -> WindowFit {
-    let mut best = descend(replay, window, x, steps);
-    if thorough && !x.is_empty() && best.reduced() > POOR {
-        for y in other_starts(replay, window) {
-            let other = descend(replay, window, &y, steps);
-            if other.squares < best.squares {
-                best = other;
-            }
+/// A fit, or a better one from other starts.
+pub fn other_valleys(replay: &Replay, window: &Window, fit: &WindowFit, steps: usize) -> WindowFit {
+    let mut best = fit.clone();
+    if fit.x.is_empty() {
+        return best;
+    }
+    for y in other_starts(replay, window) {
+        let other = fit_window(replay, window, &y, steps);
+        if other.squares < best.squares {
+            best = other;
         }
     }
     best
 }
 
-fn descend(replay: &Replay, window: &Window, x: &[f64], steps: usize) -> WindowFit {
+/// Fits the state of a window, from a given one, by at most `steps` steps of Gauss and Newton.
+pub fn fit_window(replay: &Replay, window: &Window, x: &[f64], steps: usize) -> WindowFit {
     let mut x = x.to_vec();
     let mut r = replay.residual(window, &x);
     for _ in 0..steps {

@@ -98,7 +98,8 @@ fn worths(test: &TestData, states: &[Option<MeasuredState>]) -> Vec<i64> {
 }
 
 fn moves(test: &TestData, k: usize) -> bool {
-    (0..2).any(|i| test.theta_rad[k][i].abs() > MOVES * test.noise_rad[i])
+    let theta = test.from_rest_rad(k);
+    (0..2).any(|i| theta[i].abs() > MOVES * test.noise_rad[i])
 }
 
 fn window(index: usize, test: &TestData, samples: Range<usize>, start: &MeasuredState) -> Option<Window> {
