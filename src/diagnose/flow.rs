@@ -325,9 +325,13 @@ impl<P: Progress> Search<'_, P> {
         };
         let nuisances = self.experiment.nuisances.iter().map(known).collect::<Vec<_>>();
         let sets = candidates(self.experiment.wall.parameters());
-        let sets = sets.into_iter().filter(|a| a.kind().is_some()).map(|a| vec![a]).collect::<Vec<_>>();
+        // A second spring that hardly yields is the floor's own, by another name.
+        let other_law = |a: &Addition| a.kind().is_some_and(|kind| kind != "yielding_spring");
+        let sets = sets.into_iter().filter(other_law).map(|a| vec![a]).collect::<Vec<_>>();
         let instead = self.try_all("effects in place of what was not known", &nuisances, before, &sets);
-        let Some((_, after, mut equivalent)) = self.named(&instead, gap, before) else {
+        let limit = against(&self.data, recalibrated) + EQUIVALENT;
+        let as_good = |(_, after, _): &(Verdict, Tried, Vec<String>)| against(&self.data, after) < limit;
+        let Some((_, after, mut equivalent)) = self.named(&instead, gap, before).filter(as_good) else {
             return found(Verdict::Recalibrated, recalibrated.clone(), Vec::new(), None, singles);
         };
         if equivalent.is_empty() {
