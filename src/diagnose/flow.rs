@@ -18,11 +18,11 @@ use super::windows::{Window, windows};
 use crate::error::{InputError, Result};
 use crate::input::experiment::Purpose;
 
-/// Single additions whose pairs with all others are tried.
-const PAIRED: usize = 2;
-/// Pairs that are fitted, of all that are looked at.
-const PAIRS_FITTED: usize = 14;
-/// Gain of the best single addition below which pairs are not tried.
+/// Single effects whose pairs with all others are looked at, and pairs that are fitted: where no single effect is the
+/// answer, and where one is but may not be alone.
+const WITHOUT_A_NAME: [usize; 2] = [2, 14];
+const BESIDE_A_NAME: [usize; 2] = [1, 4];
+/// Gain of the best single addition below which pairs are not tried, and of a pair below which it is not told.
 const WORTH_PAIRS: f64 = 60.0;
 /// Share of what speaks against the wall that a place must take away to be told.
 const PLACE_SHARE: f64 = 0.3;
@@ -253,19 +253,20 @@ impl<P: Progress> Search<'_, P> {
                 return self.recalibrated(found, &before, &recalibrated, singles, gap);
             }
         }
-        if let Some(named) = self.named(&singles, gap, &recalibrated) {
-            let (verdict, after, equivalent) = named;
-            return found(verdict, after, equivalent, None, singles);
-        }
+        let one = self.named(&singles, gap, &recalibrated);
         let mut tried = singles;
-        if gain > WORTH_PAIRS {
-            let pairs = self.pairs(&tried, &before);
-            let single = best_answer(&tried).unwrap_or(&recalibrated);
-            if let Some((verdict, after, equivalent)) = self.named(&pairs, gap, single) {
-                tried.extend(pairs);
+        if one.is_some() || gain > WORTH_PAIRS {
+            let single = best_answer(&tried).unwrap_or(&recalibrated).clone();
+            let [paired, fitted] = if one.is_some() { BESIDE_A_NAME } else { WITHOUT_A_NAME };
+            let pairs = self.pairs(&tried, &single, &before, paired, fitted);
+            let worth = |(_, two, _): &(Verdict, Tried, Vec<String>)| {
+                against(data, &single) - against(data, two) > WORTH_PAIRS
+            };
+            let two = self.named(&pairs, gap, &single).filter(worth);
+            tried.extend(pairs);
+            if let Some((verdict, after, equivalent)) = two.or(one) {
                 return found(verdict, after, equivalent, None, self.ordered(tried));
             }
-            tried.extend(pairs);
         }
         let place = self.place(&recalibrated, &tried).or_else(|| {
             // What no law of the catalogue follows may still be measured.
@@ -345,11 +346,19 @@ impl<P: Progress> Search<'_, P> {
         found(Verdict::Class, after, equivalent, None, instead)
     }
 
-    fn pairs(&self, singles: &[Tried], before: &Tried) -> Vec<Tried> {
+    /// Pairs of the best `paired` single effects with every other, of which `fitted` are fitted.
+    fn pairs(
+        &self,
+        singles: &[Tried],
+        single: &Tried,
+        before: &Tried,
+        paired: usize,
+        fitted: usize,
+    ) -> Vec<Tried> {
         let answers = singles.iter().filter(|t| kinds(t).is_some()).collect::<Vec<_>>();
         let mut sets: Vec<Vec<Addition>> = Vec::new();
         let mut starts = Vec::new();
-        for first in answers.iter().take(PAIRED) {
+        for first in answers.iter().take(paired) {
             let one = first.hypothesis.additions[0];
             for second in &answers {
                 let two = second.hypothesis.additions[0];
@@ -360,7 +369,7 @@ impl<P: Progress> Search<'_, P> {
                 }
             }
         }
-        let pairs = self.promising(sets.into_iter().zip(starts).collect());
+        let pairs = self.promising(sets.into_iter().zip(starts).collect(), fitted);
         self.progress.step("pairs of effects", pairs.len());
         let try_one = |(h, first): &(Hypothesis, &Tried)| {
             let tried = try_second(&self.data, h.clone(), first, before);
@@ -369,11 +378,16 @@ impl<P: Progress> Search<'_, P> {
         };
         let tried = pairs.par_iter().filter_map(try_one).collect();
         let tried = self.finished(self.ordered(tried));
-        self.polished(&self.experiment.nuisances, before, tried)
+        let gain = tried.first().map_or(0.0, |best| against(&self.data, single) - against(&self.data, best));
+        if gain > WORTH_POLISH { self.polished(&self.experiment.nuisances, before, tried) } else { tried }
     }
 
     /// The pairs that promise most at a glance, and those of which only a fit would tell.
-    fn promising<'t>(&self, sets: Vec<(Vec<Addition>, &'t Tried)>) -> Vec<(Hypothesis, &'t Tried)> {
+    fn promising<'t>(
+        &self,
+        sets: Vec<(Vec<Addition>, &'t Tried)>,
+        count: usize,
+    ) -> Vec<(Hypothesis, &'t Tried)> {
         self.progress.step("a glance at pairs", sets.len());
         let look = |(set, first): (Vec<Addition>, &'t Tried)| {
             let h = self.hypothesis(&self.experiment.nuisances, &set);
@@ -383,7 +397,7 @@ impl<P: Progress> Search<'_, P> {
         };
         let mut pairs = sets.into_par_iter().map(look).collect::<Vec<_>>();
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        pairs.into_iter().take(PAIRS_FITTED).map(|(_, h, first)| (h, first)).collect()
+        pairs.into_iter().take(count).map(|(_, h, first)| (h, first)).collect()
     }
 
     /// The place whose effects take away a good part of what speaks against the wall, if there is one.

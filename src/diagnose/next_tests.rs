@@ -197,7 +197,7 @@ impl Pair<'_> {
         let new = states(made, second, &second.fit.values)?;
         let x = second.fit.windows.iter().chain(&new.windows).map(|w| w.x.clone()).collect::<Vec<_>>();
         let start = problem.states(&second.hypothesis, &second.fit.values, &x, 1, false)?;
-        let fit = problem.fit(&second.hypothesis, start)?;
+        let fit = problem.fit_finely(&second.hypothesis, start)?;
         let cost = |tried: &Tried, values: &[f64]| 0.5 * tried.hypothesis.prior_penalty(values);
         let first = nats(old, &self.first.fit.windows) + cost(self.first, &self.first.fit.values);
         let both = nats(&windows, &fit.windows) + cost(second, &fit.values);
