@@ -34,6 +34,7 @@ fn measured(wall: &Wall) -> Vec<TestData> {
             time_s: history.rows.iter().map(|row| row.time_s).collect(),
             theta_rad: history.rows.iter().map(|row| row.theta_rad.map(&mut noisy)).collect(),
             noise_rad: [NOISE_RAD; 2],
+            rest_offset_rad: [0.0; 2],
             step_s: STEP_S,
             gap_s: 2.5 * STEP_S,
         }
