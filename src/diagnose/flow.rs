@@ -12,7 +12,7 @@ use super::search::{
 };
 use super::verdict::{
     EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, could_show, does_something, is_noise, joint_error,
-    kinds, moved_unknown, name_of_number, names,
+    kinds, moved_unknown, name_of_number, names, worth_two,
 };
 use super::windows::{Window, windows};
 use crate::error::{InputError, Result};
@@ -22,7 +22,7 @@ use crate::input::experiment::Purpose;
 /// answer, and where one is but may not be alone.
 const WITHOUT_A_NAME: [usize; 2] = [2, 14];
 const BESIDE_A_NAME: [usize; 2] = [1, 4];
-/// Gain of the best single addition below which pairs are not tried, and of a pair below which it is not told.
+/// Gain of the best single addition below which pairs are not tried.
 const WORTH_PAIRS: f64 = 60.0;
 /// Share of what speaks against the wall that a place must take away to be told.
 const PLACE_SHARE: f64 = 0.3;
@@ -259,10 +259,7 @@ impl<P: Progress> Search<'_, P> {
             let single = best_answer(&tried).unwrap_or(&recalibrated).clone();
             let [paired, fitted] = if one.is_some() { BESIDE_A_NAME } else { WITHOUT_A_NAME };
             let pairs = self.pairs(&tried, &single, &before, paired, fitted);
-            let worth = |(_, two, _): &(Verdict, Tried, Vec<String>)| {
-                against(data, &single) - against(data, two) > WORTH_PAIRS
-            };
-            let two = self.named(&pairs, gap, &single).filter(worth);
+            let two = self.named(&pairs, gap, &single).filter(|(_, two, _)| worth_two(data, &single, two));
             tried.extend(pairs);
             if let Some((verdict, after, equivalent)) = two.or(one) {
                 return found(verdict, after, equivalent, None, self.ordered(tried));

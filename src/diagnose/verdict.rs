@@ -23,6 +23,12 @@ pub const POOR: f64 = 1.5;
 /// Gain in natural logarithms of likelihood, over the windows fitted and held out together, below which an effect is not
 /// worth its name. Chosen: the effects of the development set gain hundreds.
 pub const WORTH_A_NAME: f64 = 30.0;
+/// Gain of a second effect over the best single one below which it is not told: over all windows, and over those held out.
+/// Chosen: second effects that were there gained 1000 and more, those that were not up to 240, for they take up a little
+/// of what a law outside the catalogue, or another way of modelling a contact, leaves.
+pub const WORTH_A_SECOND: f64 = 300.0;
+/// See [`WORTH_A_SECOND`].
+pub const WORTH_A_SECOND_HELD_OUT: f64 = 30.0;
 /// Hypotheses this near the best, in the same measure, cannot be told from it. Chosen: a ratio of likelihoods of 3e6.
 pub const EQUIVALENT: f64 = 15.0;
 /// Error on tests held out above which nothing is named.
@@ -140,6 +146,13 @@ pub fn does_something(tried: &Tried) -> bool {
     };
     let all = h.nuisances..h.unknowns.len();
     (0..h.additions.len()).all(|index| all.clone().any(|i| h.unknowns[i].belongs_to(index) && acts(i)))
+}
+
+/// Whether two effects are worth telling where one was.
+pub fn worth_two(data: &Data, one: &Tried, two: &Tried) -> bool {
+    let gain: [f64; 2] = std::array::from_fn(|i| one.against(data)[i] - two.against(data)[i]);
+    let unseen = data.held_out.windows.is_empty() || gain[1] > WORTH_A_SECOND_HELD_OUT;
+    unseen && gain.iter().sum::<f64>() > WORTH_A_SECOND
 }
 
 /// Whether at least half of the effects, at a size that matters, would have been told from nothing.
