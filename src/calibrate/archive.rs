@@ -158,14 +158,8 @@ impl Archive {
 
 #[cfg(test)]
 mod tests {
+    use super::super::journal::tests::row;
     use super::*;
-
-    fn row() -> Row {
-        let address = Address { method: "paper".into(), test: 1, generation: 2, index: 3 };
-        let values = vec![0.1 + 0.2, 1.0 / 3.0, 37e3];
-        let transitions = [0, 1, 2, 3, 4, 5, 6, 7];
-        Row { address, values, wme: Some(1e-300), outcome: "stood".into(), transitions, steps: 9 }
-    }
 
     #[test]
     fn rejects_a_journal_of_another_calibration() {

@@ -56,10 +56,10 @@ pub(super) fn read_journal(path: &Path, request: &str) -> Result<HashMap<Address
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn row() -> Row {
+    pub fn row() -> Row {
         let address = Address { method: "paper".into(), test: 1, generation: 2, index: 3 };
         let values = vec![0.1 + 0.2, 1.0 / 3.0, 37e3];
         let transitions = [0, 1, 2, 3, 4, 5, 6, 7];

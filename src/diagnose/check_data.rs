@@ -71,6 +71,6 @@ fn misfit(experiment: &Experiment, test: &TestData) -> Option<(f64, f64)> {
     let data = Data { fit: all, held_out: Problem { windows: &[], ..all } };
     let h = Hypothesis::new(experiment.wall.parameters(), &experiment.scales, &[], &[]);
     let tried = untouched(&data, h)?;
-    let error = windowed_error(&windows, &tried.fit.windows)?;
-    Some((error, nats(&windows, &tried.fit.windows)))
+    let error = windowed_error(&tried.fit.windows)?;
+    Some((error, nats(&tried.fit.windows)))
 }

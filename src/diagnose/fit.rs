@@ -137,10 +137,9 @@ impl Problem<'_> {
 
     /// Fits numbers and states from given ones, coarsely: under the widest loss, states from where they are.
     ///
-    /// Enough to tell what is far from the truth; a tenth of the work of a whole fit goes to it.
+    /// Enough to tell what is far from the truth.
     pub fn fit_coarsely(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
-        let moving = self.windows.iter().zip(&start.windows).filter(|(w, _)| w.moves);
-        let widest = Loss::widest(moving.map(|(_, f)| f.reduced()).collect());
+        let widest = Loss::widest(start.windows.iter().map(WindowFit::reduced).collect());
         let fit = self.descend(h, start, widest, COARSE);
         let mut fit = self.again(h, fit, false)?;
         fit.cost = cost(h, &fit, Loss::Likelihood);

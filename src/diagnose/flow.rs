@@ -14,7 +14,7 @@ use super::verdict::{
     EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, could_show, does_something, is_noise, joint_error,
     kinds, moved_unknown, name_of_number, names, worth_two,
 };
-use super::windows::{Window, windows};
+use super::windows::{Window, is_readable, windows};
 use crate::error::{InputError, Result};
 use crate::input::experiment::Purpose;
 
@@ -87,17 +87,13 @@ fn data<'a>(experiment: &'a Experiment, windows: &'a [Vec<Window>; 2]) -> Data<'
 /// # Errors
 /// An input error if no window of a test to fit starts in a pattern beyond doubt.
 pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Diagnosis> {
-    let all = windows(&experiment.tests);
-    let readable = all.iter().any(|w| w.purpose == Purpose::Fit);
-    // A wall that stands says little, and would take half of the work.
-    let moving = all.into_iter().filter(|w| w.moves);
-    let (fit, held_out) = moving.partition(|w| w.purpose == Purpose::Fit);
+    let (fit, held_out) = windows(&experiment.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
     let windows: [Vec<Window>; 2] = [fit, held_out];
     let no_window = || {
         let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
         InputError::file(&experiment.path, "no window that starts in a pattern beyond doubt", allowed)
     };
-    if !readable {
+    if !experiment.tests.iter().any(|test| test.purpose == Purpose::Fit && is_readable(test)) {
         return Err(no_window().into());
     }
     let search = Search { experiment, data: data(experiment, &windows), progress };
@@ -149,9 +145,7 @@ impl<P: Progress> Search<'_, P> {
         let additions = candidates(self.experiment.wall.parameters());
         let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
         let singles = self.try_all("single effects", nuisances, &before, &sets);
-        let gain =
-            against(&self.data, &recalibrated) - singles.first().map_or(0.0, |t| against(&self.data, t));
-        let singles = if gain > WORTH_POLISH { self.polished(nuisances, &before, singles) } else { singles };
+        let singles = self.polished(nuisances, &before, singles, &recalibrated);
         let best = singles.iter().take(SHARING).collect::<Vec<_>>();
         let [before, recalibrated] =
             [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
@@ -199,8 +193,19 @@ impl<P: Progress> Search<'_, P> {
         tried
     }
 
-    /// Fits the best few once more, from about what was found with the wall's own numbers back where they were.
-    fn polished(&self, nuisances: &[Nuisance], from: &Tried, mut tried: Vec<Tried>) -> Vec<Tried> {
+    /// Fits the best few once more, from about what was found with the wall's own numbers back where they were; all as they
+    /// are if the best gains little over a simpler hypothesis.
+    fn polished(
+        &self,
+        nuisances: &[Nuisance],
+        from: &Tried,
+        mut tried: Vec<Tried>,
+        simpler: &Tried,
+    ) -> Vec<Tried> {
+        let Some(best) = tried.first() else { return tried };
+        if against(&self.data, simpler) - against(&self.data, best) < WORTH_POLISH {
+            return tried;
+        }
         let count = tried.len().min(POLISHED);
         self.progress.step("the best again", count);
         let again = |old: &Tried| {
@@ -215,10 +220,7 @@ impl<P: Progress> Search<'_, P> {
                 values
             };
             let tries = [0.92, 1.0, 1.08].map(about);
-            let fits = tries.par_iter().filter_map(|values| {
-                let one = std::slice::from_ref(values);
-                refit(&self.data, h.clone(), from, one)
-            });
+            let fits = tries.par_iter().filter_map(|values| refit(&self.data, h.clone(), from, values));
             let best = fits.min_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
             self.progress.fitted();
             best.filter(|new| new.fit.cost < old.fit.cost).unwrap_or_else(|| old.clone())
@@ -230,7 +232,7 @@ impl<P: Progress> Search<'_, P> {
 
     fn judge(&self, before: Tried, recalibrated: Tried, singles: Vec<Tried>) -> Found {
         let data = &self.data;
-        let gap = joint_error(data, &before);
+        let Some(gap) = joint_error(&before) else { return Found::no_power(before) };
         let found = |verdict, after: Tried, equivalent, place, tried| Found {
             verdict,
             before: before.clone(),
@@ -240,16 +242,13 @@ impl<P: Progress> Search<'_, P> {
             place,
             tried,
         };
-        let Some(gap) = gap else {
-            return found(Verdict::NoPower, before.clone(), Vec::new(), None, singles);
-        };
         let gain = best_answer(&singles).map_or(0.0, |t| against(data, &recalibrated) - against(data, t));
         if gain < WORTH_A_NAME {
-            if is_noise(data, &before) {
+            if is_noise(&before) {
                 let verdict = if could_show(&singles) { Verdict::None } else { Verdict::NoPower };
                 return found(verdict, before.clone(), Vec::new(), None, singles);
             }
-            if is_noise(data, &recalibrated) || closes(data, &recalibrated, gap) {
+            if is_noise(&recalibrated) || closes(&recalibrated, gap) {
                 return self.recalibrated(found, &before, &recalibrated, singles, gap);
             }
         }
@@ -277,7 +276,7 @@ impl<P: Progress> Search<'_, P> {
     /// The best hypothesis that closes the gap, is an answer, and is worth its name beside a simpler one; with what cannot
     /// be told from it.
     fn named(&self, tried: &[Tried], gap: f64, simpler: &Tried) -> Option<(Verdict, Tried, Vec<String>)> {
-        let closing = tried.iter().filter(|t| closes(&self.data, t, gap)).collect::<Vec<_>>();
+        let closing = tried.iter().filter(|t| closes(t, gap)).collect::<Vec<_>>();
         let best = best_answer(closing.iter().copied())?;
         if against(&self.data, simpler) - against(&self.data, best) < WORTH_A_NAME {
             return None;
@@ -375,8 +374,7 @@ impl<P: Progress> Search<'_, P> {
         };
         let tried = pairs.par_iter().filter_map(try_one).collect();
         let tried = self.finished(self.ordered(tried));
-        let gain = tried.first().map_or(0.0, |best| against(&self.data, single) - against(&self.data, best));
-        if gain > WORTH_POLISH { self.polished(&self.experiment.nuisances, before, tried) } else { tried }
+        self.polished(&self.experiment.nuisances, before, tried, single)
     }
 
     /// The pairs that promise most at a glance, and those of which only a fit would tell.

@@ -40,7 +40,7 @@ fn jackknife(data: &Data, tried: &Tried) -> Vec<f64> {
 fn refitted_without(data: &Data, tried: &Tried, test: usize) -> Option<Vec<f64>> {
     let kept = |window: &Window| window.test != test;
     let windows = data.fit.windows.iter().filter(|w| kept(w)).cloned().collect::<Vec<_>>();
-    if !windows.iter().any(|w| w.moves) {
+    if windows.is_empty() {
         return None;
     }
     let states = data.fit.windows.iter().zip(&tried.fit.windows).filter(|(w, _)| kept(w));
@@ -50,5 +50,5 @@ fn refitted_without(data: &Data, tried: &Tried, test: usize) -> Option<Vec<f64>>
     let fit = super::fit::Problem { windows: &windows, ..data.fit };
     let part = Data { fit, held_out: super::fit::Problem { windows: &[], ..data.held_out } };
     let h: Hypothesis = tried.hypothesis.clone();
-    Some(refit(&part, h, &from, std::slice::from_ref(&tried.fit.values))?.fit.values)
+    Some(refit(&part, h, &from, &tried.fit.values)?.fit.values)
 }

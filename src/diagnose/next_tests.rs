@@ -148,8 +148,8 @@ impl Pair<'_> {
         if let Some(made) = &made
             && let Some(fit) = states(made, self.second, &self.second.fit.values)
         {
-            row.error = windowed_error(&made.windows, &fit.windows);
-            row.nats = Some(nats(&made.windows, &fit.windows) - made.first_nats);
+            row.error = windowed_error(&fit.windows);
+            row.nats = Some(nats(&fit.windows) - made.first_nats);
         }
         (row, made)
     }
@@ -184,7 +184,7 @@ impl Pair<'_> {
         tests.push(made);
         let mut made = Made { tests, windows, first_nats: 0.0 };
         let own = states(&made, self.first, &self.first.fit.values)?;
-        made.first_nats = nats(&made.windows, &own.windows);
+        made.first_nats = nats(&own.windows);
         Some(made)
     }
 
@@ -199,10 +199,10 @@ impl Pair<'_> {
         let start = problem.states(&second.hypothesis, &second.fit.values, &x, 1, false)?;
         let fit = problem.fit_finely(&second.hypothesis, start)?;
         let cost = |tried: &Tried, values: &[f64]| 0.5 * tried.hypothesis.prior_penalty(values);
-        let first = nats(old, &self.first.fit.windows) + cost(self.first, &self.first.fit.values);
-        let both = nats(&windows, &fit.windows) + cost(second, &fit.values);
+        let first = nats(&self.first.fit.windows) + cost(self.first, &self.first.fit.values);
+        let both = nats(&fit.windows) + cost(second, &fit.values);
         Some(NextShaking {
-            error: windowed_error(&made.windows, &fit.windows[old.len()..]),
+            error: windowed_error(&fit.windows[old.len()..]),
             nats: Some(both - first - made.first_nats),
             fitted: true,
             ..row.clone()

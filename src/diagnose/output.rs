@@ -134,9 +134,9 @@ fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
         "wall": numbers(&diagnosis.after, 0..diagnosis.after.hypothesis.nuisances),
         "tests": tests(experiment, diagnosis),
         "windowed_error": {
-            "before": joint_error(&data, &diagnosis.before),
-            "recalibrated": joint_error(&data, &diagnosis.recalibrated),
-            "after": joint_error(&data, &diagnosis.after),
+            "before": joint_error(&diagnosis.before),
+            "recalibrated": joint_error(&diagnosis.recalibrated),
+            "after": joint_error(&diagnosis.after),
         },
         "against": {
             "before": against(&data, &diagnosis.before),
@@ -195,7 +195,7 @@ fn sd(tried: &Tried, i: usize) -> Option<f64> {
 fn rival(experiment: &Experiment, data: &Data, tried: &Tried) -> Value {
     let h = &tried.hypothesis;
     let added = h.nuisances..h.unknowns.len();
-    let [fit, held_out] = tried.errors(data);
+    let [fit, held_out] = tried.errors();
     let [against_fit, against_held_out] = tried.against(data);
     let wme = |purpose| mean_wme(experiment, tried, purpose);
     json!({
@@ -243,9 +243,8 @@ fn tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Vec<Value> {
 
 fn test_error(windows: &[Vec<Window>; 2], tried: &Tried, test: usize) -> Option<f64> {
     let both = windows.iter().zip([&tried.fit.windows, &tried.held_out.windows]);
-    let pairs = both.flat_map(|(w, f)| w.iter().zip(f)).filter(|(w, _)| w.test == test);
-    let (windows, fits): (Vec<Window>, Vec<WindowFit>) = pairs.map(|(w, f)| (w.clone(), f.clone())).unzip();
-    windowed_error(&windows, &fits)
+    let own = both.flat_map(|(w, f)| w.iter().zip(f)).filter(|(w, _)| w.test == test);
+    windowed_error(&own.map(|(_, fit)| fit.clone()).collect::<Vec<WindowFit>>())
 }
 
 /// For each kind, the smallest size that would have been told from nothing, and the size at which it would matter.

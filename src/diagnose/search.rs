@@ -40,24 +40,18 @@ pub struct Data<'a> {
 
 impl Tried {
     /// Windowed errors: fit, held out.
-    pub fn errors(&self, data: &Data) -> [Option<f64>; 2] {
-        [
-            windowed_error(data.fit.windows, &self.fit.windows),
-            windowed_error(data.held_out.windows, &self.held_out.windows),
-        ]
+    pub fn errors(&self) -> [Option<f64>; 2] {
+        [windowed_error(&self.fit.windows), windowed_error(&self.held_out.windows)]
     }
 
     /// What speaks against it, in natural logarithms of likelihood: windows that were fitted with the prior and half the
     /// logarithm of their number for each added one (Schwarz), and windows that were held out.
     pub fn against(&self, data: &Data) -> [f64; 2] {
-        let moving = data.fit.windows.iter().filter(|w| w.moves).map(|w| w.samples.len()).sum::<usize>();
+        let samples = data.fit.windows.iter().map(|w| w.samples.len()).sum::<usize>();
         let added = self.hypothesis.unknowns.len() - self.hypothesis.nuisances;
-        let price = 0.5 * added as f64 * (moving.max(1) as f64).ln();
+        let price = 0.5 * added as f64 * (samples.max(1) as f64).ln();
         let prior = 0.5 * self.hypothesis.prior_penalty(&self.fit.values);
-        [
-            nats(data.fit.windows, &self.fit.windows) + prior + price,
-            nats(data.held_out.windows, &self.held_out.windows),
-        ]
+        [nats(&self.fit.windows) + prior + price, nats(&self.held_out.windows)]
     }
 }
 
@@ -151,11 +145,9 @@ fn ladder(h: &Hypothesis, start: &[f64], first: usize, sizes: &Sizes) -> Vec<Vec
     starts
 }
 
-/// Fits from given starts only.
-pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Tried> {
-    let x = states_of(&from.fit);
-    let fits = starts.iter().filter_map(|values| data.fit.states(&hypothesis, values, &x, 2, false));
-    let start = fits.min_by(|a, b| a.cost.total_cmp(&b.cost))?;
+/// Fits to the end from given values.
+pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, values: &[f64]) -> Option<Tried> {
+    let start = data.fit.states(&hypothesis, values, &states_of(&from.fit), 2, false)?;
     let fit = data.fit.fit_finely(&hypothesis, start)?;
     judged(data, hypothesis, fit, from, true)
 }

@@ -7,13 +7,12 @@ use super::score::{share_beyond, windowed_error};
 use super::search::{Data, Tried};
 use super::wall_number::WallNumber;
 use super::window_fit::WindowFit;
-use super::windows::Window;
 
-/// Windowed error, in standard deviations of the noise, that is noise. Nine null experiments, at noises of 1e-5 to 3e-4 rad,
-/// lie between 0.96 and 1.00; the estimated noise alone is uncertain by some 2 %.
+/// Windowed error, in standard deviations of the noise, that is noise. Some twenty null experiments, at noises of 1e-5 to
+/// 3e-4 rad, lie between 0.96 and 1.00.
 pub const NOISE: f64 = 1.06;
 /// The same after an effect was fitted to them: its tests are followed within it, or it is not the law. Where the right
-/// effect is added, the error lies between 0.97 and 1.02.
+/// effect is added, the error lies between 0.96 and 1.02.
 pub const NOISE_AFTER: f64 = 1.03;
 /// Share of windows with more than [`POOR`] times the squared noise that is a gap. Chosen: the null experiment of the
 /// development set has 2 and 4 %, those with an effect 27 % and more.
@@ -24,8 +23,8 @@ pub const POOR: f64 = 1.5;
 /// worth its name. Chosen: the effects of the development set gain hundreds.
 pub const WORTH_A_NAME: f64 = 30.0;
 /// Gain of a second effect over the best single one below which it is not told: over all windows, and over those held out.
-/// Chosen: second effects that were there gained 1000 and more, those that were not up to 240, for they take up a little
-/// of what a law outside the catalogue, or another way of modelling a contact, leaves.
+/// Chosen: a second effect that was there gained 1026; one that was not took up what another way of modelling a contact
+/// leaves, 79, or a law outside the catalogue, 240 and once 399.
 pub const WORTH_A_SECOND: f64 = 300.0;
 /// See [`WORTH_A_SECOND`].
 pub const WORTH_A_SECOND_HELD_OUT: f64 = 30.0;
@@ -66,23 +65,20 @@ pub enum Verdict {
     NoPower,
 }
 
-/// Windowed error over fitted and held-out windows together; none where nothing moves.
-pub fn joint_error(data: &Data, tried: &Tried) -> Option<f64> {
-    let (windows, fits) = all_windows(data, tried);
-    windowed_error(&windows, &fits)
+/// Windowed error over fitted and held-out windows together; none where there are none.
+pub fn joint_error(tried: &Tried) -> Option<f64> {
+    windowed_error(&all_windows(tried))
 }
 
 /// Fitted and held-out windows together.
-fn all_windows(data: &Data, tried: &Tried) -> (Vec<Window>, Vec<WindowFit>) {
-    let windows = [data.fit.windows, data.held_out.windows].concat();
-    (windows, [&tried.fit.windows[..], &tried.held_out.windows].concat())
+fn all_windows(tried: &Tried) -> Vec<WindowFit> {
+    [&tried.fit.windows[..], &tried.held_out.windows].concat()
 }
 
 /// Whether what is left is noise.
-pub fn is_noise(data: &Data, tried: &Tried) -> bool {
-    let (windows, fits) = all_windows(data, tried);
-    windowed_error(&windows, &fits).is_some_and(|error| error < NOISE)
-        && share_beyond(&windows, &fits, POOR) < POOR_SHARE
+pub fn is_noise(tried: &Tried) -> bool {
+    let fits = all_windows(tried);
+    windowed_error(&fits).is_some_and(|error| error < NOISE) && share_beyond(&fits, POOR) < POOR_SHARE
 }
 
 /// What speaks against a hypothesis in all windows.
@@ -91,11 +87,11 @@ pub fn against(data: &Data, tried: &Tried) -> f64 {
 }
 
 /// Whether what a hypothesis leaves is near enough to noise to be the truth, for a gap that was `before`.
-pub fn closes(data: &Data, tried: &Tried, before: f64) -> bool {
-    let Some(after) = joint_error(data, tried) else { return false };
-    let held_out = tried.errors(data)[1].is_none_or(|error| error < HELD_OUT);
+pub fn closes(tried: &Tried, before: f64) -> bool {
+    let Some(after) = joint_error(tried) else { return false };
+    let held_out = tried.errors()[1].is_none_or(|error| error < HELD_OUT);
     let left = (after * after - 1.0) / (before * before - 1.0).max(f64::MIN_POSITIVE);
-    held_out && (after < NOISE_AFTER && is_noise(data, tried) || left < LEFT)
+    held_out && (after < NOISE_AFTER && is_noise(tried) || left < LEFT)
 }
 
 /// Kinds of a hypothesis' additions, sorted; none if one is no answer.

@@ -39,11 +39,14 @@ pub struct Window {
     pub measured: Vec<f64>,
     /// Changes of these, within what the noise leaves open, over which sensitivities are taken.
     pub spread: Vec<f64>,
-    /// Whether the wall moves in it.
-    pub moves: bool,
 }
 
-/// Cuts all tests into windows.
+/// Whether a window can start somewhere in a test.
+pub fn is_readable(test: &TestData) -> bool {
+    (0..test.time_s.len()).any(|k| measured_state(test, k).is_some())
+}
+
+/// The windows of all tests in which the wall moves: where it stands it says little, and would take half of the work.
 pub fn windows(tests: &[TestData]) -> Vec<Window> {
     tests.iter().enumerate().flat_map(|(index, test)| windows_of(index, test)).collect()
 }
@@ -103,7 +106,8 @@ fn moves(test: &TestData, k: usize) -> bool {
 }
 
 fn window(index: usize, test: &TestData, samples: Range<usize>, start: &MeasuredState) -> Option<Window> {
-    if samples.len() < LEAST_SAMPLES {
+    let in_motion = samples.clone().filter(|&k| moves(test, k)).count() > 2;
+    if samples.len() < LEAST_SAMPLES || (start.freedom == Freedom::Rest && !in_motion) {
         return None;
     }
     let noise = test.noise_rad[0].max(test.noise_rad[1]);
@@ -116,7 +120,6 @@ fn window(index: usize, test: &TestData, samples: Range<usize>, start: &Measured
         freedom: start.freedom,
         measured: start.numbers.clone(),
         spread: spread.iter().copied().cycle().take(start.freedom.numbers()).collect(),
-        moves: start.freedom != Freedom::Rest || samples.clone().filter(|&k| moves(test, k)).count() > 2,
         samples,
     })
 }

@@ -5,7 +5,9 @@ use mrbd::model::{ImpactLaw, WallParameters};
 use mrbd::simulate::{Accuracy, History, Response, Shaking, simulate_observed};
 use rand::RngExt;
 
-use crate::walls::{any_effects, any_restitution, any_shaking, any_wall, made, rng, table_wall};
+use crate::walls::{
+    any_effects, any_restitution, any_shaking, any_wall, largest_difference, made, rng, table_wall,
+};
 
 fn run(wall: &WallParameters, shaking: &Shaking, tolerance: f64) -> (Response, History) {
     let step_s = shaking.horizontal.as_ref().expect("a record").step_s();
@@ -72,14 +74,7 @@ fn analytic_tolerance_bounds_the_error() {
         wall.restitution = any_restitution(&mut rng, 1.0);
         let vertical = rng.random_bool(0.5);
         let shaking = any_shaking(&mut rng, &wall, vertical);
-        let alpha = made(&wall).alpha_i_rad();
-        let difference = |a: &History, b: &History| {
-            let rows = a.rows.iter().zip(&b.rows);
-            let of = |a: [f64; 2], b: [f64; 2]| {
-                ((a[0] - b[0]).abs() / alpha[0]).max((a[1] - b[1]).abs() / alpha[1])
-            };
-            rows.map(|(a, b)| of(a.theta_rad, b.theta_rad)).fold(0.0, f64::max)
-        };
+        let difference = |a: &History, b: &History| largest_difference(&wall, a, b);
         let (_, exact) = run(&wall, &shaking, 1e-12);
         for (k, tolerance) in tolerances.into_iter().enumerate() {
             // Well-conditioned: shaking harder by a tenth of the tolerance moves nothing by more than the tolerance.

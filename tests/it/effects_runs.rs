@@ -5,7 +5,8 @@ use mrbd::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate, si
 use rand::RngExt;
 
 use crate::walls::{
-    any_of_all_effects, any_restitution, any_shaking, any_wall, around_zero, effect, log_uniform, made, rng,
+    any_of_all_effects, any_restitution, any_shaking, any_wall, around_zero, effect, largest_difference,
+    log_uniform, made, rng,
 };
 
 fn drawn(test: u64, index: u64) -> (WallParameters, Shaking) {
@@ -98,14 +99,7 @@ fn analytic_tolerance_bounds_the_error_with_kinks() {
     let mut worst = [0.0_f64; 2];
     for index in 0..150 {
         let (wall, shaking) = drawn(322, index);
-        let alpha = made(&wall).alpha_i_rad();
-        let difference = |a: &History, b: &History| {
-            let rows = a.rows.iter().zip(&b.rows);
-            let of = |a: [f64; 2], b: [f64; 2]| {
-                ((a[0] - b[0]).abs() / alpha[0]).max((a[1] - b[1]).abs() / alpha[1])
-            };
-            rows.map(|(a, b)| of(a.theta_rad, b.theta_rad)).fold(0.0, f64::max)
-        };
+        let difference = |a: &History, b: &History| largest_difference(&wall, a, b);
         let (_, exact) = run(&wall, &shaking, 1e-12);
         for (k, tolerance) in tolerances.into_iter().enumerate() {
             // Well-conditioned: shaking harder by a tenth of the tolerance moves nothing by more than the tolerance.

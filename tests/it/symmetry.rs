@@ -5,7 +5,9 @@ use mrbd::model::WallParameters;
 use mrbd::simulate::{Accuracy, History, Response, Shaking, simulate_observed};
 use rand::RngExt;
 
-use crate::walls::{any_effects, any_restitution, any_shaking, any_wall, around_zero, effect, made, rng};
+use crate::walls::{
+    any_effects, any_restitution, any_shaking, any_wall, around_zero, effect, largest_difference, made, rng,
+};
 
 fn run(wall: &WallParameters, shaking: &Shaking, accuracy: Accuracy) -> (Response, History) {
     let step_s = shaking.horizontal.as_ref().map_or(0.005, Accelerogram::step_s);
@@ -104,17 +106,6 @@ fn stretched(shaking: &Shaking, root: f64) -> Shaking {
         vertical: shaking.vertical.as_ref().map(stretch),
         tail_s: root * shaking.tail_s,
     }
-}
-
-/// Largest difference of rotations over the record and its tail, in units of α_i.
-fn largest_difference(wall: &WallParameters, a: &History, b: &History) -> f64 {
-    let alpha = made(wall).alpha_i_rad();
-    let rows = a.rows.iter().zip(&b.rows);
-    rows.map(|(a, b)| {
-        let of = |i: usize| (a.theta_rad[i] - b.theta_rad[i]).abs() / alpha[i];
-        of(0).max(of(1))
-    })
-    .fold(0.0, f64::max)
 }
 
 #[test]

@@ -4,7 +4,7 @@ use mrbd::ground::Accelerogram;
 use mrbd::model::{
     Contact, Effect, G_M_S2, ImpactLaw, Pivot, Restitution, State, Touching, Vector, Wall, WallParameters,
 };
-use mrbd::simulate::Shaking;
+use mrbd::simulate::{History, Shaking};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -257,4 +257,15 @@ pub fn any_impact(rng: &mut ChaCha8Rng, wall: &Wall, slowest: f64) -> (Contact, 
             (both, touching(true, true), State { theta: [0.0; 2], omega })
         }
     }
+}
+
+/// Largest difference of rotations over the record and its tail, in units of α_i.
+pub fn largest_difference(wall: &WallParameters, a: &History, b: &History) -> f64 {
+    let alpha = made(wall).alpha_i_rad();
+    let rows = a.rows.iter().zip(&b.rows);
+    rows.map(|(a, b)| {
+        let of = |i: usize| (a.theta_rad[i] - b.theta_rad[i]).abs() / alpha[i];
+        of(0).max(of(1))
+    })
+    .fold(0.0, f64::max)
 }

@@ -70,7 +70,7 @@ impl Tables<'_> {
             unit: h.unknowns[i].unit,
             value: tried.fit.values[i],
             sd: tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt()),
-            error: tried.errors(&data),
+            error: tried.errors(),
             against: against(&data, tried),
         };
         (h.nuisances..h.unknowns.len()).map(row).collect()

@@ -18,7 +18,6 @@ struct Row {
     from_s: f64,
     to_s: f64,
     pattern: &'static str,
-    moves: bool,
     impacts: Impacts,
     /// Root of the squared error over the squared noise: before, recalibrated, after.
     error: [Option<f64>; 3],
@@ -30,13 +29,12 @@ macro_rules! impacts {
     };
 }
 
-static COLUMNS: [Column<Row>; 18] = [
+static COLUMNS: [Column<Row>; 17] = [
     Column::input("test", "", "test", Read::Text(|r| Some(r.test.as_str().into()))),
     Column::input("use", "", "fit or hold-out", Read::Text(|r| Some(r.purpose.into()))),
     Column::input("from_s", "s", "first sample", Read::Number(|r: &Row| Some(r.from_s))).distinct(),
     Column::input("to_s", "s", "last sample", Read::Number(|r: &Row| Some(r.to_s))).distinct(),
     Column::input("pattern", "", "pattern at its start", Read::Text(|r| Some(r.pattern.into()))),
-    Column::input("moves", "", "whether the wall moves in it", Read::Flag(|r| Some(r.moves))),
     Column::result(
         "error_before",
         "",
@@ -74,7 +72,6 @@ impl Tables<'_> {
                 from_s: test.time_s[window.samples.start],
                 to_s: test.time_s[window.samples.end - 1],
                 pattern: window.freedom.state(x).1.name(),
-                moves: window.moves,
                 impacts: replay.run(window, x, &mut ()).impacts,
                 error: fits.each_ref().map(|fits| Some(fits[i].reduced().sqrt()).filter(|e| e.is_finite())),
             }

@@ -10,12 +10,11 @@ use super::stored::{Columns, Stored};
 use super::{AFTER, BEFORE, key};
 use crate::error::Result;
 
-const NAMES: [&str; 15] = [
+const NAMES: [&str; 14] = [
     "test",
     "from_s",
     "to_s",
     "pattern",
-    "moves",
     "error_before",
     "error_after",
     "impacts_c1",
@@ -55,8 +54,7 @@ impl Windows {
         let (tests, patterns) = (columns.labels("test")?, columns.labels("pattern")?);
         let [from, to] = [numbers("from_s")?, numbers("to_s")?];
         let errors = [numbers("error_before")?, numbers("error_after")?];
-        let moves = numbers("moves")?;
-        let counts = NAMES[7..]
+        let counts = NAMES[6..]
             .iter()
             .chain(&["impacts_other"])
             .map(|name| numbers(name))
@@ -68,7 +66,7 @@ impl Windows {
             impacts: impacts(&counts.iter().map(|count| count[k]).collect::<Vec<_>>()),
             error: [errors[0][k], errors[1][k]],
         };
-        Ok(Self((0..tests.len()).filter(|&k| moves[k] > 0.0).map(window).collect()))
+        Ok(Self((0..tests.len()).map(window).collect()))
     }
 }
 
