@@ -2,8 +2,14 @@
 //!
 //! The same sums in the same order as in [`super::motion`] and [`super::balance`], lane by lane: a wall moves the same to the
 //! bit alone and beside others. Only for walls without dampers, held tops and cubic springs; the others move alone.
+//!
+//! What works on lanes is `#[inline(always)]`, closures are avoided: only so does all of it become part of the one function
+//! that is compiled for the vector instructions of a processor. None of them joins a product and a sum, which would round
+//! otherwise.
 
-use wide::f64x4;
+use std::f64::consts::FRAC_PI_4;
+
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x4, mask64x4};
 
 use super::balance::Aftermath;
 use super::joint::{JointForce, JointForces};
@@ -12,76 +18,75 @@ use super::motion::Motion;
 use super::vector::{COS, SIN, sin_cos};
 use super::wall::G_M_S2;
 
-/// Walls side by side; eight do not fit the registers of every x86-64 and take a tenth longer.
+/// Walls side by side; eight do not fit the registers of every x86-64 and take longer.
 pub(crate) const LANES: usize = 4;
-type F = f64x4;
+type F<S> = f64x4<S>;
 
 /// One number of every lane.
 #[inline(always)]
-fn lanes(of: impl Fn(usize) -> f64) -> F {
-    F::new(std::array::from_fn(of))
+pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> F<S> {
+    F::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
 }
 
-/// The motions of several contact states side by side.
-pub(crate) struct Motions {
-    one: bool,
-    upper: F,
+/// The motions of several contact states side by side: all of walls that turn as one, or none.
+pub(crate) struct Motions<S: Simd, const AS_ONE: bool> {
+    upper: mask64x4<S>,
     any_upper: bool,
-    o_x: F,
-    o_c: F,
-    q_x: F,
-    q: [F; 2],
-    c: [F; 2],
-    v: [F; 2],
-    u: [F; 2],
-    whole_arm: [F; 2],
-    whole_moment: [F; 2],
-    whole_inertia: F,
-    inertias: [F; 2],
-    lower_mass: F,
-    upper_mass: F,
-    lower_inertia: F,
-    m_dp: F,
-    stiffness: F,
-    offset: F,
+    o_x: F<S>,
+    o_c: F<S>,
+    q_x: F<S>,
+    q: [F<S>; 2],
+    c: [F<S>; 2],
+    v: [F<S>; 2],
+    u: [F<S>; 2],
+    whole_arm: [F<S>; 2],
+    whole_moment: [F<S>; 2],
+    whole_inertia: F<S>,
+    inertias: [F<S>; 2],
+    lower_mass: F<S>,
+    upper_mass: F<S>,
+    lower_inertia: F<S>,
+    m_dp: F<S>,
+    stiffness: F<S>,
+    offset: F<S>,
 }
 
 /// Arms and static moments at one posture.
 #[derive(Clone, Copy)]
-pub(crate) struct TurnedLanes {
-    sin_1: F,
-    cos_1: F,
+pub(crate) struct TurnedLanes<S: Simd> {
+    sin_1: F<S>,
+    cos_1: F<S>,
     /// r_Q, r_C, V, U.
-    q: [F; 2],
-    c: [F; 2],
-    v: [F; 2],
-    u: [F; 2],
+    q: [F<S>; 2],
+    c: [F<S>; 2],
+    v: [F<S>; 2],
+    u: [F<S>; 2],
 }
 
 /// Angular accelerations of both bodies, and the power of the ground.
 #[derive(Clone, Copy)]
-pub(crate) struct RateLanes {
-    pub theta_dd: [F; 2],
-    pub ground_power_w: F,
+pub(crate) struct RateLanes<S: Simd> {
+    pub theta_dd: [F<S>; 2],
+    pub ground_power_w: F<S>,
 }
 
-struct Law {
-    m11: F,
-    m12: F,
-    m22: F,
-    f: [F; 2],
-    squares: [F; 2],
-    x_c: F,
-    v_c: F,
-    spring: F,
+struct Law<S: Simd> {
+    m11: F<S>,
+    m12: F<S>,
+    m22: F<S>,
+    f: [F<S>; 2],
+    squares: [F<S>; 2],
+    x_c: F<S>,
+    v_c: F<S>,
+    spring: F<S>,
 }
 
 /// [`Aftermath`] of every lane.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct AftermathLanes {
-    ground: [F; 3],
-    crack: [F; 3],
-    top: [F; 3],
+#[derive(Clone, Copy)]
+pub(crate) struct AftermathLanes<S: Simd> {
+    ground: [F<S>; 3],
+    crack: [F<S>; 3],
+    top: [F<S>; 3],
 }
 
 impl Motion {
@@ -94,61 +99,65 @@ impl Motion {
 }
 
 #[inline(always)]
-fn rotated([x, y]: [F; 2], sin: F, cos: F) -> [F; 2] {
+fn rotated<S: Simd>([x, y]: [F<S>; 2], sin: F<S>, cos: F<S>) -> [F<S>; 2] {
     [x * cos + y * sin, y * cos - x * sin]
 }
 
 #[inline(always)]
-fn sin_cos_lanes(theta: F) -> (F, F) {
-    if theta.abs().simd_gt(F::splat(std::f64::consts::FRAC_PI_4)).any() {
+fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
+    if theta.abs().simd_gt(FRAC_PI_4).any_true() {
         return library_sin_cos(theta);
     }
     let z = theta * theta;
     let zz = z * z;
-    let sum = |c: &[f64; 6]| (z * c[1] + c[0]) + zz * ((z * c[3] + c[2]) + zz * (z * c[5] + c[4]));
-    (theta + theta * z * sum(&SIN), F::ONE - (z * 0.5 - zz * sum(&COS)))
+    (theta + theta * z * polynomial(&SIN, z, zz), 1.0 - (z * 0.5 - zz * polynomial(&COS, z, zz)))
+}
+
+/// In the order of [`sin_cos`]; a function, for a closure would be compiled without the processor's instructions.
+#[inline(always)]
+fn polynomial<S: Simd>(c: &[f64; 6], z: F<S>, zz: F<S>) -> F<S> {
+    (z * c[1] + c[0]) + zz * ((z * c[3] + c[2]) + zz * (z * c[5] + c[4]))
 }
 
 #[cold]
-fn library_sin_cos(theta: F) -> (F, F) {
-    let pairs = theta.to_array().map(sin_cos);
-    (F::new(pairs.map(|p| p.0)), F::new(pairs.map(|p| p.1)))
+fn library_sin_cos<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
+    let simd = theta.simd;
+    let pairs = <[f64; LANES]>::from(theta).map(sin_cos);
+    (lanes(simd, |i| pairs[i].0), lanes(simd, |i| pairs[i].1))
 }
 
-impl Motions {
-    /// All of them turn as one, or none.
+impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
     #[inline(always)]
-    pub fn new(m: [&Motion; LANES]) -> Self {
-        let upper = |i: usize| f64::from(u8::from(m[i].freedom == Freedom::Upper));
-        let upper = lanes(upper).simd_eq(F::ONE);
+    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
+        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
+        let upper = lanes(|m| f64::from(u8::from(m.freedom == Freedom::Upper))).simd_eq(1.0);
         Self {
-            one: m[0].freedom == Freedom::Monolithic,
             upper,
-            any_upper: upper.any(),
-            o_x: lanes(|i| m[i].o_x),
-            o_c: lanes(|i| m[i].o_c),
-            q_x: lanes(|i| m[i].q_x),
-            q: [lanes(|i| m[i].q.x), lanes(|i| m[i].q.y)],
-            c: [lanes(|i| m[i].c.x), lanes(|i| m[i].c.y)],
-            v: [lanes(|i| m[i].v.x), lanes(|i| m[i].v.y)],
-            u: [lanes(|i| m[i].u.x), lanes(|i| m[i].u.y)],
-            whole_arm: [lanes(|i| m[i].whole_arm.x), lanes(|i| m[i].whole_arm.y)],
-            whole_moment: [lanes(|i| m[i].whole_moment.x), lanes(|i| m[i].whole_moment.y)],
-            whole_inertia: lanes(|i| m[i].whole_inertia),
-            inertias: [0, 1].map(|b| lanes(|i| m[i].inertias.to_array()[b])),
-            lower_mass: lanes(|i| m[i].lower_mass),
-            upper_mass: lanes(|i| m[i].upper_mass),
-            lower_inertia: lanes(|i| m[i].lower_inertia),
-            m_dp: lanes(|i| m[i].laws.carriage_mass_kg),
-            stiffness: lanes(|i| m[i].laws.stiffness_n_per_m),
-            offset: lanes(|i| m[i].laws.spring_offset_n),
+            any_upper: upper.any_true(),
+            o_x: lanes(|m| m.o_x),
+            o_c: lanes(|m| m.o_c),
+            q_x: lanes(|m| m.q_x),
+            q: [lanes(|m| m.q.x), lanes(|m| m.q.y)],
+            c: [lanes(|m| m.c.x), lanes(|m| m.c.y)],
+            v: [lanes(|m| m.v.x), lanes(|m| m.v.y)],
+            u: [lanes(|m| m.u.x), lanes(|m| m.u.y)],
+            whole_arm: [lanes(|m| m.whole_arm.x), lanes(|m| m.whole_arm.y)],
+            whole_moment: [lanes(|m| m.whole_moment.x), lanes(|m| m.whole_moment.y)],
+            whole_inertia: lanes(|m| m.whole_inertia),
+            inertias: [lanes(|m| m.inertias.to_array()[0]), lanes(|m| m.inertias.to_array()[1])],
+            lower_mass: lanes(|m| m.lower_mass),
+            upper_mass: lanes(|m| m.upper_mass),
+            lower_inertia: lanes(|m| m.lower_inertia),
+            m_dp: lanes(|m| m.laws.carriage_mass_kg),
+            stiffness: lanes(|m| m.laws.stiffness_n_per_m),
+            offset: lanes(|m| m.laws.spring_offset_n),
         }
     }
 
     #[inline(always)]
-    pub fn turned(&self, theta: [F; 2]) -> TurnedLanes {
+    pub fn turned(&self, theta: [F<S>; 2]) -> TurnedLanes<S> {
         let (sin_1, cos_1) = sin_cos_lanes(theta[0]);
-        let (sin_2, cos_2) = if self.one { (sin_1, cos_1) } else { sin_cos_lanes(theta[1]) };
+        let (sin_2, cos_2) = if AS_ONE { (sin_1, cos_1) } else { sin_cos_lanes(theta[1]) };
         TurnedLanes {
             sin_1,
             cos_1,
@@ -160,13 +169,13 @@ impl Motions {
     }
 
     #[inline(always)]
-    fn spring_force_n(&self, x_c: F) -> F {
+    fn spring_force_n(&self, x_c: F<S>) -> F<S> {
         self.offset - self.stiffness * x_c
     }
 
     /// As [`Motion::monolithic_rate`].
     #[inline(always)]
-    pub fn monolithic_rate(&self, theta: F, omega: F, [g_x, g_y]: [F; 2]) -> (F, F) {
+    pub fn monolithic_rate(&self, theta: F<S>, omega: F<S>, [g_x, g_y]: [F<S>; 2]) -> (F<S>, F<S>) {
         let (sin, cos) = sin_cos_lanes(theta);
         let r = rotated(self.whole_arm, sin, cos);
         let w = rotated(self.whole_moment, sin, cos);
@@ -175,19 +184,19 @@ impl Motions {
         let carriage = self.m_dp * (a_x - r[0] * omega * omega);
         let top = self.spring_force_n(r[0] + self.o_c) - carriage;
         let weight_and_ground = w[0] * a_y - w[1] * a_x;
-        let inverse = F::ONE / (self.whole_inertia + self.m_dp * r[1] * r[1]);
+        let inverse = 1.0 / (self.whole_inertia + self.m_dp * r[1] * r[1]);
         let theta_dd = (weight_and_ground + r[1] * top) * inverse;
         let power = g_y * w[0] * omega - g_x * (w[1] * omega + self.m_dp * v_c);
         (theta_dd, power)
     }
 
     #[inline(always)]
-    pub fn rate(&self, t: &TurnedLanes, omega: [F; 2], ground: [F; 2]) -> RateLanes {
+    pub fn rate(&self, t: &TurnedLanes<S>, omega: [F<S>; 2], ground: [F<S>; 2]) -> RateLanes<S> {
         self.rate_by(&self.law(t, omega, ground), t, omega, ground)
     }
 
     #[inline(always)]
-    fn law(&self, t: &TurnedLanes, [w1, w2]: [F; 2], [g_x, g_y]: [F; 2]) -> Law {
+    fn law(&self, t: &TurnedLanes<S>, [w1, w2]: [F<S>; 2], [g_x, g_y]: [F<S>; 2]) -> Law<S> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let squares = [w1 * w1, w2 * w2];
         let x_c = (t.q[0] + t.c[0]) + self.o_c;
@@ -213,7 +222,13 @@ impl Motions {
     }
 
     #[inline(always)]
-    fn rate_by(&self, law: &Law, t: &TurnedLanes, [w1, w2]: [F; 2], [g_x, g_y]: [F; 2]) -> RateLanes {
+    fn rate_by(
+        &self,
+        law: &Law<S>,
+        t: &TurnedLanes<S>,
+        [w1, w2]: [F<S>; 2],
+        [g_x, g_y]: [F<S>; 2],
+    ) -> RateLanes<S> {
         let momentum_x = t.v[1] * w1 + t.u[1] * w2 + self.m_dp * law.v_c;
         let ground_power_w = g_y * (t.v[0] * w1 + t.u[0] * w2) - g_x * momentum_x;
         RateLanes { theta_dd: self.solve(law), ground_power_w }
@@ -221,22 +236,28 @@ impl Motions {
 
     /// As [`super::mass_matrix::MassMatrix::solve`].
     #[inline(always)]
-    fn solve(&self, &Law { m11, m12, m22, f: [f1, f2], .. }: &Law) -> [F; 2] {
-        if self.one {
+    fn solve(&self, &Law { m11, m12, m22, f: [f1, f2], .. }: &Law<S>) -> [F<S>; 2] {
+        if AS_ONE {
             let x = (f1 + f2) / (m11 + m12 * 2.0 + m22);
             return [x, x];
         }
-        let inverse = F::ONE / (m11 * m22 - m12 * m12);
+        let inverse = 1.0 / (m11 * m22 - m12 * m12);
         let both = [(m22 * f1 - m12 * f2) * inverse, (m11 * f2 - m12 * f1) * inverse];
         if !self.any_upper {
             return both;
         }
-        [self.upper.bitselect(F::ZERO, both[0]), self.upper.bitselect(f2 / m22, both[1])]
+        let still = F::splat(f1.simd, 0.0);
+        [self.upper.select(still, both[0]), self.upper.select(f2 / m22, both[1])]
     }
 
     /// As [`Motion::arrival`].
     #[inline(always)]
-    pub fn arrival(&self, t: &TurnedLanes, omega: [F; 2], ground: [F; 2]) -> (RateLanes, AftermathLanes) {
+    pub fn arrival(
+        &self,
+        t: &TurnedLanes<S>,
+        omega: [F<S>; 2],
+        ground: [F<S>; 2],
+    ) -> (RateLanes<S>, AftermathLanes<S>) {
         let law = self.law(t, omega, ground);
         let rate = self.rate_by(&law, t, omega, ground);
         (rate, self.aftermath(&law, t, rate.theta_dd, ground))
@@ -245,11 +266,11 @@ impl Motions {
     #[inline(always)]
     fn aftermath(
         &self,
-        law: &Law,
-        t: &TurnedLanes,
-        [dd_1, dd_2]: [F; 2],
-        [g_x, g_y]: [F; 2],
-    ) -> AftermathLanes {
+        law: &Law<S>,
+        t: &TurnedLanes<S>,
+        [dd_1, dd_2]: [F<S>; 2],
+        [g_x, g_y]: [F<S>; 2],
+    ) -> AftermathLanes<S> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let [w1, w2] = law.squares;
         let q_x = t.q[1] * dd_1 - t.q[0] * w1;
@@ -280,11 +301,11 @@ impl Motions {
     }
 }
 
-impl AftermathLanes {
+impl<S: Simd> AftermathLanes<S> {
     /// That of one lane.
     #[inline(always)]
     pub fn unpacked(&self) -> [Aftermath; LANES] {
-        let [ground, crack, top] = [self.ground, self.crack, self.top].map(|of| of.map(F::to_array));
+        let [ground, crack, top] = [self.ground, self.crack, self.top].map(|of| of.map(<[f64; LANES]>::from));
         let force = |of: &[[f64; LANES]; 3], i: usize| JointForce {
             shear: of[0][i],
             normal: of[1][i],

@@ -4,23 +4,23 @@
 
 use std::ops::{Add, Mul};
 
-use wide::f64x4;
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
 use super::response::Response;
 use super::run::{Asked, Run};
-use crate::model::{Aftermath, AftermathLanes, LANES, Motions, TurnedLanes};
+use crate::model::{Aftermath, AftermathLanes, LANES, Motions, TurnedLanes, lanes};
 use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
 
-type F = f64x4;
+type F<S> = f64x4<S>;
 
 /// One coordinate of every run, or both of them.
 #[derive(Clone, Copy)]
-struct One(F);
+struct One<S: Simd>(F<S>);
 
 #[derive(Clone, Copy)]
-struct Two([F; 2]);
+struct Two<S: Simd>([F<S>; 2]);
 
-impl Add for One {
+impl<S: Simd> Add for One<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -28,7 +28,7 @@ impl Add for One {
     }
 }
 
-impl Mul<f64> for One {
+impl<S: Simd> Mul<f64> for One<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -36,16 +36,15 @@ impl Mul<f64> for One {
     }
 }
 
-impl Values for One {
-    const ZERO: Self = Self(F::ZERO);
-    type Length = F;
+impl<S: Simd> Values for One<S> {
+    type Length = F<S>;
     #[inline(always)]
-    fn over(self, length: F) -> Self {
+    fn over(self, length: F<S>) -> Self {
         Self(self.0 * length)
     }
 }
 
-impl Add for Two {
+impl<S: Simd> Add for Two<S> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -53,99 +52,106 @@ impl Add for Two {
     }
 }
 
-impl Mul<f64> for Two {
+impl<S: Simd> Mul<f64> for Two<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        Self(self.0.map(|x| x * factor))
+        Self([self.0[0] * factor, self.0[1] * factor])
     }
 }
 
-impl Values for Two {
-    const ZERO: Self = Self([F::ZERO; 2]);
-    type Length = F;
+impl<S: Simd> Values for Two<S> {
+    type Length = F<S>;
     #[inline(always)]
-    fn over(self, length: F) -> Self {
+    fn over(self, length: F<S>) -> Self {
         Self([self.0[0] * length, self.0[1] * length])
     }
 }
 
-struct Shaken {
-    motions: Motions,
-    from: [F; 2],
-    slope: [F; 2],
-    from_s: F,
-    posture: Option<TurnedLanes>,
-    after: AftermathLanes,
+struct Shaken<S: Simd, const AS_ONE: bool> {
+    motions: Motions<S, AS_ONE>,
+    from: [F<S>; 2],
+    slope: [F<S>; 2],
+    from_s: F<S>,
+    posture: Option<TurnedLanes<S>>,
+    after: Option<AftermathLanes<S>>,
 }
 
-impl Shaken {
+impl<S: Simd, const AS_ONE: bool> Shaken<S, AS_ONE> {
     #[inline(always)]
-    fn new(asked: &[Asked; LANES]) -> Self {
-        let lanes = |of: fn(&Asked) -> f64| F::new(std::array::from_fn(|i| of(&asked[i])));
+    fn new(simd: S, asked: &[Asked; LANES]) -> Self {
+        let lanes = |of: fn(&Asked) -> f64| lanes(simd, |i| of(&asked[i]));
         Self {
-            motions: Motions::new(std::array::from_fn(|i| asked[i].law)),
+            motions: Motions::new(simd, std::array::from_fn(|i| asked[i].law)),
             from: [lanes(|a| a.piece.from.x), lanes(|a| a.piece.from.y)],
             slope: [lanes(|a| a.piece.slope.x), lanes(|a| a.piece.slope.y)],
             from_s: lanes(|a| a.from_s),
             posture: None,
-            after: AftermathLanes::default(),
+            after: None,
         }
     }
 
     #[inline(always)]
-    fn ground(&self, after_s: F) -> [F; 2] {
+    fn ground(&self, after_s: F<S>) -> [F<S>; 2] {
         let offset_s = self.from_s + after_s;
-        [0, 1].map(|i| self.from[i] + self.slope[i] * offset_s)
+        [self.from[0] + self.slope[0] * offset_s, self.from[1] + self.slope[1] * offset_s]
+    }
+
+    /// What the landing told of every lane.
+    #[inline(always)]
+    fn aftermaths(&self) -> [Aftermath; LANES] {
+        self.after.as_ref().map_or([Aftermath::default(); LANES], AftermathLanes::unpacked)
     }
 }
 
-impl Field<One> for Shaken {
+impl<S: Simd> Field<One<S>> for Shaken<S, true> {
     #[inline(always)]
-    fn rate(&mut self, after_s: F, theta: One, omega: One) -> Rate<One> {
+    fn rate(&mut self, after_s: F<S>, theta: One<S>, omega: One<S>) -> Rate<One<S>> {
         let (theta_dd, power) = self.motions.monolithic_rate(theta.0, omega.0, self.ground(after_s));
         Rate { acceleration: One(theta_dd), quadrature: One(power) }
     }
 
     #[inline(always)]
-    fn land(&mut self, after_s: F, theta: One, omega: One) -> Rate<One> {
+    fn land(&mut self, after_s: F<S>, theta: One<S>, omega: One<S>) -> Rate<One<S>> {
         let turned = self.motions.turned([theta.0; 2]);
         let (rate, after) = self.motions.arrival(&turned, [omega.0; 2], self.ground(after_s));
-        self.after = after;
+        self.after = Some(after);
         Rate { acceleration: One(rate.theta_dd[0]), quadrature: One(rate.ground_power_w) }
     }
 }
 
 /// Both coordinates, and the one quadrature in the place of the first.
-impl Field<Two> for Shaken {
+impl<S: Simd> Field<Two<S>> for Shaken<S, false> {
     #[inline(always)]
-    fn rate(&mut self, after_s: F, theta: Two, omega: Two) -> Rate<Two> {
+    fn rate(&mut self, after_s: F<S>, theta: Two<S>, omega: Two<S>) -> Rate<Two<S>> {
         let turned = self.motions.turned(theta.0);
         let rate = self.motions.rate(&turned, omega.0, self.ground(after_s));
         self.posture = Some(turned);
-        Rate { acceleration: Two(rate.theta_dd), quadrature: Two([rate.ground_power_w, F::ZERO]) }
+        let none = F::splat(after_s.simd, 0.0);
+        Rate { acceleration: Two(rate.theta_dd), quadrature: Two([rate.ground_power_w, none]) }
     }
 
     #[inline(always)]
-    fn land(&mut self, after_s: F, theta: Two, omega: Two) -> Rate<Two> {
+    fn land(&mut self, after_s: F<S>, theta: Two<S>, omega: Two<S>) -> Rate<Two<S>> {
         let turned = self.posture.unwrap_or_else(|| self.motions.turned(theta.0));
         let (rate, after) = self.motions.arrival(&turned, omega.0, self.ground(after_s));
-        self.after = after;
-        Rate { acceleration: Two(rate.theta_dd), quadrature: Two([rate.ground_power_w, F::ZERO]) }
+        self.after = Some(after);
+        let none = F::splat(after_s.simd, 0.0);
+        Rate { acceleration: Two(rate.theta_dd), quadrature: Two([rate.ground_power_w, none]) }
     }
 }
 
 /// The steps of walls that turn as one.
-#[inline(never)]
-fn steps_as_one(asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
-    let mut shaken = Shaken::new(asked);
-    let lanes = |of: fn(&Asked) -> f64| One(F::new(std::array::from_fn(|i| of(&asked[i]))));
+#[inline(always)]
+fn steps_as_one<S: Simd>(simd: S, asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
+    let mut shaken = Shaken::<S, true>::new(simd, asked);
+    let lanes = |of: fn(&Asked) -> f64| One(lanes(simd, |i| of(&asked[i])));
     let start =
         Rate { acceleration: lanes(|a| a.now.acceleration[0]), quadrature: lanes(|a| a.quadrature_rate[0]) };
     let h = lanes(|a| a.h).0;
     let stride =
         Nystrom::stride(lanes(|a| a.now.position[0]), lanes(|a| a.now.velocity[0]), start, h, &mut shaken);
-    let after = shaken.after.unpacked();
+    let after = shaken.aftermaths();
     let [x, v, a, rate, gained, e_x, e_v] = [
         stride.position,
         stride.velocity,
@@ -155,7 +161,7 @@ fn steps_as_one(asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
         stride.position_error,
         stride.velocity_error,
     ]
-    .map(|of| of.0.to_array());
+    .map(|of| <[f64; LANES]>::from(of.0));
     std::array::from_fn(|i| {
         let step = Step {
             h: asked[i].h,
@@ -171,18 +177,18 @@ fn steps_as_one(asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
 }
 
 /// The steps of walls whose bodies turn apart.
-#[inline(never)]
-fn steps_apart(asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
-    let mut shaken = Shaken::new(asked);
-    let lanes = |of: fn(&Asked) -> f64| F::new(std::array::from_fn(|i| of(&asked[i])));
+#[inline(always)]
+fn steps_apart<S: Simd>(simd: S, asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
+    let mut shaken = Shaken::<S, false>::new(simd, asked);
+    let lanes = |of: fn(&Asked) -> f64| lanes(simd, |i| of(&asked[i]));
     let start = Rate {
         acceleration: Two([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
-        quadrature: Two([lanes(|a| a.quadrature_rate[0]), F::ZERO]),
+        quadrature: Two([lanes(|a| a.quadrature_rate[0]), lanes(|_| 0.0)]),
     };
     let x = Two([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
     let v = Two([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
     let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
-    let after = shaken.after.unpacked();
+    let after = shaken.aftermaths();
     let [x, v, a, e_x, e_v] = [
         stride.position,
         stride.velocity,
@@ -190,8 +196,8 @@ fn steps_apart(asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
         stride.position_error,
         stride.velocity_error,
     ]
-    .map(|of| of.0.map(F::to_array));
-    let [rate, gained] = [stride.end.quadrature, stride.quadrature].map(|of| of.0[0].to_array());
+    .map(|of| of.0.map(<[f64; LANES]>::from));
+    let [rate, gained] = [stride.end.quadrature, stride.quadrature].map(|of| <[f64; LANES]>::from(of.0[0]));
     std::array::from_fn(|i| {
         let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
         let step = Step {
@@ -229,6 +235,7 @@ pub fn simulate_side_by_side<T>(next: impl FnMut() -> Option<(T, Prepared)>, don
         slots: Vec::with_capacity(AT_ONCE),
         as_one: Vec::with_capacity(AT_ONCE),
         apart: Vec::with_capacity(AT_ONCE),
+        level: Level::new(),
     };
     while work.slots.len() < AT_ONCE {
         let Some(run) = work.begin_next() else { break };
@@ -245,6 +252,8 @@ struct Work<T, N, D> {
     /// Slots that ask for a step of a wall that turns as one, and of one whose bodies turn apart.
     as_one: Vec<usize>,
     apart: Vec<usize>,
+    /// Vector instructions that this processor has.
+    level: Level,
 }
 
 impl<T, N: FnMut() -> Option<(T, Prepared)>, D: FnMut(T, Response)> Work<T, N, D> {
@@ -291,7 +300,11 @@ impl<T, N: FnMut() -> Option<(T, Prepared)>, D: FnMut(T, Response)> Work<T, N, D
                 let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
                 run.asked()
             });
-            if one { steps_as_one(&asked) } else { steps_apart(&asked) }
+            if one {
+                dispatch!(self.level, simd => steps_as_one(simd, &asked))
+            } else {
+                dispatch!(self.level, simd => steps_apart(simd, &asked))
+            }
         };
         for (slot, (step, after)) in of.into_iter().zip(&taken).take(count) {
             if let Some((_, run)) = &mut self.slots[slot] {

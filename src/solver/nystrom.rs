@@ -14,8 +14,6 @@ use super::quintic::Point;
 
 /// Values side by side that a step moves: the two coordinates of one motion, or those of several motions.
 pub trait Values: Copy + Add<Output = Self> + Mul<f64, Output = Self> {
-    /// Zeros.
-    const ZERO: Self;
     /// The length of a step: one, or one for each motion.
     type Length: Copy + Mul<Output = Self::Length> + Mul<f64, Output = Self::Length>;
 
@@ -24,7 +22,6 @@ pub trait Values: Copy + Add<Output = Self> + Mul<f64, Output = Self> {
 }
 
 impl Values for f64x2 {
-    const ZERO: Self = f64x2::ZERO;
     type Length = f64;
 
     #[inline(always)]
@@ -195,9 +192,9 @@ impl Nystrom {
             position,
             velocity,
             end,
-            quadrature: sum::<6, V>(V::ZERO, h, &B, &quadratures),
-            position_error: sum::<5, V>(V::ZERO, h2, &E_POSITION, &accelerations),
-            velocity_error: sum::<5, V>(V::ZERO, h, &E_VELOCITY, &accelerations),
+            quadrature: gain::<6, V>(h, &B, &quadratures),
+            position_error: gain::<5, V>(h2, &E_POSITION, &accelerations),
+            velocity_error: gain::<5, V>(h, &E_VELOCITY, &accelerations),
         }
     }
 }
@@ -205,11 +202,24 @@ impl Nystrom {
 /// x + f Σ w_j r_j over the first `N` rates; what waits for the last of them is one product and one sum.
 #[inline(always)]
 fn sum<const N: usize, V: Values>(x: V, factor: V::Length, weights: &[f64], rates: &[V; 6]) -> V {
-    let mut earlier = V::ZERO;
-    for j in 0..N - 1 {
-        earlier = earlier + rates[j] * weights[j];
+    let last = rates[N - 1].over(factor * weights[N - 1]);
+    if N == 1 { x + last } else { (x + earlier::<N, V>(weights, rates).over(factor)) + last }
+}
+
+/// The same from zero.
+#[inline(always)]
+fn gain<const N: usize, V: Values>(factor: V::Length, weights: &[f64], rates: &[V; 6]) -> V {
+    earlier::<N, V>(weights, rates).over(factor) + rates[N - 1].over(factor * weights[N - 1])
+}
+
+/// Σ w_j r_j over the first rates of `N`, without the last.
+#[inline(always)]
+fn earlier<const N: usize, V: Values>(weights: &[f64], rates: &[V; 6]) -> V {
+    let mut sum = rates[0] * weights[0];
+    for j in 1..N - 1 {
+        sum = sum + rates[j] * weights[j];
     }
-    (x + earlier.over(factor)) + rates[N - 1].over(factor * weights[N - 1])
+    sum
 }
 
 #[cfg(test)]
