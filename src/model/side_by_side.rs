@@ -9,7 +9,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
 use super::balance::Aftermath;
 use super::joint::{JointForce, JointForces};

@@ -240,16 +240,17 @@ impl<O: Observer> Run<O> {
 
     /// Goes on to where a step is to be taken; false at the end of the record and its free motion.
     fn go_on(&mut self) -> Result<bool, Stop> {
-        while let Some(piece) = self.piece {
+        // The piece is looked at where it is: to copy what was just written would wait for the writing.
+        while let Some(&Piece { length_s, .. }) = self.piece.as_ref() {
             if let Doing::Meeting { .. } | Doing::Nearing { .. } = self.doing {
                 return Ok(true);
             }
-            while self.offset_s < piece.length_s {
+            while self.offset_s < length_s {
                 if self.contact != Contact::REST {
-                    self.doing = Doing::On { h: self.controller.next_s(piece.length_s - self.offset_s) };
+                    self.doing = Doing::On { h: self.controller.next_s(length_s - self.offset_s) };
                     return Ok(true);
                 }
-                self.offset_s = self.stand(&piece, self.offset_s)?;
+                self.stand_in_piece()?;
             }
             self.k += 1;
             self.offset_s = 0.0;

@@ -257,6 +257,7 @@ struct Work<T, N, D> {
 }
 
 impl<T, N: FnMut() -> Option<(T, Prepared)>, D: FnMut(T, Response)> Work<T, N, D> {
+    #[inline(never)]
     fn begin_next(&mut self) -> Option<(T, Run<()>)> {
         let (tag, Prepared(mut run)) = (self.next)()?;
         run.begin(0.0);
@@ -267,10 +268,7 @@ impl<T, N: FnMut() -> Option<(T, Prepared)>, D: FnMut(T, Response)> Work<T, N, D
     fn go_on(&mut self, slot: usize) {
         while let Some((_, run)) = &mut self.slots[slot] {
             if !run.wants_step() {
-                if let Some((tag, run)) = self.slots[slot].take() {
-                    (self.done)(tag, run.end());
-                }
-                self.slots[slot] = self.begin_next();
+                self.replace(slot);
                 continue;
             }
             match run.asked().law.side_by_side() {
@@ -282,6 +280,15 @@ impl<T, N: FnMut() -> Option<(T, Prepared)>, D: FnMut(T, Response)> Work<T, N, D
                 }
             }
         }
+    }
+
+    /// Ends the run in a slot and begins the next one there.
+    #[inline(never)]
+    fn replace(&mut self, slot: usize) {
+        if let Some((tag, run)) = self.slots[slot].take() {
+            (self.done)(tag, run.end());
+        }
+        self.slots[slot] = self.begin_next();
     }
 
     /// Takes the steps of the kind that most slots ask for; false when none asks.

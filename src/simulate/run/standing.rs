@@ -26,8 +26,16 @@ impl<O: Observer> Run<O> {
         next
     }
 
+    /// Stands on in the piece until a corner lifts or it ends.
+    #[inline(never)]
+    pub(super) fn stand_in_piece(&mut self) -> Result<(), Stop> {
+        let Some(piece) = self.piece else { return Ok(()) };
+        self.offset_s = self.stand(&piece, self.offset_s)?;
+        Ok(())
+    }
+
     /// Stands until a corner lifts or the piece ends; gives the offset reached.
-    pub(super) fn stand(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
+    fn stand(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
         let lift_off = self.rest.lift_off_s(piece, from_s);
         let to_s = lift_off.map_or(piece.length_s, |s| self.after_opening(s, piece));
         let friction = self.rest.friction(piece.at(from_s)).max(self.rest.friction(piece.at(to_s)));
