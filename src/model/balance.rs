@@ -4,7 +4,7 @@
 use wide::f64x2;
 
 use super::joint::{JointForce, JointForces};
-use super::motion::{Law, Motion, RatePair, Turned};
+use super::motion::{Law, Motion, MotionRate, RatePair, Turned};
 use super::posture::Pair;
 use super::vector::Vector;
 use super::wall::G_M_S2;
@@ -28,6 +28,12 @@ impl Motion {
         let law = self.law(t, omega, ground);
         let rate = self.rate_by(&law, t, omega, ground);
         (rate, self.aftermath_by(&law, t, rate.theta_dd, ground))
+    }
+
+    /// The same at a state.
+    pub fn arrival_at(&self, theta: Pair, omega: Pair, ground: Vector) -> (MotionRate, Aftermath) {
+        let (rate, after) = self.arrival(&self.turned(f64x2::new(theta)), f64x2::new(omega), ground);
+        (rate.into(), after)
     }
 
     /// Joint forces and motion of the top at a state with these angular accelerations.

@@ -52,6 +52,10 @@ struct Strike {
     touching: Touching,
     turns: Turns,
     v_before: Rates,
+    /// The faster of both bodies before, rad/s; not zero.
+    speed: f64,
+    /// What impulses at corners are small beside, N s; not zero.
+    impulse_size: f64,
 }
 
 impl RockingWall {
@@ -61,12 +65,14 @@ impl RockingWall {
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
         let strike = self.strike(from, touching, state);
-        let mut outcomes = self.admissible(from, &strike).into_iter().flatten();
-        let (Some(plastic), None) = (outcomes.next(), outcomes.next()) else {
-            let count = self.admissible(from, &strike).iter().flatten().count();
+        let (mut count, mut plastic) = (0, None);
+        self.admissible(from, &strike, |to, omega| {
+            count += 1;
+            plastic = Some((to, omega));
+        });
+        let (1, Some((plastic, projected))) = (count, plastic) else {
             return Err(MechanicsError::ImpactOutcomes { from: from.name(), touching, state: *state, count });
         };
-        let (plastic, projected) = plastic;
         let (contact, projected) = self.captured(plastic, projected, &strike);
         let change = Table2Change::of(from, contact);
         let omega = self.scaled(change, contact, projected, &strike);
@@ -85,32 +91,38 @@ impl RockingWall {
         touching: Touching,
         state: &State,
     ) -> [Option<Contact>; 9] {
-        let admissible = self.admissible(from, &self.strike(from, touching, state));
-        admissible.map(|found| found.map(|(contact, _)| contact))
+        let mut outcomes = [None; 9];
+        self.admissible(from, &self.strike(from, touching, state), |to, _| outcomes[to.index()] = Some(to));
+        outcomes
     }
 
     fn strike(&self, from: Contact, touching: Touching, state: &State) -> Strike {
         let turns = Turns::new(state.theta);
-        Strike { touching, turns, v_before: self.posture(from, turns).rates(state.omega) }
+        let v_before = self.posture(from, turns).rates(state.omega);
+        // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
+        let [w1, w2] = v_before.theta.map(|w| w.abs().max(f64::MIN_POSITIVE));
+        // A corner's impulse is a moment over a width: its roundings are those of the momentum times the slimness.
+        let size = (self.masses.momentum_size(&v_before) * self.slimness()).max(f64::MIN_POSITIVE);
+        Strike { touching, turns, v_before, speed: w1.max(w2), impulse_size: size }
     }
 
-    /// The admissible contact states, with the velocities in them.
-    fn admissible(&self, from: Contact, strike: &Strike) -> [Option<(Contact, Pair)>; 9] {
-        let mut clear = [None; 9];
-        let mut tie: Option<(Contact, Pair)> = None;
+    /// Tells the admissible contact states, with the velocities in them.
+    #[inline]
+    fn admissible(&self, from: Contact, strike: &Strike, mut tell: impl FnMut(Contact, Pair)) {
+        let (mut any, mut tie) = (false, None::<(Contact, Pair)>);
         for to in self.states_touching(from, strike.touching) {
             let (margin, omega) = self.margin(to, strike);
             if margin > ROUNDING {
-                clear[to.index()] = Some((to, omega));
+                any = true;
+                tell(to, omega);
             } else if margin >= -ROUNDING && tie.is_none_or(|(tied, _)| to.open_joints() < tied.open_joints())
             {
                 tie = Some((to, omega));
             }
         }
-        if clear.iter().all(Option::is_none) {
-            clear[0] = tie;
+        if let (false, Some((to, omega))) = (any, tie) {
+            tell(to, omega);
         }
-        clear
     }
 
     /// By how much a contact state is admissible: the smallest corner impulse of its closed joints or separation of its
@@ -118,17 +130,16 @@ impl RockingWall {
     fn margin(&self, to: Contact, strike: &Strike) -> (f64, Pair) {
         let posture = self.posture(to, strike.turns);
         let omega = self.projected_onto(to, &posture, strike);
-        // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
-        let [w1, w2] = strike.v_before.theta.map(|w| w.abs().max(f64::MIN_POSITIVE));
         let separation = self
             .joints()
             .filter(|joint| strike.touching.at(*joint) && to.at(*joint).is_open())
-            .map(|joint| to.at(joint).sign() * opening(joint, omega) / w1.max(w2))
-            .fold(f64::INFINITY, f64::min);
+            .map(|joint| to.at(joint).sign() * opening(joint, omega))
+            .fold(f64::INFINITY, f64::min)
+            / strike.speed;
         if separation < -ROUNDING {
             return (separation, omega);
         }
-        (separation.min(self.smallest_impulse(to, &posture, omega, &strike.v_before)), omega)
+        (separation.min(self.smallest_impulse(to, &posture, omega, strike)), omega)
     }
 
     /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
@@ -143,16 +154,17 @@ impl RockingWall {
     }
 
     /// Smallest impulse at the corners of the closed joints over the momentum before; infinite where all are open.
-    fn smallest_impulse(&self, to: Contact, posture: &Posture, omega: Pair, v_before: &Rates) -> f64 {
-        let jump = posture.rates(omega).minus(*v_before);
+    fn smallest_impulse(&self, to: Contact, posture: &Posture, omega: Pair, strike: &Strike) -> f64 {
+        if to.ground.is_open() && to.crack.is_open() {
+            return f64::INFINITY;
+        }
+        let jump = posture.rates(omega).minus(strike.v_before);
         let impulses = self.masses.impulses(posture, &jump);
-        // A corner's impulse is a moment over a width: its roundings are those of the momentum times the slimness.
-        let size = (self.masses.momentum_size(v_before) * self.slimness()).max(f64::MIN_POSITIVE);
         self.joints()
             .filter(|joint| to.at(*joint).is_closed())
             .flat_map(|joint| impulses.at(joint).corners(self.width_m(joint)))
-            .map(|impulse| impulse / size)
             .fold(f64::INFINITY, f64::min)
+            / strike.impulse_size
     }
 
     /// Height over the narrowest joint.

@@ -37,6 +37,14 @@ pub(crate) struct RatePair {
     pub powers_w: f64x2,
 }
 
+impl From<RatePair> for MotionRate {
+    #[inline]
+    fn from(rate: RatePair) -> Self {
+        let [ground_power_w, loss_power_w] = rate.powers_w.to_array();
+        Self { theta_dd: rate.theta_dd.to_array(), ground_power_w, loss_power_w }
+    }
+}
+
 /// The equations of motion of one contact state, with everything that does not change in time worked out.
 #[derive(Debug, Clone)]
 pub(crate) struct Motion {
@@ -187,9 +195,7 @@ impl Motion {
 
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
-        let rate = self.rate_at(&self.turned(f64x2::new(theta)), f64x2::new(omega), ground);
-        let [ground_power_w, loss_power_w] = rate.powers_w.to_array();
-        MotionRate { theta_dd: rate.theta_dd.to_array(), ground_power_w, loss_power_w }
+        self.rate_at(&self.turned(f64x2::new(theta)), f64x2::new(omega), ground).into()
     }
 
     /// The same at a posture that is known.

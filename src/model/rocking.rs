@@ -246,16 +246,14 @@ impl RockingWall {
         state: &State,
         ground: Vector,
     ) -> Option<(MotionRate, Aftermath)> {
-        let rate = self.rate(candidate, state, ground);
+        let (rate, after) = self.motion(candidate).arrival_at(state.theta, state.omega, ground);
         let apart = |joint: Joint| {
             let opens = before.at(joint).is_closed() && candidate.at(joint).is_open();
             !opens || candidate.at(joint).sign() * opening(joint, rate.theta_dd) > 0.0
         };
-        if !self.joints().all(apart) {
-            return None;
-        }
-        let after = self.motion(candidate).aftermath(state.theta, state.omega, rate.theta_dd, ground);
-        self.least_hold(candidate, &after).is_none_or(|least| least >= 0.0).then_some((rate, after))
+        let carries =
+            self.joints().all(apart) && self.least_hold(candidate, &after).is_none_or(|least| least >= 0.0);
+        carries.then_some((rate, after))
     }
 }
 
