@@ -24,6 +24,25 @@ const ROWS_PER_GROUP: usize = 122_880;
 /// zstd's own default: beyond it files shrink by percents and writing slows severalfold.
 const ZSTD_LEVEL: i32 = 3;
 
+/// How the pages of a file are compressed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pages {
+    /// Small: a file that stays.
+    Small,
+    /// Not at all: a file that is soon put together with others. To make zstd ready for each of its columns costs more than
+    /// all else about so short a file.
+    Plain,
+}
+
+impl Pages {
+    fn compression(self) -> parquet::errors::Result<Compression> {
+        Ok(match self {
+            Pages::Small => Compression::ZSTD(ZstdLevel::try_new(ZSTD_LEVEL)?),
+            Pages::Plain => Compression::UNCOMPRESSED,
+        })
+    }
+}
+
 /// A Parquet file being written; it takes its name only when it is finished.
 pub struct ParquetFile<R: 'static> {
     /// The file or, before it has a name, its folder: for messages.
@@ -44,9 +63,10 @@ impl<R> ParquetFile<R> {
         columns: &'static [Column<R>],
         metadata: &[(String, String)],
         drawn: bool,
+        pages: Pages,
     ) -> Result<Self> {
         let schema = Arc::new(Schema::new(columns.iter().map(Column::field).collect::<Vec<_>>()));
-        let properties = properties(columns, metadata, drawn).map_err(|e| Error::table(folder, e))?;
+        let properties = properties(columns, metadata, drawn, pages).map_err(|e| Error::table(folder, e))?;
         let file = durable::unfinished_in(folder)?;
         let writer = ArrowWriter::try_new(file, Arc::clone(&schema), Some(properties))
             .map_err(|e| refused(folder, e))?;
@@ -94,7 +114,7 @@ pub fn write_table<R>(
     metadata: &[(String, String)],
     rows: &[R],
 ) -> Result<()> {
-    let mut file = ParquetFile::create_in(durable::folder_of(path), columns, metadata, false)?;
+    let mut file = ParquetFile::create_in(durable::folder_of(path), columns, metadata, false, Pages::Small)?;
     file.write(rows)?;
     file.finish_as(|_| path.to_path_buf()).map(|_| ())
 }
@@ -114,10 +134,11 @@ fn properties<R>(
     columns: &[Column<R>],
     metadata: &[(String, String)],
     drawn: bool,
+    pages: Pages,
 ) -> parquet::errors::Result<WriterProperties> {
     let pairs = metadata.iter().map(|(key, value)| KeyValue::new(key.clone(), value.clone()));
     let mut builder = WriterProperties::builder()
-        .set_compression(Compression::ZSTD(ZstdLevel::try_new(ZSTD_LEVEL)?))
+        .set_compression(pages.compression()?)
         .set_max_row_group_row_count(Some(ROWS_PER_GROUP))
         .set_key_value_metadata(Some(pairs.collect()));
     let distinct = |column: &&Column<R>| match column.encoding {

@@ -19,7 +19,7 @@ use super::checksum::sha256;
 use super::column::Column;
 use super::durable::{UNFINISHED, write_durably};
 use super::folder::{OutputFolder, as_folder_name};
-use super::parquet_file::ParquetFile;
+use super::parquet_file::{Pages, ParquetFile};
 use super::schema::COLUMNS;
 use crate::batch::Finished;
 use crate::error::{Error, InputError, Result};
@@ -62,7 +62,7 @@ impl OutputFolder {
     /// [`Error::Io`] or [`Error::Table`] if the disk refuses.
     pub fn write_block(&self, record: &str, index: u64, runs: &[Finished]) -> Result<()> {
         let folder = make(&self.blocks_folder(record))?;
-        let mut file = self.begin(&folder)?;
+        let mut file = self.begin(&folder, Pages::Plain)?;
         file.write(runs)?;
         let name = |sha256: &str| folder.join(format!("block-{index:06}-{}.parquet", &sha256[..DIGITS]));
         file.finish_as(name).map(|_| ())
@@ -91,7 +91,7 @@ impl OutputFolder {
     /// [`Error::Io`] or [`Error::Table`] if the disk refuses; the blocks stay.
     pub fn write_part<'a>(&self, record: &str, blocks: impl Iterator<Item = &'a PathBuf>) -> Result<()> {
         let folder = make(&self.path().join("runs").join(hive(record)))?;
-        let mut part = self.begin(&folder)?;
+        let mut part = self.begin(&folder, Pages::Small)?;
         for block in blocks {
             append(&mut part, block)?;
         }
@@ -139,10 +139,11 @@ impl OutputFolder {
         Ok(())
     }
 
-    fn begin(&self, folder: &Path) -> Result<ParquetFile<Finished>> {
+    fn begin(&self, folder: &Path, pages: Pages) -> Result<ParquetFile<Finished>> {
         let columns: &'static [Column<Finished>] = COLUMNS;
         let manifest = self.manifest();
-        ParquetFile::create_in(folder, columns, &manifest.file_metadata(), manifest.kind.is_drawn())
+        let drawn = manifest.kind.is_drawn();
+        ParquetFile::create_in(folder, columns, &manifest.file_metadata(), drawn, pages)
     }
 
     fn blocks_folder(&self, record: &str) -> PathBuf {
