@@ -14,7 +14,7 @@ mod tally;
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
 pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
-pub use side_by_side::{Prepared, simulate_side_by_side};
+pub use side_by_side::{Prepared, simulate_side_by_side, simulate_side_by_side_at};
 pub use simulator::{Simulator, Start};
 
 use crate::ground::Accelerogram;

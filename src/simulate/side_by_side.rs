@@ -229,13 +229,22 @@ impl Prepared {
 ///
 /// A response is that of [`super::simulate`] to the bit, whatever runs beside it.
 pub fn simulate_side_by_side<T>(next: impl FnMut() -> Option<(T, Prepared)>, done: impl FnMut(T, Response)) {
+    simulate_side_by_side_at(Level::new(), next, done);
+}
+
+/// The same by given vector instructions, which change nothing but the time it takes.
+pub fn simulate_side_by_side_at<T>(
+    level: Level,
+    next: impl FnMut() -> Option<(T, Prepared)>,
+    done: impl FnMut(T, Response),
+) {
     let mut work = Work {
         next,
         done,
         slots: Vec::with_capacity(AT_ONCE),
         as_one: Vec::with_capacity(AT_ONCE),
         apart: Vec::with_capacity(AT_ONCE),
-        level: Level::new(),
+        level,
     };
     while work.slots.len() < AT_ONCE {
         let Some(run) = work.begin_next() else { break };

@@ -1,7 +1,8 @@
 //! Walls side by side in the lanes of vector registers move as each does alone.
 
+use fearless_simd::{Level, Simd};
 use mrbd::model::Wall;
-use mrbd::simulate::{Accuracy, Response, Shaking, Simulator, simulate, simulate_side_by_side};
+use mrbd::simulate::{Accuracy, Response, Shaking, Simulator, simulate, simulate_side_by_side_at};
 use rand::RngExt;
 
 use crate::walls::{any_effects, any_restitution, any_shaking, any_wall, made, rng};
@@ -23,13 +24,20 @@ fn anything(count: u64) -> Vec<(Wall, Shaking, Accuracy)> {
 }
 
 fn side_by_side<'a>(runs: impl Iterator<Item = &'a (Wall, Shaking, Accuracy)>) -> Vec<Response> {
+    side_by_side_at(Level::new(), runs)
+}
+
+fn side_by_side_at<'a>(
+    level: Level,
+    runs: impl Iterator<Item = &'a (Wall, Shaking, Accuracy)>,
+) -> Vec<Response> {
     let mut runs = runs.enumerate();
     let next = || {
         let (index, (wall, shaking, accuracy)) = runs.next()?;
         Some((index, Simulator::new(wall, shaking, *accuracy).prepared()))
     };
     let mut told = Vec::new();
-    simulate_side_by_side(next, |index, response| told.push((index, response)));
+    simulate_side_by_side_at(level, next, |index, response| told.push((index, response)));
     told.sort_by_key(|(index, _)| *index);
     told.into_iter().map(|(_, response)| response).collect()
 }
@@ -43,6 +51,10 @@ fn analytic_walls_side_by_side_move_as_alone_to_the_bit() {
     assert!(collapsed > 20 && impacts > 5000, "{collapsed} collapses, {impacts} impacts");
     // All numbers are finite, so that equal ones have the same bits but for the sign of a zero.
     assert!(side_by_side(runs.iter()) == alone);
+    // By every set of vector instructions of this processor.
+    for level in levels() {
+        assert!(side_by_side_at(level, runs.iter()) == alone, "{level:?}");
+    }
     // In other company: from the last to the first, two, and one alone.
     let mut backwards = side_by_side(runs.iter().rev());
     backwards.reverse();
@@ -51,4 +63,15 @@ fn analytic_walls_side_by_side_move_as_alone_to_the_bit() {
         assert!(side_by_side(runs.iter().take(few)) == alone[..few]);
     }
     assert!(side_by_side(runs.iter().take(0)).is_empty());
+}
+
+/// The sets of vector instructions that this processor has.
+fn levels() -> Vec<Level> {
+    let best = Level::new();
+    #[cfg(target_arch = "x86_64")]
+    let older =
+        [best.as_sse2().map(Simd::level), best.as_sse4_2().map(Simd::level), best.as_avx2().map(Simd::level)];
+    #[cfg(not(target_arch = "x86_64"))]
+    let older = [Some(Level::baseline())];
+    older.into_iter().flatten().chain([best]).collect()
 }
