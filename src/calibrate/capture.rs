@@ -51,7 +51,7 @@ pub(super) fn study(
             };
             let bounds = space.bounds();
             let mut search = GaussNewton::near(joint.to_vec());
-            search.minimise(Vec::new(), &bounds, VECTORS, &mut objective)?;
+            search.minimise(&bounds, VECTORS, &mut objective)?;
             let best = search.values;
             rows.push(CaptureRow {
                 law: law.name().to_owned(),

@@ -9,7 +9,6 @@ use super::assembly::Assembly;
 use super::capture;
 use super::draws::Draws;
 use super::experiment::Experiment;
-use super::horizons::stage_names;
 use super::identifiability::{BOOTSTRAP, Judge};
 use super::objective::Objective;
 use super::paper_de::PaperDe;
@@ -17,6 +16,7 @@ use super::result::{Calibration, MethodResult, Vector};
 use super::search::Found;
 use super::similarity::most_similar;
 use super::staged::Staged;
+use super::stages::stage_names;
 use crate::error::Result;
 
 /// Calibrates an experiment; every simulation goes into the archive.
@@ -51,10 +51,9 @@ impl Flow<'_> {
         let paper_simulations = paper.iter().map(|found| found.evaluations).sum::<usize>();
         let adaptive = self.adaptive_in_each_test(&paper)?;
         let budget = paper_simulations / self.fit.len();
-        let joint =
-            self.staged("joint", &self.fit, budget).minimise(&[self.middle()], &self.draws("joint"))?;
+        let joint = self.staged("joint", &self.fit, budget).minimise(self.middle(), &self.draws("joint"))?;
         let refine = self.staged("refined", &self.fit, self.experiment.settings.refine_vectors);
-        let refined = refine.minimise(&[self.elsewhere()], &self.draws("refined"))?;
+        let refined = refine.minimise(self.elsewhere(), &self.draws("refined"))?;
         let assembly = Assembly { experiment: self.experiment, fit: &self.fit };
         let methods = assembly.methods(&paper, &adaptive, similar, [&joint, &refined]);
         let (vector, joint_from) = cheaper(&methods);
@@ -112,7 +111,7 @@ impl Flow<'_> {
     fn adaptive_in_each_test(&self, paper: &[Found]) -> Result<Vec<Found>> {
         let search = |(&test, paper): (&usize, &Found)| {
             let draws = self.draws(&format!("adaptive/{}", self.experiment.tests[test].name));
-            self.staged("adaptive", &[test], paper.evaluations).minimise(&[self.middle()], &draws)
+            self.staged("adaptive", &[test], paper.evaluations).minimise(self.middle(), &draws)
         };
         self.fit.par_iter().zip(paper).map(search).collect()
     }

@@ -11,7 +11,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::draws::Draws;
 use super::least_sizes::Linear;
-use super::search::{Bounds, Found, Member, members};
+use super::search::{Bounds, Found, Member};
 use super::slopes::{Fit, Fitted, sides, slopes};
 use crate::error::Result;
 
@@ -55,28 +55,15 @@ impl GaussNewton {
         Self { differences: vec![DIFFERENCE[1]; values.len()], values, cloud: None }
     }
 
-    /// Goes down from here, or from a cheaper one of `others`, until the cost has settled or `budget` vectors are spent.
+    /// Goes down from here until the cost has settled or `budget` vectors are spent.
     ///
     /// # Errors
     /// What the simulation meets.
-    pub fn minimise(
-        &mut self,
-        others: Vec<Vec<f64>>,
-        bounds: &[Bounds],
-        budget: usize,
-        fit: &mut dyn Fit,
-    ) -> Result<Found> {
-        let starts = [vec![self.values.clone()], others].concat();
-        let mut fitted = fit.fitted(0, &starts)?;
-        let cost = |fitted: &Option<Fitted>| fitted.as_ref().map_or(f64::INFINITY, |fitted| fitted.cost);
-        let costs = fitted.iter().map(cost).collect::<Vec<_>>();
-        let cheapest = (1..costs.len()).fold(0, |best, k| if costs[k] < costs[best] { k } else { best });
-        let mut found = Found::start(members(starts, costs));
-        self.values.clone_from(&found.population[cheapest].values);
-        found.population = vec![found.population.swap_remove(cheapest)];
-        let start = fitted.swap_remove(cheapest);
+    pub fn minimise(&mut self, bounds: &[Bounds], budget: usize, fit: &mut dyn Fit) -> Result<Found> {
+        let mut now = fit.fitted(0, std::slice::from_ref(&self.values))?.pop().flatten();
+        let cost = now.as_ref().map_or(f64::INFINITY, |fitted| fitted.cost);
+        let mut found = Found::start(vec![Member { values: self.values.clone(), cost }]);
         let vectors_each = 2 * bounds.len() + DAMPINGS.len();
-        let mut now = start;
         let (mut iteration, mut idle) = (0, 0);
         while let Some(fitted) = now.take().filter(|_| found.evaluations + vectors_each <= budget) {
             let next = self.iterate(1 + 2 * iteration, bounds, &fitted, fit, &mut found)?;
@@ -92,17 +79,12 @@ impl GaussNewton {
         Ok(found)
     }
 
-    /// Vectors of the cloud, from near to far; none before the first slopes.
-    pub fn around(&self, count: usize, bounds: &[Bounds], draws: &Draws) -> Vec<Vec<f64>> {
-        let Some(root) = &self.cloud else { return Vec::new() };
-        let vector = |k: usize| {
-            let far = (k + 1) as f64 / count as f64;
-            let normal = |v: usize| StandardNormal.sample(&mut draws.of(0, k as u32, v as u32));
-            let step = far * root * DVector::from_fn(bounds.len(), |v, _| normal(v));
-            let all = self.values.iter().zip(bounds).zip(step.iter());
-            all.map(|((x, b), step): ((&f64, &Bounds), &f64)| b.clamp(x + step * b.width())).collect()
-        };
-        (0..count).map(vector).collect()
+    /// A vector of the cloud; none before the first slopes.
+    pub fn near_by(&self, number: u32, bounds: &[Bounds], draws: &Draws) -> Option<Vec<f64>> {
+        let normal = |v: usize| StandardNormal.sample(&mut draws.of(0, number, v as u32));
+        let step = self.cloud.as_ref()? * DVector::from_fn(bounds.len(), |v, _| normal(v));
+        let all = self.values.iter().zip(bounds).zip(step.iter());
+        Some(all.map(|((x, b), step)| b.clamp(x + step * b.width())).collect())
     }
 
     /// Moves to the cheapest vector of an iteration, which may be where it stands.
@@ -171,7 +153,7 @@ mod tests {
     fn analytic_linear_errors_vanish_in_a_few_iterations() {
         let bounds = [Bounds { lower: 0.0, upper: 1.0 }; 2];
         let mut search = GaussNewton::new(vec![0.9, 0.1]);
-        let found = search.minimise(Vec::new(), &bounds, 100, &mut Lines).expect("no simulation");
+        let found = search.minimise(&bounds, 100, &mut Lines).expect("no simulation");
         // Linear errors take one step; the least damping, 1e-7, leaves some 1e-7 of them.
         assert!(found.best().cost < 1e-4 && found.evaluations <= 61, "{found:?}");
         assert!((search.values[0] - 0.3).abs() < 1e-5 && (search.values[1] - 0.4).abs() < 1e-5);

@@ -4,11 +4,11 @@ use super::archive::{Archive, Row};
 use super::bootstrap::Bootstrap;
 use super::draws::Draws;
 use super::experiment::Experiment;
-use super::horizons::stage_names;
 use super::misfit::BLOCKS;
 use super::objective::{Objective, simulate};
 use super::parameter::Parameter;
 use super::result::{Estimate, Identifiability, ProfilePoint, Vector};
+use super::stages::whole_names;
 use super::statistics::{correlation, quantile};
 use super::trial::Simulated;
 use crate::error::Result;
@@ -144,10 +144,7 @@ impl Judge<'_> {
 
     /// Every vector that was simulated in all tests to fit, and its mean WME.
     fn joint_costs(&self) -> Vec<(Vec<f64>, f64)> {
-        // Of the stages, those over the whole of the tests.
-        let whole = |name: &String| !name.contains(" windows ") && !name.contains(" first ");
-        let mut searches =
-            ["joint", "refined"].iter().flat_map(|m| stage_names(m)).filter(whole).collect::<Vec<_>>();
+        let mut searches = ["joint", "refined"].iter().flat_map(|m| whole_names(m)).collect::<Vec<_>>();
         searches.push(BOOTSTRAP.to_owned());
         let mut of_all = self
             .archive

@@ -77,19 +77,6 @@ impl Target {
         Self { samples, measured_rad_s, floor_share_rad, floor_rad_s, independent_samples }
     }
 
-    /// The samples up to the time by which a share of the measured motion, ∫|θ|, has passed; two at least.
-    pub(super) fn first_samples(&self, share: f64) -> &[Sample] {
-        let motion = |s: &Sample| (0..2).map(|i| s.weight_s[i] * s.theta_rad[i].abs()).sum::<f64>();
-        let whole = self.samples.iter().map(motion).sum::<f64>();
-        let mut passed = 0.0;
-        let until = self.samples.iter().position(|s| {
-            passed += motion(s);
-            passed >= share * whole
-        });
-        let kept = until.map_or(self.samples.len(), |k| (k + 1).max(2));
-        &self.samples[..kept.min(self.samples.len())]
-    }
-
     /// The target of these samples, which may count one twice.
     pub(super) fn counting(&self, samples: Vec<Sample>) -> Self {
         Self::of_samples(samples, self.floor_share_rad)

@@ -3,13 +3,14 @@
 //! In the order of the flow: an [`Experiment`] is read; for each test the paper's differential evolution ([`PaperDe`])
 //! minimises the WME ([`misfit`]); cosine similarity ([`most_similar`]) picks the one vector for all tests.
 //! Beside it stands a stronger search ([`Staged`]) in each test and in all tests jointly, with no more simulations:
-//! Gauss-Newton in windows that begin anew from the measured motion and reach ever farther, then [`CmaEs`] on the WME
-//! itself. Then comes what the tests can tell: counts of transitions, bootstrap intervals, correlations, and the
+//! Gauss-Newton in windows that begin anew from the measured motion, then from rest over ever more of it, then
+//! [`CmaEs`] on the WME itself. Then comes what the tests can tell: counts of transitions, bootstrap intervals, correlations, and the
 //! dependence on the capture velocity.
 
 mod alignment;
 mod archive;
 mod assembly;
+mod axes;
 mod bootstrap;
 mod candidates;
 mod capture;
@@ -19,12 +20,13 @@ mod comparison;
 mod draws;
 mod experiment;
 mod flow;
+mod following;
 mod gauss_newton;
 mod generations;
-mod horizons;
 mod identifiability;
 mod journal;
 mod least_sizes;
+mod leaving;
 mod manifest;
 mod measured;
 pub mod misfit;
@@ -33,6 +35,7 @@ mod output;
 mod paper_de;
 mod parameter;
 mod prior;
+mod progress;
 mod reading;
 mod report;
 mod resolver;
@@ -43,6 +46,7 @@ mod similarity;
 mod slopes;
 mod space;
 mod staged;
+mod stages;
 mod start_state;
 mod statistics;
 mod stretches;

@@ -1,41 +1,32 @@
-//! The stronger search: Gauss-Newton over horizons that grow, then CMA-ES about what it found.
+//! The stronger search: windows, tracks that follow the measured motion, then CMA-ES about where they arrived.
 //!
 //! A free-running impact system forgets its coefficients behind chaos: over a long record the WME has many local minima.
 //! So the search begins in windows that begin anew from the measured motion before each impact
 //! ([`super::Test::in_windows`]): there every coefficient acts in every part of every test, and the misfit is nearly
-//! smooth. From there two routes lead to the free-running tests, whose WME is Eq. 8: windows three and nine times as
-//! long, the better one where the measurement has little noise, since every window's start is taken from it; and the
-//! first tenth, quarter, half and three quarters of each test's motion, which start from rest and are not led astray by
-//! noise. CMA-ES goes on about the better end.
-
-use nalgebra::DMatrix;
+//! smooth. Where they lead, and at vectors that the windows hardly tell from it, tracks ([`Track`]) begin that are led to
+//! follow the measured motion from rest ever farther, up to the free-running tests, whose WME is Eq. 8. CMA-ES goes on
+//! about the best of them.
 
 use super::archive::Archive;
 use super::cma_es::CmaEs;
 use super::draws::Draws;
 use super::experiment::Experiment;
+use super::following::{Followed, Track};
 use super::gauss_newton::GaussNewton;
-use super::horizons::{BEGINNING, Horizon, MOST_BEGINNINGS, ROUTES, name};
 use super::objective::Objective;
-use super::search::{Found, Member};
+use super::search::{Bounds, Found};
 use super::space::ParameterSpace;
+use super::stages::{MOST_TRACKS, Stage};
 use super::trial::Test;
 use crate::error::Result;
 
-/// The most of the budget that all beginnings take; CMA-ES has the rest.
-const DESCENTS_SHARE: f64 = 0.75;
-/// A misfit above that of the noise by less than this share is the noise's.
-const NEAR_NOISE: f64 = 1.01;
-/// The most of the budget that the windows of one beginning and each route take.
-const BEGINNING_SHARE: f64 = 0.25;
-const ROUTE_SHARE: f64 = 0.25;
-/// Most vectors of a stage: some ten iterations with eight variables.
-const STAGE_VECTORS: usize = 250;
-/// Vectors tried near where the stage before ended.
-const NEAR_VECTORS: usize = 16;
+/// The most of the budget that windows and tracks take, and what a track that is let go takes; CMA-ES has the rest.
+const TRACKS_SHARE: f64 = 0.6;
+const LET_GO_SHARE: f64 = 0.2;
+/// The most of the budget that the windows take, and vectors: some ten iterations with eight variables.
+const WINDOWS_SHARE: f64 = 0.25;
+const WINDOWS_VECTORS: usize = 250;
 
-/// Size of the last cloud where no slopes tell its shape, as a share of the bounds.
-const SIGMA: f64 = 0.02;
 /// Width of the cloud at which it has told what it can, as a share of the bounds: hundred times below the accuracy sought.
 const LEAST_WIDTH: f64 = 1e-4;
 /// A misfit below which nothing is left to find: rotations agree to a ten-thousandth.
@@ -62,39 +53,36 @@ pub struct Staged<'a> {
     pub budget: usize,
 }
 
-/// Where a descent ends.
-#[derive(Debug, Clone)]
-struct End {
-    values: Vec<f64>,
-    /// In the free-running tests.
-    cost: f64,
-    /// The shape of the valley over the last horizon before them, where it is still smooth.
-    cloud: Option<DMatrix<f64>>,
-}
-
 impl Staged<'_> {
-    /// Searches from these vectors on, and then from drawn ones, until one leads to what the noise alone would cost, or
-    /// the budget is spent; what is found is the best of the free-running tests, with all evaluations counted.
+    /// Searches from a vector on until the budget is spent or nothing is left to find; what is found is the best of the
+    /// free-running tests, with all evaluations counted.
     ///
     /// # Errors
     /// [`crate::Error::Io`] if a simulation cannot be kept.
-    pub fn minimise(&self, beginnings: &[Vec<f64>], draws: &Draws) -> Result<Found> {
-        let descents = self.share(DESCENTS_SHARE);
-        let first = beginnings.first().cloned().unwrap_or_else(|| self.drawn(0, draws));
-        let (mut best, mut spent) = self.descent(0, first, descents, draws)?;
-        for number in 1..MOST_BEGINNINGS {
-            let left = descents.saturating_sub(spent);
-            if best.cost <= self.enough() || left < self.least_descent() {
+    pub fn minimise(&self, from: Vec<f64>, draws: &Draws) -> Result<Found> {
+        let mut windows = GaussNewton::new(from);
+        let most = self.share(WINDOWS_SHARE).min(WINDOWS_VECTORS);
+        let mut spent = self.in_windows(&mut windows, most)?;
+        let mut best =
+            self.track(0, &windows, draws).follow(0, self, self.share(TRACKS_SHARE).saturating_sub(spent))?;
+        spent += best.vectors;
+        for number in 1..MOST_TRACKS {
+            let left = self.share(TRACKS_SHARE).saturating_sub(spent);
+            if best.best.cost <= GOOD_ENOUGH {
                 break;
             }
-            let from = beginnings.get(number).cloned().unwrap_or_else(|| self.drawn(number, draws));
-            let (end, vectors) = self.descent(number, from, left, draws)?;
-            spent += vectors;
-            best = if end.cost < best.cost { end } else { best };
+            let other = self.track(number, &windows, draws).follow(number, self, left)?;
+            spent += other.vectors;
+            best = best.or(other);
         }
+        if !best.arrived {
+            let track = Track { values: best.best.values.clone(), axes: best.axes.clone() };
+            let let_go = track.let_go(MOST_TRACKS, self, self.share(LET_GO_SHARE))?;
+            spent += let_go.vectors;
+            best = best.or(let_go);
+        }
+        let alone = || Found::start(vec![best.best.clone()]);
         let left = self.budget.saturating_sub(spent);
-        let End { values, cost, .. } = &best;
-        let alone = || Found::start(vec![Member { values: values.clone(), cost: *cost }]);
         let mut found = self.cloud(&best, left, draws)?.unwrap_or_else(alone);
         found.evaluations += spent;
         found.vectors.iter_mut().for_each(|vectors| *vectors += spent);
@@ -105,125 +93,53 @@ impl Staged<'_> {
         (share * self.budget as f64) as usize
     }
 
-    /// A vector anywhere between the bounds.
-    fn drawn(&self, number: usize, draws: &Draws) -> Vec<f64> {
-        let draws = draws.part("beginnings");
+    /// The first track begins where the windows lead, others in the valley about it; where there are no windows, anywhere
+    /// between the bounds.
+    fn track(&self, number: usize, windows: &GaussNewton, draws: &Draws) -> Track {
         let bounds = self.space.bounds();
-        bounds.iter().enumerate().map(|(v, b)| b.at(draws.uniform(number as u32, 0, v as u32))).collect()
-    }
-
-    /// A cost below which no other beginning can be told from this one.
-    fn enough(&self) -> f64 {
-        let noise = self.chosen.iter().map(|&k| self.experiment.tests[k].target.noise_wme()).sum::<f64>();
-        GOOD_ENOUGH + NEAR_NOISE * noise / self.chosen.len() as f64
-    }
-
-    /// One iteration of every stage.
-    fn least_descent(&self) -> usize {
-        8 * (2 * self.space.parameters.len() + 8)
-    }
-
-    /// From a vector by both routes; the better end, and the vectors of all.
-    fn descent(&self, number: usize, from: Vec<f64>, budget: usize, draws: &Draws) -> Result<(End, usize)> {
-        let mut beginning = GaussNewton::new(from);
-        let own = budget.min(self.share(BEGINNING_SHARE));
-        let spent =
-            self.stage(&name(self.method, number, "", BEGINNING), BEGINNING, &mut beginning, own, draws)?;
-        let each = (budget.saturating_sub(spent) / 2).min(self.share(ROUTE_SHARE));
-        let [by_windows, from_rest] = ROUTES
-            .map(|(route, horizons)| self.route(number, route, horizons, beginning.clone(), each, draws));
-        let ((by_windows, by_windows_spent), (from_rest, from_rest_spent)) = (by_windows?, from_rest?);
-        let end = if from_rest.cost < by_windows.cost { from_rest } else { by_windows };
-        Ok((end, spent + by_windows_spent + from_rest_spent))
-    }
-
-    /// From stage to stage, to what the free-running tests give, and the vectors of all.
-    fn route(
-        &self,
-        number: usize,
-        route: &str,
-        horizons: &[Horizon],
-        mut at: GaussNewton,
-        budget: usize,
-        draws: &Draws,
-    ) -> Result<(End, usize)> {
-        let mut spent = 0;
-        for horizon in horizons {
-            let method = name(self.method, number, route, *horizon);
-            spent += self.stage(&method, *horizon, &mut at, budget.saturating_sub(spent), draws)?;
+        let near = || windows.near_by(number as u32, &bounds, &draws.part("tracks"));
+        let anywhere = || {
+            let draws = draws.part("beginnings");
+            let value = |(v, b): (usize, &Bounds)| b.at(draws.uniform(number as u32, 0, v as u32));
+            bounds.iter().enumerate().map(value).collect()
+        };
+        let values = if number == 0 { windows.values.clone() } else { near().unwrap_or_else(anywhere) };
+        match &windows.cloud {
+            Some(axes) => Track { values, axes: axes.clone() },
+            None => Track::unknown(values),
         }
-        let cloud = at.cloud.clone();
-        let method = name(self.method, number, route, Horizon::Whole);
-        let left = budget.saturating_sub(spent);
-        let found = self.descend(&method, &self.experiment.tests, &mut at, left, draws)?;
-        let Member { values, cost } = found.best().clone();
-        Ok((End { values, cost, cloud }, spent + found.evaluations))
     }
 
-    /// One stage before the whole; gives the vectors it took, none where windows would reach over the whole of every
-    /// test.
-    fn stage(
-        &self,
-        method: &str,
-        horizon: Horizon,
-        at: &mut GaussNewton,
-        budget: usize,
-        draws: &Draws,
-    ) -> Result<usize> {
-        let Some(tests) = self.tests(horizon, &at.values) else { return Ok(0) };
-        Ok(self.descend(method, &tests, at, budget, draws)?.evaluations)
-    }
-
-    /// Gauss-Newton from where the last stage ended, or from a vector near it that is cheaper in this one: where its
-    /// motion bends into another valley, slopes do not lead back.
-    fn descend(
-        &self,
-        method: &str,
-        tests: &[Test],
-        at: &mut GaussNewton,
-        budget: usize,
-        draws: &Draws,
-    ) -> Result<Found> {
-        let mut objective = self.objective(method, tests);
-        let bounds = self.space.bounds();
-        let others = at.around(NEAR_VECTORS.min(budget / 2), &bounds, &draws.part(method));
-        at.minimise(others, &bounds, budget.min(STAGE_VECTORS), &mut objective)
-    }
-
-    /// The tests over a horizon; between impacts the wall moves as the vector makes it, the best known.
-    fn tests(&self, horizon: Horizon, values: &[f64]) -> Option<Vec<Test>> {
-        let accuracy = self.experiment.accuracy();
-        let wall = self.space.wall(values).ok()?;
+    /// Gauss-Newton in windows that begin anew from the measured motion; gives the vectors it took, none where windows
+    /// would reach over the whole of every test.
+    fn in_windows(&self, at: &mut GaussNewton, budget: usize) -> Result<usize> {
+        let Ok(wall) = self.space.wall(&at.values) else { return Ok(0) };
         let mut tests = self.experiment.tests.clone();
         for &k in self.chosen {
-            match horizon {
-                Horizon::Windows(reach) => tests[k] = tests[k].in_windows(reach, &wall, accuracy),
-                Horizon::First(share) => tests[k] = tests[k].shortened(share),
-                Horizon::Whole => {}
-            }
+            // Between impacts the wall moves as the vector makes it, the best known.
+            tests[k] = tests[k].in_windows(&wall, self.experiment.accuracy());
         }
-        let in_one = |k: &usize| tests[*k].window_count() == 1;
-        let no_windows = matches!(horizon, Horizon::Windows(_)) && self.chosen.iter().all(in_one);
-        (!no_windows).then_some(tests)
+        if self.chosen.iter().all(|&k| tests[k].window_count() == 1) {
+            return Ok(0);
+        }
+        let name = Stage::Windows.name(self.method);
+        let mut objective = self.objective(&name, &tests);
+        Ok(at.minimise(&self.space.bounds(), budget, &mut objective)?.evaluations)
     }
 
-    /// CMA-ES about the best end; none where nothing is left to find, or to find it with.
-    fn cloud(&self, about: &End, budget: usize, draws: &Draws) -> Result<Option<Found>> {
+    /// CMA-ES about the best; none where nothing is left to find, or to find it with.
+    fn cloud(&self, about: &Followed, budget: usize, draws: &Draws) -> Result<Option<Found>> {
         let bounds = self.space.bounds();
         let lambda = (VECTORS_PER_VARIABLE * bounds.len()).max(LEAST_VECTORS);
-        if about.cost <= GOOD_ENOUGH || budget <= lambda {
+        if about.best.cost <= GOOD_ENOUGH || budget <= lambda {
             return Ok(None);
         }
         let mut objective = self.objective(self.method, &self.experiment.tests);
-        let round = CmaEs::new(&about.values, &bounds, SIGMA, lambda);
-        let mut cloud = match &about.cloud {
-            Some(root) => round.shaped(root),
-            None => round,
-        };
+        let mut cloud = CmaEs::new(&about.best.values, &bounds, 1.0, lambda).shaped(&about.axes);
         cloud.minimise(&bounds, budget, LEAST_WIDTH, draws, &mut objective).map(Some)
     }
 
-    fn objective<'o>(&'o self, method: &'o str, tests: &'o [Test]) -> Objective<'o> {
+    pub(super) fn objective<'o>(&'o self, method: &'o str, tests: &'o [Test]) -> Objective<'o> {
         Objective {
             space: self.space,
             tests,

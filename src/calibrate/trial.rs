@@ -80,20 +80,21 @@ impl Test {
         })
     }
 
-    /// The same test in windows from each `reach`-th stretch without impacts; between impacts the wall moves as the
-    /// measured one.
+    /// The same test in windows from each stretch without impacts; between impacts the wall moves as the measured
+    /// one.
     #[must_use]
-    pub fn in_windows(&self, reach: usize, wall: &Wall, accuracy: Accuracy) -> Self {
-        let windows = windows(&self.target, &self.simulator.with_wall(wall, accuracy), reach);
+    pub fn in_windows(&self, wall: &Wall, accuracy: Accuracy) -> Self {
+        let windows = windows(&self.target, &self.simulator.with_wall(wall, accuracy));
         let samples = windows.iter().flat_map(|w| w.samples.iter().copied()).collect();
         Self { target: self.target.counting(samples), windows, ..self.clone() }
     }
 
-    /// The same test up to the time by which a share of the measured motion has passed.
+    /// The same test up to its first so many samples; each weighs as in the whole.
     #[must_use]
-    pub fn shortened(&self, share: f64) -> Self {
-        let target = self.target.counting(self.target.first_samples(share).to_vec());
-        Self { windows: vec![Window::whole(&target)], target, ..self.clone() }
+    pub(super) fn first(&self, samples: usize) -> Self {
+        let samples = self.target.samples()[..samples].to_vec();
+        let end_s = samples.last().map_or(0.0, |s| s.time_s);
+        Self { windows: vec![Window { start: None, end_s, samples }], ..self.clone() }
     }
 
     /// Rotations of a wall in the free-running test up to the end of what counts, a row every `step_s` seconds.

@@ -25,9 +25,9 @@ impl Window {
     }
 }
 
-/// Windows from each `reach`-th stretch without impacts to the end of the `reach`-th after it; the first starts from
-/// rest, as the test did. The simulator is of a wall whose motion between impacts is that of the measured one.
-pub(super) fn windows(target: &Target, simulator: &Simulator, reach: usize) -> Vec<Window> {
+/// Windows from each stretch without impacts to the end of the next; the first starts from rest, as the test did. The
+/// simulator is of a wall whose motion between impacts is that of the measured one.
+pub(super) fn windows(target: &Target, simulator: &Simulator) -> Vec<Window> {
     let samples = target.samples();
     let noise_rad = noise_rad(samples);
     let start = |stretch: Stretch| {
@@ -40,9 +40,9 @@ pub(super) fn windows(target: &Target, simulator: &Simulator, reach: usize) -> V
     let first = |k: usize| k.checked_sub(1).map_or(0, |k| starts[k].1.first);
     let end = |k: usize| starts.get(k.wrapping_sub(1)).map_or(samples.len(), |(_, stretch)| stretch.end);
     let window = |k: usize| {
-        let part = &samples[first(k)..end(k + reach)];
+        let part = &samples[first(k)..end(k + 1)];
         let end_s = part.last().map_or(0.0, |s| s.time_s);
         Window { start: k.checked_sub(1).map(|k| starts[k].0), end_s, samples: part.to_vec() }
     };
-    (0..=starts.len()).step_by(reach).map(window).filter(|w| w.samples.len() >= 2).collect()
+    (0..=starts.len()).map(window).filter(|w| w.samples.len() >= 2).collect()
 }

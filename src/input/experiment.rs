@@ -70,7 +70,7 @@ impl Default for CalibrateTable {
             settle_share: 1e-3,
             settle_generations: 5,
             most_generations: 60,
-            refine_vectors: 1500,
+            refine_vectors: 2500,
             capture_study_rad_s: vec![1e-4, 1e-3, 1e-2],
             replicates: 1000,
         }

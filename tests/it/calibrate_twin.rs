@@ -50,13 +50,13 @@ fn analytic_three_tests_are_enough_without_noise() {
 
 #[test]
 fn analytic_twins_are_found_with_noise() {
-    // Three percent is the accuracy asked for with 1 % noise; C_7 under `whole`, of impacts that end in sticking, ends up
-    // to 4.6 % off (`docs/calibration.md`).
-    for (law, bound) in [(ImpactLaw::Contact, 0.03), (ImpactLaw::Whole, 0.05)] {
+    for law in [ImpactLaw::Contact, ImpactLaw::Whole] {
         let mut twin = Twin { noise: 0.01, ..Twin::of(law) };
         twin.settings += "most_generations = 30\n";
         let calibration = found_again(&twin, 1);
-        assert!(largest_error(&calibration) < bound, "{law:?}: {:?}", calibration.joint);
+        // Three percent is the accuracy asked for with 1 % noise. Twins with noise of their own come within one
+        // (`docs/calibration.md`).
+        assert!(largest_error(&calibration) < 0.02, "{law:?}: {:?}", calibration.joint);
         // The noise alone: two channels, each |noise| ≈ 0.8 % of the peak over a mean rotation of 10 to 20 % of it.
         let wme = calibration.joint.mean_wme.expect("the runs finish");
         assert!((0.05..0.25).contains(&wme), "{wme}");
