@@ -28,8 +28,9 @@ const AXES_SHARE: f64 = 0.01;
 /// Axes grow no more than so many times in an iteration, and no longer than this share of the bounds.
 const MOST_GROWTH: f64 = 3.0;
 const WIDEST: f64 = 0.1;
-/// After an idle iteration differences are so much smaller.
-const SHRINK: f64 = 0.4;
+/// Differences after the first idle iteration and after the next: wider ones may still see a way out of a kink that near
+/// ones do not.
+const AFTER_IDLE: [f64; 2] = [4.0, 0.4];
 /// The measurement is left where errors are so many times those of the noise; a vector that leaves it nowhere by more than
 /// the lesser has arrived: noise alone, over the samples looked at together, is five standard deviations off that.
 const LEFT: f64 = 2.0;
@@ -37,6 +38,8 @@ const ARRIVED: f64 = 1.5;
 /// Errors of a vector that is let go may be so many times larger whenever it is stuck, up to so many times the noise.
 const LET_GO: f64 = 2.0;
 const MOST_LEFT: f64 = 100.0;
+/// A misfit below which nothing is left to find: rotations agree to a ten-thousandth.
+const GOOD_ENOUGH: f64 = 1e-4;
 /// A misfit of the roundings of the simulations.
 const NOTHING_LEFT: f64 = 1e-9;
 
@@ -74,6 +77,11 @@ impl Track {
         Self { values, axes: DMatrix::identity(n, n) * WIDEST }
     }
 
+    /// Vectors of an iteration.
+    pub fn least_vectors(variables: usize) -> usize {
+        1 + 2 * variables + DAMPINGS.len()
+    }
+
     /// Follows as the `number`-th track of a search, with so many vectors at most, until it arrives or is stuck.
     ///
     /// # Errors
@@ -97,7 +105,7 @@ impl Track {
         let best = Member { values: self.values.clone(), cost: f64::INFINITY };
         let mut followed = Followed { best, axes: self.axes.clone(), arrived: false, vectors: 0 };
         let (mut generation, mut left, mut progress) = (0, LEFT, Progress::default());
-        let vectors_each = 1 + 2 * self.values.len() + DAMPINGS.len();
+        let vectors_each = Self::least_vectors(self.values.len());
         while followed.vectors + vectors_each <= budget {
             let Some(now) = whole.fitted(generation, std::slice::from_ref(&self.values))?.pop().flatten()
             else {
@@ -111,8 +119,8 @@ impl Track {
             followed.vectors += vectors_each;
             generation += 3;
             progress.note(parts.samples, cost / parts.now.cost);
-            if progress.is_idle() {
-                self.axes *= SHRINK;
+            if let Some(times) = progress.idle().checked_sub(1).and_then(|k| AFTER_IDLE.get(k)) {
+                self.axes *= *times;
             }
             let ended = parts.are_all() || LET_GO * left > most_left;
             if cost < NOTHING_LEFT || progress.is_stuck() && ended {
@@ -147,9 +155,17 @@ impl Track {
 }
 
 impl Followed {
-    /// The cheaper of two.
-    pub fn or(self, other: Self) -> Self {
-        if other.best.cost < self.best.cost { other } else { self }
+    /// The cheaper of two, the other of equals.
+    pub fn or(self, other: Option<Self>) -> Self {
+        match other {
+            Some(other) if other.best.cost <= self.best.cost => other,
+            _ => self,
+        }
+    }
+
+    /// Whether nothing is left to find.
+    pub fn is_perfect(&self) -> bool {
+        self.best.cost <= GOOD_ENOUGH
     }
 
     /// Notes where a track stands, and what that costs in the whole tests.

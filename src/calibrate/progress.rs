@@ -4,14 +4,14 @@
 const SETTLED: f64 = 0.003;
 /// After so many idle iterations, or when so many have led less than this share of all samples farther, a track is stuck:
 /// those that arrive mostly do in 8 to 15.
-const MOST_IDLE: u32 = 3;
+const MOST_IDLE: usize = 3;
 const PATIENCE: usize = 5;
 const LEAST_PROGRESS: f64 = 0.02;
 
 /// How a track went.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Progress {
-    idle: u32,
+    idle: usize,
     /// The most samples that ever counted, after each iteration.
     farthest: Vec<usize>,
     all: usize,
@@ -27,9 +27,9 @@ impl Progress {
         self.all = all;
     }
 
-    /// Whether the last iteration was idle.
-    pub fn is_idle(&self) -> bool {
-        self.idle > 0
+    /// How many iterations have been idle, up to the last.
+    pub fn idle(&self) -> usize {
+        self.idle
     }
 
     /// Whether more iterations are a waste. Where all samples count, only the cost tells.

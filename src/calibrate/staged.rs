@@ -3,9 +3,9 @@
 //! A free-running impact system forgets its coefficients behind chaos: over a long record the WME has many local minima.
 //! So the search begins in windows that begin anew from the measured motion before each impact
 //! ([`super::Test::in_windows`]): there every coefficient acts in every part of every test, and the misfit is nearly
-//! smooth. Where they lead, and at vectors that the windows hardly tell from it, tracks ([`Track`]) begin that are led to
-//! follow the measured motion from rest ever farther, up to the free-running tests, whose WME is Eq. 8. CMA-ES goes on
-//! about the best of them.
+//! smooth. Where they lead, from several vectors on, and at vectors that the windows hardly tell from these, tracks
+//! ([`Track`]) begin that are led to follow the measured motion from rest ever farther, up to the free-running tests, whose
+//! WME is Eq. 8. CMA-ES goes on about the best of them.
 
 use super::archive::Archive;
 use super::cma_es::CmaEs;
@@ -14,7 +14,7 @@ use super::experiment::Experiment;
 use super::following::{Followed, Track};
 use super::gauss_newton::GaussNewton;
 use super::objective::Objective;
-use super::search::{Bounds, Found};
+use super::search::Found;
 use super::space::ParameterSpace;
 use super::stages::{MOST_TRACKS, Stage};
 use super::trial::Test;
@@ -29,8 +29,6 @@ const WINDOWS_VECTORS: usize = 250;
 
 /// Width of the cloud at which it has told what it can, as a share of the bounds: hundred times below the accuracy sought.
 const LEAST_WIDTH: f64 = 1e-4;
-/// A misfit below which nothing is left to find: rotations agree to a ten-thousandth.
-const GOOD_ENOUGH: f64 = 1e-4;
 /// Vectors of a generation per variable: thrice the least of the tutorial, because the valley is rough.
 const VECTORS_PER_VARIABLE: usize = 3;
 /// Least vectors of a generation: with few variables a small cloud shrinks before it has gone down a rough valley.
@@ -61,25 +59,30 @@ impl Staged<'_> {
     /// [`crate::Error::Io`] if a simulation cannot be kept.
     pub fn minimise(&self, from: Vec<f64>, draws: &Draws) -> Result<Found> {
         let mut windows = GaussNewton::new(from);
-        let most = self.share(WINDOWS_SHARE).min(WINDOWS_VECTORS);
-        let mut spent = self.in_windows(&mut windows, most)?;
-        let mut best =
-            self.track(0, &windows, draws).follow(0, self, self.share(TRACKS_SHARE).saturating_sub(spent))?;
-        spent += best.vectors;
-        for number in 1..MOST_TRACKS {
+        let (mut spent, mut best) = (0, None);
+        for number in 0..MOST_TRACKS {
             let left = self.share(TRACKS_SHARE).saturating_sub(spent);
-            if best.best.cost <= GOOD_ENOUGH {
+            let over = left < Track::least_vectors(self.space.parameters.len());
+            if best.as_ref().is_some_and(|best: &Followed| over || best.is_perfect()) {
                 break;
             }
-            let other = self.track(number, &windows, draws).follow(number, self, left)?;
-            spent += other.vectors;
-            best = best.or(other);
+            let anew = number.is_multiple_of(2) && left >= 2 * WINDOWS_VECTORS;
+            if number > 0 && anew {
+                windows = GaussNewton::new(self.drawn(number, draws));
+            }
+            let begins_there = number == 0 || anew;
+            let in_windows = if begins_there { self.in_windows(number, &mut windows)? } else { 0 };
+            let track = self.track(number, &windows, begins_there, draws);
+            let followed = track.follow(number, self, left.saturating_sub(in_windows))?;
+            spent += in_windows + followed.vectors;
+            best = Some(followed.or(best));
         }
+        let Some(mut best) = best else { unreachable!("there is a first track") };
         if !best.arrived {
             let track = Track { values: best.best.values.clone(), axes: best.axes.clone() };
             let let_go = track.let_go(MOST_TRACKS, self, self.share(LET_GO_SHARE))?;
             spent += let_go.vectors;
-            best = best.or(let_go);
+            best = let_go.or(Some(best));
         }
         let alone = || Found::start(vec![best.best.clone()]);
         let left = self.budget.saturating_sub(spent);
@@ -93,17 +96,18 @@ impl Staged<'_> {
         (share * self.budget as f64) as usize
     }
 
-    /// The first track begins where the windows lead, others in the valley about it; where there are no windows, anywhere
-    /// between the bounds.
-    fn track(&self, number: usize, windows: &GaussNewton, draws: &Draws) -> Track {
+    /// A vector anywhere between the bounds.
+    fn drawn(&self, number: usize, draws: &Draws) -> Vec<f64> {
+        let draws = draws.part("beginnings");
         let bounds = self.space.bounds();
-        let near = || windows.near_by(number as u32, &bounds, &draws.part("tracks"));
-        let anywhere = || {
-            let draws = draws.part("beginnings");
-            let value = |(v, b): (usize, &Bounds)| b.at(draws.uniform(number as u32, 0, v as u32));
-            bounds.iter().enumerate().map(value).collect()
-        };
-        let values = if number == 0 { windows.values.clone() } else { near().unwrap_or_else(anywhere) };
+        bounds.iter().enumerate().map(|(v, b)| b.at(draws.uniform(number as u32, 0, v as u32))).collect()
+    }
+
+    /// A track that begins where windows lead, or somewhere in the valley there.
+    fn track(&self, number: usize, windows: &GaussNewton, there: bool, draws: &Draws) -> Track {
+        let near_by = || windows.near_by(number as u32, &self.space.bounds(), &draws.part("tracks"));
+        let elsewhere = || near_by().unwrap_or_else(|| self.drawn(number, draws));
+        let values = if there { windows.values.clone() } else { elsewhere() };
         match &windows.cloud {
             Some(axes) => Track { values, axes: axes.clone() },
             None => Track::unknown(values),
@@ -112,7 +116,7 @@ impl Staged<'_> {
 
     /// Gauss-Newton in windows that begin anew from the measured motion; gives the vectors it took, none where windows
     /// would reach over the whole of every test.
-    fn in_windows(&self, at: &mut GaussNewton, budget: usize) -> Result<usize> {
+    fn in_windows(&self, number: usize, at: &mut GaussNewton) -> Result<usize> {
         let Ok(wall) = self.space.wall(&at.values) else { return Ok(0) };
         let mut tests = self.experiment.tests.clone();
         for &k in self.chosen {
@@ -122,8 +126,9 @@ impl Staged<'_> {
         if self.chosen.iter().all(|&k| tests[k].window_count() == 1) {
             return Ok(0);
         }
-        let name = Stage::Windows.name(self.method);
+        let name = Stage::Windows(number).name(self.method);
         let mut objective = self.objective(&name, &tests);
+        let budget = self.share(WINDOWS_SHARE).min(WINDOWS_VECTORS);
         Ok(at.minimise(&self.space.bounds(), budget, &mut objective)?.evaluations)
     }
 
@@ -131,7 +136,7 @@ impl Staged<'_> {
     fn cloud(&self, about: &Followed, budget: usize, draws: &Draws) -> Result<Option<Found>> {
         let bounds = self.space.bounds();
         let lambda = (VECTORS_PER_VARIABLE * bounds.len()).max(LEAST_VECTORS);
-        if about.best.cost <= GOOD_ENOUGH || budget <= lambda {
+        if about.is_perfect() || budget <= lambda {
             return Ok(None);
         }
         let mut objective = self.objective(self.method, &self.experiment.tests);
