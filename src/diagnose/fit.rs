@@ -37,6 +37,8 @@ const MOST_POOR: f64 = 0.4;
 const CHANGE: f64 = 0.3;
 /// ... and over these shares of a number's scale.
 const CHANGE_SHARES: [f64; 2] = [1e-6, 0.05];
+/// The same share before anything is known.
+const FIRST_CHANGE_SHARE: f64 = 1e-3;
 
 /// A fitted hypothesis.
 #[derive(Debug, Clone)]
@@ -70,7 +72,33 @@ struct Linear {
     r_left: DVector<f64>,
 }
 
+/// One window about a fit, without what its state can do: the residuals, and how they change with the values.
+#[derive(Debug, Clone)]
+pub struct WindowSlopes {
+    /// Residuals, in standard deviations of the noise.
+    pub residual: DVector<f64>,
+    /// Their derivatives, a column a value.
+    pub by_values: DMatrix<f64>,
+}
+
 impl Problem<'_> {
+    /// How each window of a fit changes with the values, and the changes of the values over which that was taken: the
+    /// given ones, or fitting ones. None if a neighbour is no wall.
+    pub fn slopes(
+        &self,
+        h: &Hypothesis,
+        fit: &Fit,
+        changes: Option<&[f64]>,
+    ) -> Option<(Vec<WindowSlopes>, Vec<f64>)> {
+        let changes = match changes {
+            Some(changes) => changes.to_vec(),
+            None => next_changes(h, &self.linear(h, fit, &first_changes(h))?),
+        };
+        let linear = self.linear(h, fit, &changes)?;
+        let of = |l: Linear| WindowSlopes { residual: l.r_left, by_values: l.jp_left };
+        Some((linear.into_iter().map(of).collect(), changes))
+    }
+
     /// The states as measured.
     pub fn measured_states(&self) -> Vec<Vec<f64>> {
         self.windows.iter().map(|w| w.measured.clone()).collect()
@@ -170,7 +198,7 @@ impl Problem<'_> {
             return fit;
         }
         fit.cost = cost(h, &fit, loss);
-        let mut changes = h.unknowns.iter().map(|u| 1e-3 * u.scale).collect::<Vec<_>>();
+        let mut changes = first_changes(h);
         let mut damping = FIRST_DAMPING;
         for _ in 0..patience.steps {
             let Some(linear) = self.linear(h, &fit, &changes) else { return fit };
@@ -314,6 +342,10 @@ fn normal_equations(
         a[(i, i)] += 1e-12 / (unknown.scale * unknown.scale);
     }
     (a, g)
+}
+
+fn first_changes(h: &Hypothesis) -> Vec<f64> {
+    h.unknowns.iter().map(|u| FIRST_CHANGE_SHARE * u.scale).collect()
 }
 
 /// Changes of the numbers over which the next sensitivities are taken: small beside the noise in most windows.

@@ -7,6 +7,7 @@ use super::experiment::Experiment;
 use super::fit::Problem;
 use super::force::{acts_at_top, force_points};
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
+use super::other_law::OtherLaw;
 use super::search::{
     Data, Tried, finish, promise, refit, shared_states, try_coarsely, try_hypothesis, try_second, untouched,
 };
@@ -66,6 +67,8 @@ pub struct Diagnosis {
     pub equivalent: Vec<String>,
     /// Where a force is missing, when no law is named.
     pub place: Option<&'static str>,
+    /// What speaks for another law than the best of the catalogue, where that closes the gap.
+    pub other_law: Option<OtherLaw>,
     /// Everything tried, best first.
     pub tried: Vec<Tried>,
 }
@@ -98,8 +101,8 @@ pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Dia
     }
     let search = Search { experiment, data: data(experiment, &windows), progress };
     let found = search.run().ok_or_else(no_window)?;
-    let Found { verdict, before, recalibrated, after, equivalent, place, tried } = found;
-    Ok(Diagnosis { verdict, before, recalibrated, after, equivalent, place, tried, windows })
+    let Found { verdict, before, recalibrated, after, equivalent, place, other_law, tried } = found;
+    Ok(Diagnosis { verdict, before, recalibrated, after, equivalent, place, other_law, tried, windows })
 }
 
 struct Search<'a, P> {
@@ -115,6 +118,7 @@ struct Found {
     after: Tried,
     equivalent: Vec<String>,
     place: Option<&'static str>,
+    other_law: Option<OtherLaw>,
     tried: Vec<Tried>,
 }
 
@@ -122,8 +126,16 @@ impl Found {
     /// Too little moves for anything to show.
     fn no_power(before: Tried) -> Self {
         let (recalibrated, after) = (before.clone(), before.clone());
-        let (verdict, equivalent, place, tried) = (Verdict::NoPower, Vec::new(), None, Vec::new());
-        Self { verdict, before, recalibrated, after, equivalent, place, tried }
+        Self {
+            verdict: Verdict::NoPower,
+            before,
+            recalibrated,
+            after,
+            equivalent: Vec::new(),
+            place: None,
+            other_law: None,
+            tried: Vec::new(),
+        }
     }
 }
 
@@ -240,6 +252,7 @@ impl<P: Progress> Search<'_, P> {
             after,
             equivalent,
             place,
+            other_law: None,
             tried,
         };
         let gain = best_answer(&singles).map_or(0.0, |t| against(data, &recalibrated) - against(data, t));
@@ -254,6 +267,7 @@ impl<P: Progress> Search<'_, P> {
         }
         let one = self.named(&singles, gap, &recalibrated);
         let mut tried = singles;
+        let mut other_law = None;
         if one.is_some() || gain > WORTH_PAIRS {
             let single = best_answer(&tried).unwrap_or(&recalibrated).clone();
             let [paired, fitted] = if one.is_some() { BESIDE_A_NAME } else { WITHOUT_A_NAME };
@@ -261,16 +275,23 @@ impl<P: Progress> Search<'_, P> {
             let two = self.named(&pairs, gap, &single).filter(|(_, two, _)| worth_two(data, &single, two));
             tried.extend(pairs);
             if let Some((verdict, after, equivalent)) = two.or(one) {
-                return found(verdict, after, equivalent, None, self.ordered(tried));
+                let signs = OtherLaw::beside(data, &after);
+                other_law = Some(signs);
+                if !signs.speaks() {
+                    let named = found(verdict, after, equivalent, None, self.ordered(tried));
+                    return Found { other_law, ..named };
+                }
             }
         }
-        let place = self.place(&recalibrated, &tried).or_else(|| {
-            // What no law of the catalogue follows may still be measured.
+        // What no law of the catalogue follows may still be measured; it tells a damper at the top from one at a joint that
+        // follows as well.
+        let measured = || {
             let physics = before.hypothesis.physics(&before.fit.values)?;
             acts_at_top(&force_points(&self.experiment.tests, &physics)).then_some("top")
-        });
+        };
+        let place = measured().or_else(|| self.place(&recalibrated, &tried));
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
-        found(verdict, recalibrated.clone(), Vec::new(), place, tried)
+        Found { other_law, ..found(verdict, recalibrated.clone(), Vec::new(), place, tried) }
     }
 
     /// The best hypothesis that closes the gap, is an answer, and is worth its name beside a simpler one; with what cannot

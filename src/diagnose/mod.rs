@@ -7,6 +7,7 @@
 //! out ([`search`], [`score`]); the catalogue is tried ([`flow`]) and a [`verdict`] reached; what is found is written
 //! ([`output`]).
 
+pub mod amplitude;
 pub mod candidates;
 pub mod check_data;
 pub mod experiment;
@@ -19,6 +20,7 @@ mod manifest;
 pub mod next_tests;
 pub mod noise;
 pub mod offset;
+pub mod other_law;
 pub mod output;
 pub mod pattern;
 pub mod replay;

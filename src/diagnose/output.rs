@@ -133,6 +133,7 @@ fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
         "equivalent": diagnosis.equivalent,
         "wall": numbers(&diagnosis.after, 0..diagnosis.after.hypothesis.nuisances),
         "tests": tests(experiment, diagnosis),
+        "other_law": diagnosis.other_law,
         "windowed_error": {
             "before": joint_error(&diagnosis.before),
             "recalibrated": joint_error(&diagnosis.recalibrated),

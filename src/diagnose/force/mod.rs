@@ -7,6 +7,7 @@
 //! the model gives from the state before it.
 
 mod at_top;
+mod curved;
 mod explained;
 mod jumps;
 mod kernel;
@@ -15,6 +16,7 @@ mod points;
 mod stretch;
 
 pub use at_top::acts_at_top;
+pub use curved::curve_left;
 pub use explained::explained_by;
 pub use jumps::{Jump, jumps};
 pub use kernel::Kernel;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::super::hypothesis::Physics;
+use super::super::offset::rest_offset_rad;
 use super::super::pattern::Freedom;
 use super::super::replay::{plastic_displacements_m, shaken};
 use super::super::test_data::TestData;
@@ -81,6 +82,8 @@ impl Residual {
         for theta in &mut test.theta_rad {
             *theta = [0, 1].map(|i| (theta[i] - reading.offset_rad[i]) / reading.gain[i]);
         }
+        // What a sensor of this wall reads at rest is off now; it must not be taken off once more.
+        test.rest_offset_rad = rest_offset_rad(&test.theta_rad, test.noise_rad);
         let shaking = shaken(&test.shaking, physics.reversed_ratio);
         Self {
             index,
