@@ -276,8 +276,9 @@ impl<P: Progress> Search<'_, P> {
             tried.extend(pairs);
             if let Some((verdict, after, equivalent)) = two.or(one) {
                 let signs = OtherLaw::beside(data, &after);
+                let speaks = signs.speaks();
                 other_law = Some(signs);
-                if !signs.speaks() {
+                if !speaks {
                     let named = found(verdict, after, equivalent, None, self.ordered(tried));
                     return Found { other_law, ..named };
                 }

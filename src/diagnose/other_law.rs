@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::amplitude::trend_with_amplitude;
 use super::force::{curve_left, force_points};
 use super::search::{Data, Tried};
+use super::verdict::names;
 
 /// Squared standard deviations of the force left at the top that a bend with velocity may explain beside a named effect.
 /// Right names leave 6 and less, a quadratic drag called a damper 101 and 400, a loose mass 169.
@@ -14,8 +15,10 @@ const BENT: f64 = 25.0;
 const TREND: f64 = 25.0;
 
 /// Signs of a law outside the catalogue.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OtherLaw {
+    /// The effects it would be taken for.
+    pub looks_like: Vec<String>,
     /// See [`curve_left`].
     pub curve_left: Option<f64>,
     /// See [`trend_with_amplitude`].
@@ -28,6 +31,7 @@ impl OtherLaw {
         let physics = named.hypothesis.physics(&named.fit.values);
         let points = physics.map(|physics| force_points(data.fit.tests, &physics));
         Self {
+            looks_like: names(named),
             curve_left: points.and_then(|points| curve_left(&points)),
             trend_with_amplitude_nats: trend_with_amplitude(data, named),
         }

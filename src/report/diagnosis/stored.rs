@@ -19,6 +19,8 @@ pub struct Stored {
     pub equivalent: Vec<String>,
     pub wall: Vec<StoredNumber>,
     pub tests: Vec<StoredTest>,
+    #[serde(default)]
+    pub other_law: Option<StoredOtherLaw>,
     pub windowed_error: Steps,
     pub against: Option<Steps>,
     pub could_hide: Vec<StoredPower>,
@@ -34,6 +36,11 @@ pub struct StoredEffect {
     pub place: Option<String>,
     pub parameters: BTreeMap<String, f64>,
     pub interval: BTreeMap<String, [f64; 2]>,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct StoredOtherLaw {
+    pub looks_like: Vec<String>,
 }
 
 #[derive(Debug, Deserialize)]

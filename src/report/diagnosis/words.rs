@@ -1,6 +1,6 @@
 //! Verdicts, numbers and names as people read them.
 
-use super::stored::{Stored, StoredEffect, StoredParameter};
+use super::stored::{Stored, StoredEffect, StoredOtherLaw, StoredParameter};
 
 /// Standard deviations over the value itself beyond which the tests do not tell it.
 const NOT_TOLD: f64 = 100.0;
@@ -75,15 +75,30 @@ pub fn lead(stored: &Stored) -> String {
         ),
         "place_only" => {
             let place = stored.place.as_deref().map_or("somewhere".to_owned(), at);
-            format!("A place only: a force is missing {place}, by a law that is not in the catalogue.")
+            let like = imitation(stored);
+            format!("A place only: a force is missing {place}, by a law that is not in the catalogue.{like}")
         }
-        "unknown" => "Unknown: model and tests part, and nothing in the catalogue explains it.".to_owned(),
+        "unknown" => {
+            let like = imitation(stored);
+            format!("Unknown: model and tests part, and nothing in the catalogue explains it.{like}")
+        }
         "no_power" => {
             "No power: the wall hardly moved, so no effect of a size that matters could have shown."
                 .to_owned()
         }
         other => other.to_owned(),
     }
+}
+
+/// What an unnamed law looks like, where something in the catalogue nearly explains the tests.
+fn imitation(stored: &Stored) -> String {
+    let told = |law: &StoredOtherLaw| {
+        format!(
+            " It looks like {}, but what that leaves still depends on how far or how fast the wall moves.",
+            law.looks_like.join(" with ")
+        )
+    };
+    stored.other_law.as_ref().map_or(String::new(), told)
 }
 
 #[cfg(test)]
