@@ -75,6 +75,7 @@ fn for_people(kind: &EffectKind) -> String {
     if !kind.confused_with.is_empty() {
         lines.extend(wrapped(&format!("Easily taken for: {}.", kind.confused_with.join(", "))));
     }
+    lines.extend(wrapped(&format!("Told by itself by {}.", kind.told_by)));
     let several = if kind.may_repeat { "several add up or multiply" } else { "at most one a wall" };
     lines.push(format!("  In a wall file ({several}):\n"));
     lines.push(example(kind));

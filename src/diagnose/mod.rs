@@ -10,6 +10,8 @@
 pub mod amplitude;
 pub mod candidates;
 pub mod check_data;
+pub mod confused;
+pub mod ensemble;
 pub mod experiment;
 pub mod fit;
 pub mod flow;

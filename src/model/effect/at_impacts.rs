@@ -26,6 +26,7 @@ pub(super) const KINDS: [EffectKind; 1] = [EffectKind {
     fingerprint: "none between impacts",
     at_impacts: "ratio of the velocities after and before, by change of pattern",
     confused_with: &["joint_damping", "corner_indentation", "carriage_mass"],
+    told_by: "letting the wall rock freely with the top unheld, from impact to impact",
     add: |effect, sums| {
         sums.impact_factors.iter_mut().enumerate().for_each(|(l, factor)| *factor *= effect.value(l));
     },

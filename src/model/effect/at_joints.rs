@@ -25,6 +25,7 @@ pub(super) const KINDS: [EffectKind; 2] = [
         fingerprint: "rate of opening of the joint, on the joint's own moment",
         at_impacts: "none",
         confused_with: &["impact_dissipation"],
+        told_by: "letting the wall rock freely with the top unheld",
         add: |effect, sums| sums.joint_damping_n_m_s[effect.choice_index()] += effect.value(0),
     },
     EffectKind {
@@ -46,6 +47,7 @@ pub(super) const KINDS: [EffectKind; 2] = [
         fingerprint: "weight times width: constant within a pattern, its sign that of the corner",
         at_impacts: "changes the lever arms of the impulses",
         confused_with: &["diaphragm.mass_kg", "corner_indentation"],
+        told_by: "pushing the wall statically until the joint opens, which gives the lever of its weight",
         add: |effect, sums| sums.indentation_m[effect.choice_index()] += effect.value(0),
     },
 ];

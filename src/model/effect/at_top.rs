@@ -23,6 +23,7 @@ pub(super) const KINDS: [EffectKind; 7] = [
         fingerprint: "absolute acceleration of C",
         at_impacts: "counts in the horizontal momentum of the top",
         confused_with: &["diaphragm.stiffness_n_per_m", "diaphragm.mass_kg", "impact_dissipation"],
+        told_by: "weighing what moves sideways with the top but does not load it",
         add: |effect, sums| sums.carriage_mass_kg += effect.value(0),
     },
     EffectKind {
@@ -43,6 +44,7 @@ pub(super) const KINDS: [EffectKind; 7] = [
         fingerprint: "velocity of C",
         at_impacts: "none",
         confused_with: &["coulomb_friction", "yielding_spring"],
+        told_by: "pulling the top at several steady speeds",
         add: |effect, sums| sums.viscous_n_s_per_m += effect.value(0),
     },
     EffectKind {
@@ -64,6 +66,7 @@ pub(super) const KINDS: [EffectKind; 7] = [
         fingerprint: "sign of the velocity of C, with a step where it turns back",
         at_impacts: "none: a bounded force has no impulse",
         confused_with: &["viscous_damping", "yielding_spring"],
+        told_by: "pulling the top slowly to and fro: the force jumps where it turns",
         add: |effect, sums| sums.friction_n += effect.value(0),
     },
     EffectKind {
@@ -84,6 +87,7 @@ pub(super) const KINDS: [EffectKind; 7] = [
         fingerprint: "cube of the displacement of C",
         at_impacts: "none",
         confused_with: &["diaphragm.stiffness_n_per_m", "gap"],
+        told_by: "pulling the top slowly as far as the tests went, both ways",
         add: |effect, sums| sums.cubic_n_per_m3 += effect.value(0),
     },
     EffectKind {
@@ -104,6 +108,7 @@ pub(super) const KINDS: [EffectKind; 7] = [
         fingerprint: "displacement of C with a dead zone around zero",
         at_impacts: "none",
         confused_with: &["diaphragm.stiffness_n_per_m", "cubic_stiffness", "sensor_offset"],
+        told_by: "pulling the top slowly through its rest, both ways",
         add: |effect, sums| sums.gap_half_width_m = effect.value(0),
     },
     EffectKind {
@@ -130,6 +135,7 @@ pub(super) const KINDS: [EffectKind; 7] = [
         fingerprint: "displacement of C of one sign only",
         at_impacts: "none",
         confused_with: &["diaphragm.stiffness_n_per_m", "sensor_offset"],
+        told_by: "pulling the top slowly, both ways",
         add: |effect, sums| sums.one_sided_n_per_m[effect.choice_index()] += effect.value(0),
     },
     EffectKind {
@@ -161,6 +167,7 @@ pub(super) const KINDS: [EffectKind; 7] = [
         fingerprint: "loop of force against displacement of C, with memory",
         at_impacts: "none",
         confused_with: &["coulomb_friction", "viscous_damping", "diaphragm.stiffness_n_per_m"],
+        told_by: "pulling the top slowly there and back: what yields does not come back on its own path",
         add: |effect, sums| {
             let [stiffness_n_per_m, force_n] = [effect.value(0), effect.value(1)];
             let acts = stiffness_n_per_m > 0.0 && force_n > 0.0;

@@ -75,6 +75,8 @@ pub struct EffectKind {
     pub at_impacts: &'static str,
     /// What it is easily taken for: kinds, or keys of the wall file.
     pub confused_with: &'static [&'static str],
+    /// The measurement that tells it by itself, whatever the tests say.
+    pub told_by: &'static str,
     /// Adds an effect of this kind to what the effects of a wall come to.
     #[serde(skip)]
     pub(super) add: fn(&Effect, &mut EffectSums),

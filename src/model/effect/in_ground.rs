@@ -22,6 +22,7 @@ pub(super) const KINDS: [EffectKind; 3] = [
         fingerprint: "ground acceleration times the weight's arm, its sign by pattern",
         at_impacts: "none",
         confused_with: &[],
+        told_by: "an accelerometer on the base, upwards",
         add: |effect, sums| sums.ground.vertical_ratio += effect.value(0),
     },
     EffectKind {
@@ -42,6 +43,7 @@ pub(super) const KINDS: [EffectKind; 3] = [
         fingerprint: "ground acceleration",
         at_impacts: "none but their timing",
         confused_with: &["record_lag", "carriage_mass"],
+        told_by: "a second accelerometer on the base",
         add: |effect, sums| sums.ground.gain *= effect.value(0),
     },
     EffectKind {
@@ -63,6 +65,7 @@ pub(super) const KINDS: [EffectKind; 3] = [
         fingerprint: "derivative of the ground acceleration",
         at_impacts: "timing of all impacts",
         confused_with: &["record_gain"],
+        told_by: "a pulse that the accelerometer and the rotation sensors both see at once",
         add: |effect, sums| sums.ground.lag_s += effect.value(0),
     },
 ];

@@ -46,6 +46,7 @@ pub(super) const KINDS: [EffectKind; 2] = [
         fingerprint: "the rotations themselves, not their dynamics",
         at_impacts: "ratios unchanged",
         confused_with: &["wall.height_m", "corners.lower_width_m", "corners.upper_width_m"],
+        told_by: "turning the sensor by a known angle",
         add: gain,
     },
     EffectKind {
@@ -67,6 +68,7 @@ pub(super) const KINDS: [EffectKind; 2] = [
         fingerprint: "a constant in the rotations, at rest too",
         at_impacts: "ratios unchanged",
         confused_with: &["gap", "one_sided_spring", "diaphragm.eccentricity_m"],
+        told_by: "reading the sensor while the wall stands",
         add: offset,
     },
 ];

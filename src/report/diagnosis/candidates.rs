@@ -30,7 +30,7 @@ fn is_effect(rival: &StoredRival) -> bool {
 /// [`crate::Error::Picture`] if plotters refuses.
 pub fn section(stored: &Stored) -> Result<Section> {
     let rivals = stored.rivals.iter().filter(|r| is_effect(r)).collect::<Vec<_>>();
-    let text = "Every effect of the catalogue, fitted to the tests; the first explains them best. What speaks against a hypothesis is half its squared error beyond noise, bounded window by window, on all tests, with a price for every number: natural logarithms of likelihood. 15 less than every other is a name.";
+    let text = "Every effect of the catalogue, fitted to the tests; the first explains them best. What speaks against a hypothesis is half its squared error beyond noise, bounded window by window, on all tests, with a price for every number: natural logarithms of likelihood. 15 less than every other is a name. WME is the error of whole runs (Eq. 8), in brackets its range over numbers that fit as well: where that is wide, it says little.";
     made("candidates", "The candidates, ranked", text, &rivals)
 }
 
@@ -125,6 +125,12 @@ fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
     })
 }
 
+/// An error over whole runs, and its range over the ensemble.
+fn spread(value: Option<f64>, range: Option<[f64; 2]>) -> String {
+    let range = range.map_or(String::new(), |[least, most]| format!(" ({least:.3} to {most:.3})"));
+    value.map_or("–".to_owned(), |x| format!("{x:.3}{range}"))
+}
+
 fn table(rivals: &[&StoredRival]) -> Table {
     let row = |r: &&StoredRival| {
         let text = |x: Option<f64>, digits: usize| x.map_or("–".to_owned(), |x| format!("{x:.digits$}"));
@@ -135,8 +141,8 @@ fn table(rivals: &[&StoredRival]) -> Table {
             format!("{:.1}", r.against.all),
             text(r.windowed_error.fit, 2),
             text(r.windowed_error.held_out, 2),
-            text(r.wme.fit, 3),
-            text(r.wme.held_out, 3),
+            spread(r.wme.fit, r.wme_range.fit),
+            spread(r.wme.held_out, r.wme_range.held_out),
         ]
     };
     let head = [

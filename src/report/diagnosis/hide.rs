@@ -4,7 +4,7 @@ use super::super::axis::Axis;
 use super::super::colours::{Mark, PALETTE};
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link, Section, Table};
-use super::stored::{Stored, StoredPower};
+use super::stored::{Stored, StoredConfused, StoredPower};
 use super::words::{number, with_sd};
 use super::{MEASURED, key};
 use crate::error::Result;
@@ -31,6 +31,10 @@ pub fn section(stored: &Stored) -> Result<Section> {
     if blind > 0 {
         text.push(format!("{blind} of them could hide at a size that matters."));
     }
+    let confused = stored.confused.iter().filter(|c| c.told_apart > c.told_from_nothing).collect::<Vec<_>>();
+    if !confused.is_empty() {
+        text.push("Some are imitated by others, so that only a larger size is told from those; a measurement of another sort tells them by itself.".to_owned());
+    }
     let drawn = &powers[..powers.len().min(DRAWN)];
     let figures = if powers.is_empty() { Vec::new() } else { vec![figure(drawn)?] };
     Ok(Section {
@@ -38,7 +42,11 @@ pub fn section(stored: &Stored) -> Result<Section> {
         title: "What could still hide".into(),
         text,
         figures,
-        tables: vec![table(&powers)],
+        tables: if confused.is_empty() {
+            vec![table(&powers)]
+        } else {
+            vec![table(&powers), pairs(&confused)]
+        },
         ..Section::default()
     })
 }
@@ -77,6 +85,32 @@ fn figure(powers: &[&StoredPower]) -> Result<Figure> {
         links: vec![Link::to("diagnosis.json")],
         ..Figure::default()
     })
+}
+
+fn pairs(confused: &[&StoredConfused]) -> Table {
+    let row = |c: &&StoredConfused| {
+        vec![
+            c.effect.clone(),
+            c.imitated_by.clone(),
+            format!("{:.1} %", 100.0 * c.share),
+            format!("{} {}", c.parameter, c.unit),
+            number(c.told_from_nothing),
+            number(c.told_apart),
+            number(c.matters),
+            c.told_by.clone(),
+        ]
+    };
+    let head = [
+        "effect",
+        "imitated by",
+        "of its trace",
+        "by its",
+        "told from nothing",
+        "told apart",
+        "would matter",
+        "told by itself by",
+    ];
+    Table::of("Effects these tests hardly tell apart", &head, confused.iter().map(row))
 }
 
 fn table(powers: &[&StoredPower]) -> Table {

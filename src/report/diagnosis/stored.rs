@@ -24,6 +24,8 @@ pub struct Stored {
     pub windowed_error: Steps,
     pub against: Option<Steps>,
     pub could_hide: Vec<StoredPower>,
+    #[serde(default)]
+    pub confused: Vec<StoredConfused>,
     pub rivals: Vec<StoredRival>,
     pub missing_force: StoredForce,
     #[serde(default)]
@@ -88,6 +90,19 @@ pub struct StoredPower {
 }
 
 #[derive(Debug, Deserialize)]
+pub struct StoredConfused {
+    pub effect: String,
+    pub imitated_by: String,
+    pub share: f64,
+    pub parameter: String,
+    pub unit: String,
+    pub told_from_nothing: f64,
+    pub told_apart: f64,
+    pub matters: f64,
+    pub told_by: String,
+}
+
+#[derive(Debug, Deserialize)]
 pub struct StoredRival {
     pub name: String,
     pub place: Option<String>,
@@ -95,6 +110,15 @@ pub struct StoredRival {
     pub windowed_error: FitHeld,
     pub against: Against,
     pub wme: FitHeld,
+    #[serde(default)]
+    pub wme_range: RangeFitHeld,
+}
+
+/// Least and largest over an ensemble of the fitted numbers.
+#[derive(Debug, Default, Deserialize)]
+pub struct RangeFitHeld {
+    pub fit: Option<[f64; 2]>,
+    pub held_out: Option<[f64; 2]>,
 }
 
 #[derive(Debug, Deserialize)]
