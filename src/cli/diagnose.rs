@@ -57,7 +57,7 @@ impl Progress for Bar {
 /// # Errors
 /// Input errors of the experiment and what it names, and of the output folder; failures to write.
 pub fn execute(args: &DiagnoseArgs) -> Result<()> {
-    let experiment = Experiment::load(&args.experiment)?;
+    let mut experiment = Experiment::load(&args.experiment)?;
     let threads = args.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
         InputError::option("--threads", e.to_string(), "a number of threads the system grants")
@@ -66,7 +66,7 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     let bar = Bar(ProgressBar::new(1).with_style(style()));
     let summary = pool.install(|| -> Result<Value> {
         check_data(&experiment)?;
-        let diagnosis = diagnose(&experiment, &bar)?;
+        let diagnosis = diagnose(&mut experiment, &bar)?;
         write_results(&names, &experiment, &diagnosis)
     })?;
     bar.0.finish_and_clear();

@@ -131,7 +131,8 @@ impl Problem<'_> {
         };
         let windows = self.windows.par_iter().zip(&from.windows).zip(chords).map(look).collect();
         let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
-        found.cost = cost(h, &found, Loss::NEAR);
+        let loss = Loss::of_starts(from.windows.iter().map(WindowFit::reduced).collect());
+        found.cost = cost(h, &found, loss);
         Some(found)
     }
 

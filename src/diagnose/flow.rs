@@ -7,12 +7,14 @@ use super::experiment::Experiment;
 use super::fit::Problem;
 use super::force::{acts_at_top, force_points};
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
+use super::imitate::{Imitation, imitations};
 use super::other_law::OtherLaw;
+use super::read_again::{gain_misread, reads_better, set_gain};
 use super::search::{
     Data, Tried, finish, promise, refit, shared_states, try_coarsely, try_hypothesis, try_second, untouched,
 };
 use super::verdict::{
-    EQUIVALENT, Verdict, WORTH_A_NAME, against, closes, could_show, does_something, is_noise, joint_error,
+    EQUIVALENT, HELD_OUT, Verdict, WORTH_A_NAME, against, closes, could_show, does_something, is_noise, joint_error,
     kinds, moved_unknown, name_of_number, names, worth_two,
 };
 use super::windows::{Window, is_readable, windows};
@@ -23,6 +25,8 @@ use crate::input::experiment::Purpose;
 /// answer, and where one is but may not be alone.
 const WITHOUT_A_NAME: [usize; 2] = [2, 14];
 const BESIDE_A_NAME: [usize; 2] = [1, 4];
+/// Pairs that are fitted because they may stand for the best. Chosen: a pair that was the truth once came eighth.
+const IMITATIONS: usize = 8;
 /// Gain of the best single addition below which pairs are not tried.
 const WORTH_PAIRS: f64 = 60.0;
 /// Share of what speaks against the wall that a place must take away to be told.
@@ -39,6 +43,8 @@ const WORTH_POLISH: f64 = 10.0;
 const SHARING: usize = 8;
 /// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
 const KNOWN: f64 = 0.02;
+/// Times that patterns are read again without a sensor's gain.
+const READ_AGAIN: usize = 3;
 /// Windows in motion below which no effect could be told.
 const LEAST_MOVING: usize = 6;
 
@@ -85,11 +91,32 @@ fn data<'a>(experiment: &'a Experiment, windows: &'a [Vec<Window>; 2]) -> Data<'
     Data { fit: problem(&windows[0]), held_out: problem(&windows[1]) }
 }
 
-/// Diagnoses an experiment.
+/// Diagnoses an experiment; a sensor's gain that shows is left in its tests, so that their patterns are read without it.
 ///
 /// # Errors
 /// An input error if no window of a test to fit starts in a pattern beyond doubt.
-pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Diagnosis> {
+pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result<Diagnosis> {
+    let (mut windows, mut alone) = alone(experiment, progress)?;
+    for _ in 0..READ_AGAIN {
+        let Some(gain) = alone.singles.first().and_then(|best| gain_misread(&experiment.tests, best)) else {
+            break;
+        };
+        let before = set_gain(&mut experiment.tests, gain);
+        let (new_windows, new) = self::alone(experiment, progress)?;
+        if !reads_better(&alone.singles, &new.singles) {
+            set_gain(&mut experiment.tests, before);
+            break;
+        }
+        (windows, alone) = (new_windows, new);
+    }
+    let search = Search { experiment, data: data(experiment, &windows), progress };
+    let found = search.judge(alone);
+    let Found { verdict, before, recalibrated, after, equivalent, place, other_law, tried } = found;
+    Ok(Diagnosis { verdict, before, recalibrated, after, equivalent, place, other_law, tried, windows })
+}
+
+/// Windows of the tests, and what effects do to them one by one.
+fn alone(experiment: &Experiment, progress: &impl Progress) -> Result<([Vec<Window>; 2], Alone)> {
     let (fit, held_out) = windows(&experiment.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
     let windows: [Vec<Window>; 2] = [fit, held_out];
     let no_window = || {
@@ -100,9 +127,15 @@ pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Dia
         return Err(no_window().into());
     }
     let search = Search { experiment, data: data(experiment, &windows), progress };
-    let found = search.run().ok_or_else(no_window)?;
-    let Found { verdict, before, recalibrated, after, equivalent, place, other_law, tried } = found;
-    Ok(Diagnosis { verdict, before, recalibrated, after, equivalent, place, other_law, tried, windows })
+    let alone = search.alone().ok_or_else(no_window)?;
+    Ok((windows, alone))
+}
+
+/// The wall as given, its numbers fitted, and single effects, best first; none of these where too little moves.
+struct Alone {
+    before: Tried,
+    recalibrated: Tried,
+    singles: Vec<Tried>,
 }
 
 struct Search<'a, P> {
@@ -144,24 +177,32 @@ impl<P: Progress> Search<'_, P> {
         Hypothesis::new(self.experiment.wall.parameters(), &self.experiment.scales, nuisances, additions)
     }
 
-    fn run(&self) -> Option<Found> {
+    fn alone(&self) -> Option<Alone> {
         let nuisances = &self.experiment.nuisances;
         self.progress.step("the wall as given", 2);
         let before = untouched(&self.data, self.hypothesis(&[], &[]))?;
         self.progress.fitted();
         if self.data.fit.windows.len() < LEAST_MOVING {
-            return Some(Found::no_power(before));
+            let recalibrated = before.clone();
+            return Some(Alone { before, recalibrated, singles: Vec::new() });
         }
         let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before)?;
         self.progress.fitted();
         let additions = candidates(self.experiment.wall.parameters());
         let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
-        let singles = self.try_all("single effects", nuisances, &before, &sets);
+        let singles = self.try_all("single effects", nuisances, &self.starts(&before, &recalibrated), &sets);
         let singles = self.polished(nuisances, &before, singles, &recalibrated);
+        let recalibrated = self.better_part(recalibrated, singles.first());
         let best = singles.iter().take(SHARING).collect::<Vec<_>>();
         let [before, recalibrated] =
             [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
-        Some(self.judge(before, recalibrated, singles))
+        Some(Alone { before, recalibrated, singles })
+    }
+
+    /// Where single effects start: from the wall as given, and where one of its numbers was not known, with that fitted.
+    fn starts<'t>(&self, before: &'t Tried, recalibrated: &'t Tried) -> Vec<&'t Tried> {
+        let wide = self.experiment.nuisances.iter().any(Nuisance::is_wide);
+        if wide { vec![before, recalibrated] } else { vec![before] }
     }
 
     /// Fits every set of additions, and orders them by what speaks against them.
@@ -169,7 +210,7 @@ impl<P: Progress> Search<'_, P> {
         &self,
         what: &str,
         nuisances: &[Nuisance],
-        from: &Tried,
+        from: &[&Tried],
         sets: &[Vec<Addition>],
     ) -> Vec<Tried> {
         self.progress.step(what, sets.len());
@@ -242,8 +283,27 @@ impl<P: Progress> Search<'_, P> {
         self.ordered(tried)
     }
 
-    fn judge(&self, before: Tried, recalibrated: Tried, singles: Vec<Tried>) -> Found {
+    /// A hypothesis, or the same fitted from the values of one that holds more than it, where that is better: a number of
+    /// the wall far from its prior is sometimes found beside a further effect only.
+    fn better_part(&self, part: Tried, whole: Option<&Tried>) -> Tried {
+        let additions = &part.hypothesis.additions;
+        let holds = |w: &&Tried| additions.iter().all(|a| w.hypothesis.additions.contains(a));
+        let Some(whole) = whole.filter(holds) else { return part };
+        if against(&self.data, whole) > against(&self.data, &part) - WORTH_POLISH {
+            return part;
+        }
+        let h = self.hypothesis(&self.experiment.nuisances, additions);
+        let values = h.values_from(&whole.hypothesis, &whole.fit.values);
+        let again = refit(&self.data, h, whole, &values);
+        again.filter(|new| against(&self.data, new) < against(&self.data, &part)).unwrap_or(part)
+    }
+
+    fn judge(&self, alone: Alone) -> Found {
         let data = &self.data;
+        let Alone { before, recalibrated, singles } = alone;
+        if singles.is_empty() {
+            return Found::no_power(before);
+        }
         let Some(gap) = joint_error(&before) else { return Found::no_power(before) };
         let found = |verdict, after: Tried, equivalent, place, tried| Found {
             verdict,
@@ -268,10 +328,18 @@ impl<P: Progress> Search<'_, P> {
         let one = self.named(&singles, gap, &recalibrated);
         let mut tried = singles;
         let mut other_law = None;
-        if one.is_some() || gain > WORTH_PAIRS {
+        // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
+        let far = joint_error(&recalibrated).is_some_and(|error| error > HELD_OUT);
+        if one.is_some() || far || gain > WORTH_PAIRS {
             let single = best_answer(&tried).unwrap_or(&recalibrated).clone();
-            let [paired, fitted] = if one.is_some() { BESIDE_A_NAME } else { WITHOUT_A_NAME };
-            let pairs = self.pairs(&tried, &single, &before, paired, fitted);
+            let counts = if one.is_some() { BESIDE_A_NAME } else { WITHOUT_A_NAME };
+            let pairs = self.pairs(&tried, &single, &before, gap, counts);
+            let mut one = one;
+            if pairs.first().is_some_and(|pair| !does_something(pair)) {
+                tried = self.ordered(tried.into_iter().map(|t| self.better_part(t, pairs.first())).collect());
+                one = self.named(&tried, gap, &recalibrated);
+            }
+            let single = best_answer(&tried).unwrap_or(&recalibrated).clone();
             let two = self.named(&pairs, gap, &single).filter(|(_, two, _)| worth_two(data, &single, two));
             tried.extend(pairs);
             if let Some((verdict, after, equivalent)) = two.or(one) {
@@ -347,7 +415,7 @@ impl<P: Progress> Search<'_, P> {
         // A second spring that hardly yields is the floor's own, by another name.
         let other_law = |a: &Addition| a.kind().is_some_and(|kind| kind != "yielding_spring");
         let sets = sets.into_iter().filter(other_law).map(|a| vec![a]).collect::<Vec<_>>();
-        let instead = self.try_all("effects in place of what was not known", &nuisances, before, &sets);
+        let instead = self.try_all("effects in place of what was not known", &nuisances, &[before], &sets);
         let limit = against(&self.data, recalibrated) + EQUIVALENT;
         let as_good = |(_, after, _): &(Verdict, Tried, Vec<String>)| against(&self.data, after) < limit;
         let Some((_, after, mut equivalent)) = self.named(&instead, gap, before).filter(as_good) else {
@@ -370,8 +438,8 @@ impl<P: Progress> Search<'_, P> {
         singles: &[Tried],
         single: &Tried,
         before: &Tried,
-        paired: usize,
-        fitted: usize,
+        gap: f64,
+        [paired, fitted]: [usize; 2],
     ) -> Vec<Tried> {
         let answers = singles.iter().filter(|t| kinds(t).is_some()).collect::<Vec<_>>();
         let mut sets: Vec<Vec<Addition>> = Vec::new();
@@ -396,7 +464,35 @@ impl<P: Progress> Search<'_, P> {
         };
         let tried = pairs.par_iter().filter_map(try_one).collect();
         let tried = self.finished(self.ordered(tried));
-        self.polished(&self.experiment.nuisances, before, tried, single)
+        let tried = self.polished(&self.experiment.nuisances, before, tried, single);
+        self.with_imitations(tried, gap)
+    }
+
+    /// Pairs, and where the best closes the gap, those that may stand for it.
+    fn with_imitations(&self, mut pairs: Vec<Tried>, gap: f64) -> Vec<Tried> {
+        let Some(best) = pairs.first().filter(|t| closes(t, gap) && kinds(t).is_some()) else { return pairs };
+        let nuisances = &self.experiment.nuisances;
+        let candidates = candidates(self.experiment.wall.parameters());
+        let effects = candidates.into_iter().filter(|a| a.kind().is_some()).collect::<Vec<_>>();
+        let hypothesis = |additions: &[Addition]| self.hypothesis(nuisances, additions);
+        let Some(imitations) = imitations(&self.data, best, &effects, hypothesis) else { return pairs };
+        let tried_before = |i: &Imitation| {
+            let has = |t: &&Tried| i.additions.iter().all(|a| t.hypothesis.additions.contains(a));
+            pairs.iter().any(|t| has(&t))
+        };
+        let new = imitations.into_iter().filter(|i| !tried_before(i)).take(IMITATIONS).collect::<Vec<_>>();
+        self.progress.step("pairs that may stand for the best", new.len());
+        let fit = |imitation: &Imitation| {
+            let h = self.hypothesis(nuisances, &imitation.additions);
+            let mut values = h.start();
+            values[h.nuisances..].copy_from_slice(&imitation.values);
+            let tried = refit(&self.data, h, best, &values);
+            self.progress.fitted();
+            tried
+        };
+        let fitted = new.par_iter().filter_map(fit).collect::<Vec<_>>();
+        pairs.extend(fitted);
+        self.ordered(pairs)
     }
 
     /// The pairs that promise most at a glance, and those of which only a fit would tell.

@@ -6,6 +6,8 @@ use crate::model::{Effect, EffectVariant, Place, Wall, WallParameters};
 
 /// Standard deviations of its prior within which a number of the wall is taken to lie.
 pub const PRIOR_REACH: f64 = 3.0;
+/// A relative prior wider than this says that a number was not known.
+const WIDE_PRIOR: f64 = 0.1;
 /// Coefficients that impacts under the law `contact` can act with; C_7 and C_8 belong to impacts that end in sticking.
 pub const ACTING: usize = 6;
 /// Standard deviation of a factor on C_l about 1: wide, but a factor that never acts stays at 1.
@@ -18,6 +20,14 @@ pub enum Nuisance {
     Number(&'static WallNumber, f64),
     /// C_l by its index from 0, with its relative standard deviation.
     Coefficient(usize, f64),
+}
+
+impl Nuisance {
+    /// Whether what was known says so little that the number was not known.
+    pub fn is_wide(&self) -> bool {
+        let (Nuisance::Number(_, sd) | Nuisance::Coefficient(_, sd)) = self;
+        *sd > WIDE_PRIOR
+    }
 }
 
 /// Something added to the wall.
@@ -214,6 +224,20 @@ impl Hypothesis {
     /// Where the search starts.
     pub fn start(&self) -> Vec<f64> {
         self.unknowns.iter().map(|u| u.start).collect()
+    }
+
+    /// The values of another hypothesis for the numbers that both have, and the start for the rest.
+    pub fn values_from(&self, other: &Self, values: &[f64]) -> Vec<f64> {
+        let of = |unknown: &Unknown| {
+            let same = |(theirs, _): &(&Unknown, &f64)| match (unknown.slot, theirs.slot) {
+                (Slot::Added(own, i), Slot::Added(index, j)) => {
+                    i == j && self.additions[own] == other.additions[index]
+                }
+                (own, theirs) => own == theirs,
+            };
+            other.unknowns.iter().zip(values).find(same).map_or(unknown.start, |(_, value)| *value)
+        };
+        self.unknowns.iter().map(of).collect()
     }
 
     /// Sum of the squared distances from what was known, in its standard deviations.

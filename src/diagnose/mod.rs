@@ -4,7 +4,8 @@
 //! [`windows`] that start where the measured [`pattern`] is beyond doubt; each window is simulated from a fitted state
 //! ([`replay`], [`window_fit`]), so that neither the past nor noisy derivatives enter; a [`hypothesis`], the wall with
 //! what is uncertain of it and what is added to it, is fitted to all windows together ([`fit`]) and judged on tests held
-//! out ([`search`], [`score`]); the catalogue is tried ([`flow`]) and a [`verdict`] reached; what is found is written
+//! out ([`search`], [`score`]); the catalogue is tried ([`flow`]), patterns are read again if a sensor turns out to read a gain
+//! ([`read_again`]), and a [`verdict`] is reached; what is found is written
 //! ([`output`]).
 
 pub mod amplitude;
@@ -17,6 +18,7 @@ pub mod fit;
 pub mod flow;
 pub mod force;
 pub mod hypothesis;
+pub mod imitate;
 pub mod interval;
 mod manifest;
 pub mod next_tests;
@@ -25,6 +27,7 @@ pub mod offset;
 pub mod other_law;
 pub mod output;
 pub mod pattern;
+pub mod read_again;
 pub mod replay;
 pub mod robust;
 pub mod scale;

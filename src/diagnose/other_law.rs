@@ -8,8 +8,8 @@ use super::search::{Data, Tried};
 use super::verdict::names;
 
 /// Squared standard deviations of the force left at the top that a bend with velocity may explain beside a named effect.
-/// Right names leave 6 and less, a quadratic drag called a damper 101 and 400, a loose mass 169.
-const BENT: f64 = 25.0;
+/// Right names leave 6 and less, once 28; a quadratic drag called a damper 101 and 400, a loose mass 169.
+const BENT: f64 = 50.0;
 /// Gain in natural logarithms of likelihood that a trend of a named size with the amplitude may have. Right names have 9 and
 /// less; damping that grows with displacement called a damper, or a damper with other impacts, 37, 55 and 313.
 const TREND: f64 = 25.0;

@@ -24,19 +24,23 @@ pub enum Loss {
 }
 
 impl Loss {
-    /// The loss in which starts are compared.
+    /// The last loss but one.
     pub const NEAR: Loss = Loss::Noise(NEAR_BOUND);
 
-    /// The loss between the widest and that in which starts are compared.
+    /// The loss between the widest and the last but one.
     pub const MIDDLE: Loss = Loss::Noise(MIDDLE_BOUND);
     /// The losses that follow the widest, in the order a fit goes through them.
     pub const NARROWING: [Loss; 3] = [Loss::MIDDLE, Loss::NEAR, Loss::Likelihood];
 
     /// The loss a fit begins with: one that two thirds of the windows lie well inside.
-    pub fn widest(mut reduced: Vec<f64>) -> Loss {
-        reduced.sort_by(f64::total_cmp);
-        let two_thirds = reduced.get(reduced.len() * 2 / 3).copied().unwrap_or(1.0);
-        Loss::Noise((3.0 * two_thirds).max(FIRST_BOUND))
+    pub fn widest(reduced: Vec<f64>) -> Loss {
+        Loss::Noise((3.0 * two_thirds(reduced)).max(FIRST_BOUND))
+    }
+
+    /// The loss in which starts are compared that set out from windows with these: a gap far above the noise must not leave
+    /// every start at the bound.
+    pub fn of_starts(reduced: Vec<f64>) -> Loss {
+        Loss::Noise((3.0 * two_thirds(reduced)).max(NEAR_BOUND))
     }
 
     /// The loss of a window; its squares where they are those of noise.
@@ -57,4 +61,10 @@ impl Loss {
             Loss::Likelihood => (1.0 + (fit.squares - fit.freedom).max(0.0) / LAST_EXCESS).powi(-2),
         }
     }
+}
+
+/// The squared noise that two thirds of the windows lie within.
+fn two_thirds(mut reduced: Vec<f64>) -> f64 {
+    reduced.sort_by(f64::total_cmp);
+    reduced.get(reduced.len() * 2 / 3).copied().unwrap_or(1.0)
 }

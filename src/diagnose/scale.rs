@@ -14,8 +14,8 @@ pub struct Scales {
     pub frequency_rad_s: f64,
     /// Force of the floor at the largest displacement, or a tenth of the weight, N.
     pub force_n: f64,
-    /// Height, m.
-    pub height_m: f64,
+    /// Moment that a joint takes to open, m g b/2, N m.
+    pub moment_n_m: f64,
     /// Width between corners, m.
     pub width_m: f64,
 }
@@ -33,7 +33,7 @@ impl Scales {
             rotation_rad,
             frequency_rad_s: 1.0 / RockingWall::new(wall).response_time_s(),
             force_n: (p.stiffness_n_per_m * displacement_m).max(0.1 * weight_n),
-            height_m: p.height_m,
+            moment_n_m: 0.5 * weight_n * p.lower_width_m,
             width_m: p.lower_width_m,
         }
     }
@@ -47,7 +47,8 @@ impl Scales {
             "N/m³" => self.force_n / self.displacement_m.powi(3),
             "N s/m" => self.force_n / velocity_m_s,
             "kg" => self.force_n / (velocity_m_s * self.frequency_rad_s),
-            "N m s/rad" => self.force_n * self.height_m / (self.rotation_rad * self.frequency_rad_s),
+            // A quarter of the moment that opens a joint: beside it a damper there is as large as the others at the top.
+            "N m s/rad" => 0.25 * self.moment_n_m / (self.rotation_rad * self.frequency_rad_s),
             // A depth is one of corners, any other length one of the top's displacement.
             "m" if key.contains("depth") || key.contains("width_m") && !key.contains("half") => {
                 0.1 * self.width_m

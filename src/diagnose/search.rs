@@ -55,12 +55,18 @@ impl Tried {
     }
 }
 
-/// Fits a hypothesis coarsely from several starts; `from` gives the states of the windows.
+/// Fits a hypothesis coarsely from several starts about its own and about the values of each of `from`, which give the
+/// states of the windows too.
 ///
 /// None if no start makes a wall.
-pub fn try_coarsely(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Option<Tried> {
-    let fit = best_coarse(data, &hypothesis, from, &hypothesis.start(), hypothesis.nuisances)?;
-    judged(data, hypothesis, fit, from, false)
+pub fn try_coarsely(data: &Data, hypothesis: Hypothesis, from: &[&Tried]) -> Option<Tried> {
+    let one = |from: &&Tried| {
+        let base = hypothesis.values_from(&from.hypothesis, &from.fit.values);
+        let fit = best_coarse(data, &hypothesis, from, &base, hypothesis.nuisances)?;
+        judged(data, hypothesis.clone(), fit, from, false)
+    };
+    let tried = from.iter().filter_map(one);
+    tried.min_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost))
 }
 
 /// Fits to the end what was fitted coarsely.
@@ -71,7 +77,7 @@ pub fn finish(data: &Data, coarse: &Tried) -> Option<Tried> {
 
 /// Fits a hypothesis from several starts to the end.
 pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Option<Tried> {
-    finish(data, &try_coarsely(data, hypothesis, from)?)
+    finish(data, &try_coarsely(data, hypothesis, &[from])?)
 }
 
 /// The best coarse fit from starts about `base` that move the numbers from the `first` on; starts are compared at a glance.

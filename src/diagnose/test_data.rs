@@ -34,6 +34,8 @@ pub struct TestData {
     pub noise_rad: Pair,
     /// What each channel reads at rest, rad: taken off where a pattern is recognised, never where a model is judged.
     pub rest_offset_rad: Pair,
+    /// What each channel reads of a rotation, as far as it was found out: taken out at the same places.
+    pub read_gain: Pair,
     /// Time between samples, s: their median distance.
     pub step_s: f64,
     /// Samples farther apart than this are not joined, s.
@@ -93,15 +95,16 @@ impl TestData {
             step_s: median_step(&time_s),
             time_s,
             rest_offset_rad: rest_offset_rad(&theta_rad, noise_rad),
+            read_gain: [1.0; 2],
             theta_rad,
             noise_rad,
             gap_s: measured.gap_s,
         })
     }
 
-    /// Rotations of a sample, rad, with what is read at rest as zero.
+    /// Rotations of a sample, rad, with what is read at rest as zero and without the gains that were found.
     pub fn from_rest_rad(&self, k: usize) -> Pair {
-        [0, 1].map(|i| self.theta_rad[k][i] - self.rest_offset_rad[i])
+        [0, 1].map(|i| (self.theta_rad[k][i] - self.rest_offset_rad[i]) / self.read_gain[i])
     }
 
     /// Samples per second times `seconds`, at least one.

@@ -43,8 +43,6 @@ pub const FLOOR: f64 = 0.005;
 /// Standard deviations from doing nothing at which an effect is detected: it is then so large by chance once in a
 /// thousand times.
 pub const DETECTED: f64 = 3.3;
-/// A prior wider than this says that a number was not known.
-pub const WIDE_PRIOR: f64 = 0.1;
 
 /// The answer of a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -120,13 +118,13 @@ pub fn name_of_number(number: &WallNumber) -> String {
 /// Uncertain numbers of the wall that were not known and moved by more than a tenth.
 pub fn moved_unknown(nuisances: &[Nuisance], tried: &Tried) -> Vec<Nuisance> {
     let moved = |nuisance: &&Nuisance| {
-        let (key, sd) = match nuisance {
-            Nuisance::Number(number, sd) => (number.key.to_owned(), *sd),
-            Nuisance::Coefficient(l, sd) => (format!("C_{}", l + 1), *sd),
+        let key = match nuisance {
+            Nuisance::Number(number, _) => number.key.to_owned(),
+            Nuisance::Coefficient(l, _) => format!("C_{}", l + 1),
         };
         let found = tried.hypothesis.unknowns.iter().zip(&tried.fit.values).find(|(u, _)| u.key == key);
         let change = found.map_or(0.0, |(u, value)| (value / u.start - 1.0).abs());
-        sd > WIDE_PRIOR && change > 0.1
+        nuisance.is_wide() && change > 0.1
     };
     nuisances.iter().filter(moved).copied().collect()
 }

@@ -35,6 +35,7 @@ fn measured(wall: &Wall) -> Vec<TestData> {
             theta_rad: history.rows.iter().map(|row| row.theta_rad.map(&mut noisy)).collect(),
             noise_rad: [NOISE_RAD; 2],
             rest_offset_rad: [0.0; 2],
+            read_gain: [1.0; 2],
             step_s: STEP_S,
             gap_s: 2.5 * STEP_S,
         }

@@ -82,8 +82,9 @@ impl Residual {
         for theta in &mut test.theta_rad {
             *theta = [0, 1].map(|i| (theta[i] - reading.offset_rad[i]) / reading.gain[i]);
         }
-        // What a sensor of this wall reads at rest is off now; it must not be taken off once more.
+        // What a sensor of this wall reads at rest, and its gain, are off now; they must not be taken off once more.
         test.rest_offset_rad = rest_offset_rad(&test.theta_rad, test.noise_rad);
+        test.read_gain = [0, 1].map(|i| test.read_gain[i] / reading.gain[i]);
         let shaking = shaken(&test.shaking, physics.reversed_ratio);
         Self {
             index,

@@ -1,0 +1,129 @@
+//! Pairs of effects that do what the best pair does, as far as a linear look tells.
+//!
+//! Two effects together can stand for two others: a narrower joint read with a gain moves much like the same wall under a
+//! weaker record with a carriage at its top. No single effect points at such a pair, so that a search that sets out from
+//! single effects may miss it. How the windows change with a little of every effect is cheap; what any pair can make of
+//! the change that the best pair made is then a small least-squares problem.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::fit::Fit;
+use super::hypothesis::{Addition, Hypothesis};
+use super::robust::Loss;
+use super::search::{Data, Tried};
+
+/// A pair, and the values at which it comes nearest.
+#[derive(Debug, Clone)]
+pub struct Imitation {
+    /// The two effects.
+    pub additions: [Addition; 2],
+    /// Values of their numbers.
+    pub values: [f64; 2],
+    /// Squared residuals that it leaves, in squared noise, as far as a linear look tells.
+    pub left: f64,
+}
+
+/// Every pair of `candidates`, each with one number, the nearest to the best pair first; none where its neighbourhood is no
+/// wall.
+///
+/// `hypothesis` makes one of additions.
+pub fn imitations(
+    data: &Data,
+    best: &Tried,
+    candidates: &[Addition],
+    hypothesis: impl Fn(&[Addition]) -> Hypothesis,
+) -> Option<Vec<Imitation>> {
+    let own = &best.hypothesis.additions;
+    let others = candidates.iter().filter(|c| !own.contains(c)).copied();
+    let h = hypothesis(&own.iter().copied().chain(others).collect::<Vec<_>>());
+    let begin = best.fit.values.len();
+    let mut values = h.start();
+    values[..begin].copy_from_slice(&best.fit.values);
+    let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
+    let linear = Sums::new(data, &h, &at)?;
+    // Undoing the best pair is what a pair must make good.
+    let own_numbers = h.nuisances..begin;
+    let columns = (0..h.additions.len()).filter_map(|index| {
+        let mut numbers = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
+        let first = numbers.next()?;
+        numbers.next().is_none().then_some((index, first))
+    });
+    let columns = columns.collect::<Vec<_>>();
+    let undone = own_numbers.map(|i| (i, h.unknowns[i].start - at.values[i])).collect::<Vec<_>>();
+    let mut found = Vec::new();
+    for (n, &(first, i)) in columns.iter().enumerate() {
+        for &(second, j) in &columns[n + 1..] {
+            if h.additions[first].kind() != h.additions[second].kind()
+                && let Some((left, [x, y])) = linear.left(&h, &undone, [i, j])
+            {
+                let values = [h.unknowns[i].start + x, h.unknowns[j].start + y];
+                let within = |k: usize, value: f64| {
+                    (h.unknowns[k].lower..=h.unknowns[k].upper).contains(&value)
+                };
+                if within(i, values[0]) && within(j, values[1]) {
+                    found.push(Imitation {
+                        additions: [h.additions[first], h.additions[second]],
+                        values,
+                        left,
+                    });
+                }
+            }
+        }
+    }
+    found.sort_by(|a, b| a.left.total_cmp(&b.left));
+    Some(found)
+}
+
+/// Sums over windows, weighted as in the fit: rᵀr, Jᵀr and JᵀJ.
+struct Sums {
+    rr: f64,
+    jr: DVector<f64>,
+    jj: DMatrix<f64>,
+}
+
+impl Sums {
+    fn new(data: &Data, h: &Hypothesis, at: &Fit) -> Option<Self> {
+        let (slopes, _) = data.fit.slopes(h, at, None)?;
+        let count = h.unknowns.len();
+        let mut sums = Self { rr: 0.0, jr: DVector::zeros(count), jj: DMatrix::zeros(count, count) };
+        for (window, slopes) in at.windows.iter().zip(slopes) {
+            let weight = Loss::Likelihood.weight(window);
+            sums.rr += weight * slopes.residual.norm_squared();
+            sums.jr += slopes.by_values.transpose() * &slopes.residual * weight;
+            sums.jj += slopes.by_values.transpose() * &slopes.by_values * weight;
+        }
+        // What was known before is one more measurement.
+        for i in 0..h.nuisances {
+            if let Some(sd) = h.unknowns[i].prior_sd {
+                let off = at.values[i] - h.unknowns[i].start;
+                sums.rr += (off / sd).powi(2);
+                sums.jr[i] += off / (sd * sd);
+                sums.jj[(i, i)] += 1.0 / (sd * sd);
+            }
+        }
+        Some(sums)
+    }
+
+    /// What is left where some numbers are moved by given amounts and the wall's own and two more are free, and where these
+    /// two go; none where they leave no trace.
+    fn left(&self, h: &Hypothesis, moved: &[(usize, f64)], two: [usize; 2]) -> Option<(f64, [f64; 2])> {
+        let mut step = DVector::zeros(self.jr.len());
+        moved.iter().for_each(|(i, by)| step[*i] = *by);
+        let gradient = &self.jr + &self.jj * &step;
+        let fixed = self.rr + 2.0 * self.jr.dot(&step) + step.dot(&(&self.jj * &step));
+        let free = (0..h.nuisances).chain(two).collect::<Vec<_>>();
+        let scale = free.iter().map(|i| self.jj[(*i, *i)].sqrt()).collect::<Vec<_>>();
+        if scale.iter().any(|s| *s <= 0.0) {
+            return None;
+        }
+        let count = free.len();
+        // Columns of length one: two that are each other's double must not stop the solution.
+        let a = DMatrix::from_fn(count, count, |m, n| {
+            self.jj[(free[m], free[n])] / (scale[m] * scale[n]) + if m == n { 1e-9 } else { 0.0 }
+        });
+        let g = DVector::from_fn(count, |m, _| gradient[free[m]] / scale[m]);
+        let x = -a.cholesky()?.solve(&g);
+        let value = |m: usize| x[m] / scale[m];
+        Some((fixed + g.dot(&x), [value(count - 2), value(count - 1)]))
+    }
+}
