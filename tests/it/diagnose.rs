@@ -177,6 +177,56 @@ fn analytic_twin_of_a_damped_floor_is_named_and_its_wall_runs() {
     its_page_tells_the_story(folder.path(), &out);
 }
 
+/// Diagnoses a twin of the table wall with these effects; what was named, sorted, with the first number of each.
+fn named_in_a_twin(effects: &[(&str, f64)], change: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<(String, f64)> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let described = table_wall(ImpactLaw::Contact);
+    let mut true_wall = described.clone();
+    let effect = |(name, value): &(&str, f64)| Effect::with_parameters(name, &[*value]).expect("an effect");
+    true_wall.effects.extend(effects.iter().map(effect));
+    let experiment = write_twin(folder.path(), &described, &true_wall, change);
+    let found = diagnosed(&experiment, &folder.path().join("out"));
+    assert_eq!(found["verdict"], "named", "{found:#}");
+    let effects = found["effects"].as_array().expect("a list").iter();
+    let of = |effect: &Value| {
+        let numbers = effect["parameters"].as_object().expect("numbers");
+        let first = numbers.values().next().and_then(Value::as_f64).expect("a number");
+        (effect["name"].as_str().expect("a name").to_owned(), first)
+    };
+    let mut named = effects.map(of).collect::<Vec<_>>();
+    named.sort_by(|a, b| a.0.cmp(&b.0));
+    named
+}
+
+#[test]
+fn analytic_twin_read_with_a_gain_is_named_though_its_patterns_look_different() {
+    // A closed crack seems open by 4 % of the rotation, many times the noise.
+    let named = named_in_a_twin(&[], |[one, two]| [one, 1.04 * two]);
+    let [(name, gain)] = &named[..] else { panic!("{named:?}") };
+    assert_eq!(name, "sensor_gain.upper");
+    // A rotation of 0.03 rad with a noise of 3e-5 tells a gain to 1e-3 from one sample alone.
+    assert!((gain - 1.04).abs() < 1e-3, "{gain}");
+}
+
+#[test]
+fn analytic_twin_damped_at_its_foot_is_named_where_the_damping_is_small() {
+    // At the wall's own speeds some percent of the moment that opens the joint.
+    let named = named_in_a_twin(&[("joint_damping.ground", 600.0)], |theta| theta);
+    let [(name, coefficient)] = &named[..] else { panic!("{named:?}") };
+    assert_eq!(name, "joint_damping.ground");
+    // The target for the median of such errors is 5 %.
+    assert!((coefficient / 600.0 - 1.0).abs() < 0.05, "{coefficient}");
+}
+
+#[test]
+fn analytic_twin_of_two_effects_is_named_by_both() {
+    let named = named_in_a_twin(&[("carriage_mass", 300.0), ("record_gain", 0.96)], |theta| theta);
+    let [(carriage, mass_kg), (record, gain)] = &named[..] else { panic!("{named:?}") };
+    assert_eq!([carriage.as_str(), record.as_str()], ["carriage_mass", "record_gain"]);
+    // As for one effect.
+    assert!((mass_kg / 300.0 - 1.0).abs() < 0.05 && (gain - 0.96).abs() < 0.05 * 0.04, "{named:?}");
+}
+
 fn its_force_is_measured(found: &Value) {
     let force = &found["missing_force"];
     let of = |when: &str, key: &str| force[when][key].as_f64().expect("a number");
