@@ -57,9 +57,8 @@ pub fn imitations(
                 && let Some((left, [x, y])) = linear.left(&h, &undone, [i, j])
             {
                 let values = [h.unknowns[i].start + x, h.unknowns[j].start + y];
-                let within = |k: usize, value: f64| {
-                    (h.unknowns[k].lower..=h.unknowns[k].upper).contains(&value)
-                };
+                let within =
+                    |k: usize, value: f64| (h.unknowns[k].lower..=h.unknowns[k].upper).contains(&value);
                 if within(i, values[0]) && within(j, values[1]) {
                     found.push(Imitation {
                         additions: [h.additions[first], h.additions[second]],

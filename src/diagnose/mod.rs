@@ -4,8 +4,8 @@
 //! [`windows`] that start where the measured [`pattern`] is beyond doubt; each window is simulated from a fitted state
 //! ([`replay`], [`window_fit`]), so that neither the past nor noisy derivatives enter; a [`hypothesis`], the wall with
 //! what is uncertain of it and what is added to it, is fitted to all windows together ([`fit`]) and judged on tests held
-//! out ([`search`], [`score`]); the catalogue is tried ([`flow`]), patterns are read again if a sensor turns out to read a gain
-//! ([`read_again`]), and a [`verdict`] is reached; what is found is written
+//! out ([`search`], [`score`]); the catalogue is tried ([`trials`]), patterns are read again if a sensor turns out to read a gain
+//! ([`read_again`]), pairs may stand for pairs ([`imitate`]), and a [`verdict`] is reached ([`flow`]); what is found is written
 //! ([`output`]).
 
 pub mod amplitude;
@@ -36,6 +36,7 @@ pub mod search;
 pub mod smooth;
 pub mod tables;
 pub mod test_data;
+pub mod trials;
 pub mod updated_wall;
 pub mod verdict;
 pub mod wall_number;
@@ -44,6 +45,7 @@ pub mod windows;
 
 pub use check_data::check_data;
 pub use experiment::Experiment;
-pub use flow::{Diagnosis, Progress, diagnose};
+pub use flow::{Diagnosis, diagnose};
 pub use output::{KIND, OutputNames, write_results};
+pub use trials::Progress;
 pub use verdict::Verdict;
