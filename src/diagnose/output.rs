@@ -253,6 +253,7 @@ fn tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Vec<Value> {
             "wme": {"before": wme(&walls[0]), "after": wme(&walls[1])},
             "noise_floor": 1.0,
             "noise_rad": test.noise_rad,
+            "read_gain": test.read_gain,
         })
     };
     experiment.tests.iter().enumerate().map(one).collect()

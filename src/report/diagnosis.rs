@@ -94,6 +94,10 @@ fn notes(stored: &Stored) -> Vec<String> {
         let text = format!("{} moved from {} to {}", n.key, number(n.before), with_sd(n.after, n.sd));
         notes.push(format!("{text} {}: more than one standard deviation of what was known.", n.unit));
     }
+    if let Some(test) = stored.tests.iter().find(|test| test.read_gain != [1.0; 2]) {
+        let [lower, upper] = test.read_gain.map(number);
+        notes.push(format!("Patterns were read without gains of the sensors that the tests showed: θ₁ times {lower}, θ₂ times {upper}."));
+    }
     if !stored.tests.iter().any(|test| test.purpose == "hold-out") {
         notes.push("No test was held out: nothing here was judged by data that the fit had not seen.".into());
     }

@@ -31,7 +31,7 @@ fn is_effect(rival: &StoredRival) -> bool {
 pub fn section(stored: &Stored) -> Result<Section> {
     let rivals = stored.rivals.iter().filter(|r| is_effect(r)).collect::<Vec<_>>();
     let text = "Every effect of the catalogue, fitted to the tests; the first explains them best. What speaks against a hypothesis is half its squared error beyond noise, bounded window by window, on all tests, with a price for every number: natural logarithms of likelihood. 15 less than every other is a name. WME is the error of whole runs (Eq. 8), in brackets its range over numbers that fit as well: where that is wide, it says little.";
-    made("candidates", "The candidates, ranked", text, &rivals)
+    made(stored, ["candidates", "The candidates, ranked", text], &rivals)
 }
 
 /// What else was tried.
@@ -44,19 +44,36 @@ pub fn rivals_section(stored: &Stored) -> Result<Section> {
     let mut rivals = best.into_iter().chain(others).collect::<Vec<_>>();
     rivals.sort_by(|a, b| a.against.all.total_cmp(&b.against.all));
     let text = "Beside the best effect: numbers of the wall outside what was known of them, which a wrong drawing or weight would make, and a placebo, a vertical motion made of the record backwards, which shows what a term without meaning gains.";
-    made("rivals", "Rivals and placebo", text, &rivals)
+    made(stored, ["rivals", "Rivals and placebo", text], &rivals)
 }
 
-fn made(id: &str, title: &str, text: &str, rivals: &[&StoredRival]) -> Result<Section> {
-    let drawn = &rivals[..rivals.len().min(DRAWN)];
+fn made(stored: &Stored, [id, title, text]: [&str; 3], rivals: &[&StoredRival]) -> Result<Section> {
+    let drawn = drawn(&answer(stored, rivals), rivals);
     Ok(Section {
         id: id.to_owned(),
         title: title.to_owned(),
         text: vec![text.to_owned()],
-        figures: vec![figure(id, drawn)?],
+        figures: vec![figure(id, &drawn)?],
         tables: vec![table(rivals)],
         ..Section::default()
     })
+}
+
+/// The effects of the answer, or of the best where there is no answer.
+fn answer<'s>(stored: &'s Stored, rivals: &[&'s StoredRival]) -> Vec<&'s str> {
+    if stored.is_answered() {
+        return stored.effects.iter().filter_map(|e| e.name.as_deref()).collect();
+    }
+    rivals.first().map_or_else(Vec::new, |best| best.name.split(" + ").collect())
+}
+
+/// The answer, and what stands against it: that with something added to it is the answer again, and stays in the table.
+fn drawn<'r>(answer: &[&str], rivals: &[&'r StoredRival]) -> Vec<&'r StoredRival> {
+    let more_than_answer = |r: &&&StoredRival| {
+        let parts = r.name.split(" + ").collect::<Vec<_>>();
+        parts.len() > answer.len() && answer.iter().all(|part| parts.contains(part))
+    };
+    rivals.iter().filter(|r| !more_than_answer(r)).take(DRAWN).copied().collect()
 }
 
 fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
@@ -91,7 +108,7 @@ fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
     let graph = Graph {
         title: String::new(),
         format: Format::Half,
-        x: Axis::log_holding("windowed error over the noise", errors.chain([0.9, 3.0])),
+        x: Axis::log_holding("error over noise", errors.chain([0.9, 3.0])),
         y: names(),
         layers,
     };
@@ -106,7 +123,7 @@ fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
     let against = Graph {
         title: String::new(),
         format: Format::Half,
-        x: Axis::log_holding("against it, ln of likelihood", all),
+        x: Axis::log_holding("ln of likelihood", all),
         y: names(),
         layers: vec![Layer::Dots { colour: PALETTE[2], mark: Mark::Triangle, size: 7, hollow: false, dots }],
     };
@@ -119,7 +136,7 @@ fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
             key("on all tests", PALETTE[2], Mark::Triangle),
         ],
         panels: vec![graph.svg()?, against.svg()?],
-        caption: "Windowed error in units of the noise; the dashed line is a perfect model. A name needs both near it. What is below 1 against a hypothesis stands at 1.".into(),
+        caption: "Windowed error in units of the noise; the dashed line is a perfect model. A name needs both near it. What is below 1 against a hypothesis stands at 1. The answer with something added to it stands in the table only.".into(),
         links: vec![Link::to("rivals.parquet")],
         ..Figure::default()
     })

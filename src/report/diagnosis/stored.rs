@@ -63,6 +63,12 @@ pub struct StoredTest {
     pub windowed_error: BeforeAfter,
     pub wme: BeforeAfter,
     pub noise_rad: [f64; 2],
+    #[serde(default = "no_gain")]
+    pub read_gain: [f64; 2],
+}
+
+fn no_gain() -> [f64; 2] {
+    [1.0; 2]
 }
 
 #[derive(Debug, Deserialize)]
