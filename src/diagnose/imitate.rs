@@ -36,41 +36,50 @@ pub fn imitations(
     let own = &best.hypothesis.additions;
     let others = candidates.iter().filter(|c| !own.contains(c)).copied();
     let h = hypothesis(&own.iter().copied().chain(others).collect::<Vec<_>>());
-    let begin = best.fit.values.len();
+    let known = best.fit.values.len();
     let mut values = h.start();
-    values[..begin].copy_from_slice(&best.fit.values);
+    values[..known].copy_from_slice(&best.fit.values);
     let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
-    let linear = Sums::new(data, &h, &at)?;
-    // Undoing the best pair is what a pair must make good.
-    let own_numbers = h.nuisances..begin;
-    let columns = (0..h.additions.len()).filter_map(|index| {
-        let mut numbers = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
-        let first = numbers.next()?;
-        numbers.next().is_none().then_some((index, first))
-    });
-    let columns = columns.collect::<Vec<_>>();
-    let undone = own_numbers.map(|i| (i, h.unknowns[i].start - at.values[i])).collect::<Vec<_>>();
-    let mut found = Vec::new();
-    for (n, &(first, i)) in columns.iter().enumerate() {
-        for &(second, j) in &columns[n + 1..] {
-            if h.additions[first].kind() != h.additions[second].kind()
-                && let Some((left, [x, y])) = linear.left(&h, &undone, [i, j])
-            {
-                let values = [h.unknowns[i].start + x, h.unknowns[j].start + y];
-                let within =
-                    |k: usize, value: f64| (h.unknowns[k].lower..=h.unknowns[k].upper).contains(&value);
-                if within(i, values[0]) && within(j, values[1]) {
-                    found.push(Imitation {
-                        additions: [h.additions[first], h.additions[second]],
-                        values,
-                        left,
-                    });
-                }
-            }
-        }
-    }
+    let sums = Sums::new(data, &h, &at)?;
+    // Undoing the best pair is what another must make good.
+    let undone = (h.nuisances..known).map(|i| (i, h.unknowns[i].start - at.values[i])).collect::<Vec<_>>();
+    let numbers = single_numbers(&h);
+    let pairs =
+        numbers.iter().enumerate().flat_map(|(n, one)| numbers[n + 1..].iter().map(move |two| [one, two]));
+    let mut found = pairs.filter_map(|pair| imitation(&h, &sums, &undone, pair)).collect::<Vec<_>>();
     found.sort_by(|a, b| a.left.total_cmp(&b.left));
     Some(found)
+}
+
+/// Additions of one number, by their index, with the index of that number.
+fn single_numbers(h: &Hypothesis) -> Vec<[usize; 2]> {
+    let number = |index: usize| {
+        let mut numbers = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
+        let first = numbers.next()?;
+        numbers.next().is_none().then_some([index, first])
+    };
+    (0..h.additions.len()).filter_map(number).collect()
+}
+
+/// What two additions make of it; none for two of a kind, for values outside their bounds, and where they leave no trace.
+fn imitation(
+    h: &Hypothesis,
+    sums: &Sums,
+    undone: &[(usize, f64)],
+    pair: [&[usize; 2]; 2],
+) -> Option<Imitation> {
+    let additions = pair.map(|[index, _]| h.additions[*index]);
+    let numbers = pair.map(|[_, number]| *number);
+    if additions[0].kind() == additions[1].kind() {
+        return None;
+    }
+    let (left, steps) = sums.left(h.nuisances, undone, numbers)?;
+    let values = [0, 1].map(|k| h.unknowns[numbers[k]].start + steps[k]);
+    let within = |k: usize| {
+        let unknown = &h.unknowns[numbers[k]];
+        (unknown.lower..=unknown.upper).contains(&values[k])
+    };
+    (within(0) && within(1)).then_some(Imitation { additions, values, left })
 }
 
 /// Sums over windows, weighted as in the fit: rᵀr, Jᵀr and JᵀJ.
@@ -103,14 +112,14 @@ impl Sums {
         Some(sums)
     }
 
-    /// What is left where some numbers are moved by given amounts and the wall's own and two more are free, and where these
-    /// two go; none where they leave no trace.
-    fn left(&self, h: &Hypothesis, moved: &[(usize, f64)], two: [usize; 2]) -> Option<(f64, [f64; 2])> {
+    /// What is left where some numbers are moved by given amounts and the first `own` numbers and two more are free, and
+    /// where these two go; none where they leave no trace.
+    fn left(&self, own: usize, moved: &[(usize, f64)], two: [usize; 2]) -> Option<(f64, [f64; 2])> {
         let mut step = DVector::zeros(self.jr.len());
         moved.iter().for_each(|(i, by)| step[*i] = *by);
         let gradient = &self.jr + &self.jj * &step;
         let fixed = self.rr + 2.0 * self.jr.dot(&step) + step.dot(&(&self.jj * &step));
-        let free = (0..h.nuisances).chain(two).collect::<Vec<_>>();
+        let free = (0..own).chain(two).collect::<Vec<_>>();
         let scale = free.iter().map(|i| self.jj[(*i, *i)].sqrt()).collect::<Vec<_>>();
         if scale.iter().any(|s| *s <= 0.0) {
             return None;
@@ -124,5 +133,29 @@ impl Sums {
         let x = -a.cholesky()?.solve(&g);
         let value = |m: usize| x[m] / scale[m];
         Some((fixed + g.dot(&x), [value(count - 2), value(count - 1)]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    #[test]
+    fn analytic_two_numbers_make_good_what_they_can_of_another() {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let mut draw = |_, _| random.random_range(-1.0..1.0);
+        let (j, r) = (DMatrix::from_fn(40, 4, &mut draw), DVector::from_fn(40, &mut draw));
+        let sums = Sums { rr: r.norm_squared(), jr: j.transpose() * &r, jj: j.transpose() * &j };
+        // The last is moved; the first is the wall's own.
+        let (left, two) = sums.left(1, &[(3, 0.5)], [1, 2]).expect("full rank");
+        let moved = &r + j.column(3) * 0.5;
+        let free = j.columns(0, 3).into_owned();
+        let x = -free.clone().svd(true, true).solve(&moved, 0.0).expect("full rank");
+        // The ridge of 1e-9 beside ones.
+        assert!((left - (&moved + free * &x).norm_squared()).abs() < 1e-6, "{left}");
+        assert!((two[0] - x[1]).abs() < 1e-6 && (two[1] - x[2]).abs() < 1e-6, "{two:?}, {x}");
     }
 }

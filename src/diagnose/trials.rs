@@ -74,27 +74,31 @@ impl<P: Progress> Trials<'_, P> {
         }
         let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before)?;
         self.progress.fitted();
-        let additions = candidates(self.experiment.wall.parameters());
-        let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
-        let singles = self.try_all("single effects", nuisances, &self.starts(&before, &recalibrated), &sets);
-        let singles = self.polished(nuisances, &before, singles, &recalibrated);
-        let nearest = singles.iter().take(PARTS);
-        let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, Some(whole)));
-        let gained = against(&self.data, &recalibrated) - against(&self.data, &better);
-        let recalibrated = better;
-        let singles = if gained > WORTH_POLISH {
-            // What was tried before had missed the same; the best need not have.
-            let starts = [Some(&recalibrated), singles.first()].into_iter().flatten().collect::<Vec<_>>();
-            let again = self.try_all("single effects again", nuisances, &starts, &sets);
-            let best = self.best_of_each([singles, again].concat());
-            self.polished(nuisances, &before, best, &recalibrated)
-        } else {
-            singles
-        };
+        let (recalibrated, singles) = self.singles(&before, recalibrated);
         let best = singles.iter().take(SHARING).collect::<Vec<_>>();
         let [before, recalibrated] =
             [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
         Some(Alone { before, recalibrated, singles })
+    }
+
+    /// Single effects, best first, and the wall without effects, each fitted again from what the other found.
+    fn singles(&self, before: &Tried, recalibrated: Tried) -> (Tried, Vec<Tried>) {
+        let nuisances = &self.experiment.nuisances;
+        let additions = candidates(self.experiment.wall.parameters());
+        let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
+        let singles = self.try_all("single effects", nuisances, &self.starts(before, &recalibrated), &sets);
+        let singles = self.polished(nuisances, before, singles, &recalibrated);
+        let nearest = singles.iter().take(PARTS);
+        let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, Some(whole)));
+        if against(&self.data, &recalibrated) - against(&self.data, &better) < WORTH_POLISH {
+            return (better, singles);
+        }
+        // What was tried before had missed the same; the best need not have.
+        let starts = [Some(&better), singles.first()].into_iter().flatten().collect::<Vec<_>>();
+        let again = self.try_all("single effects again", nuisances, &starts, &sets);
+        let best = self.best_of_each([singles, again].concat());
+        let singles = self.polished(nuisances, before, best, &better);
+        (better, singles)
     }
 
     /// Where single effects start: from the wall as given, and where one of its numbers was not known, with that fitted.
