@@ -161,6 +161,7 @@ impl<P: Progress> Trials<'_, P> {
                 return self.recalibrated(found, &before, &recalibrated, singles, gap);
             }
         }
+        let singles = self.with_imitations(singles, gap);
         let one = self.named(&singles, gap, &recalibrated);
         let mut tried = singles;
         let mut other_law = None;

@@ -1,9 +1,10 @@
-//! Pairs of effects that do what the best pair does, as far as a linear look tells.
+//! Effects, or pairs of them, that do what the best does, as far as a linear look tells.
 //!
-//! Two effects together can stand for two others: a narrower joint read with a gain moves much like the same wall under a
-//! weaker record with a carriage at its top. No single effect points at such a pair, so that a search that sets out from
-//! single effects may miss it. How the windows change with a little of every effect is cheap; what any pair can make of
-//! the change that the best pair made is then a small least-squares problem.
+//! One effect can stand for another, and a fit of the other that set out elsewhere may not have come so far. Two effects
+//! together can stand for two others: a narrower joint read with a gain moves much like the same wall under a weaker record
+//! with a carriage at its top. No single effect points at such a pair, so that a search that sets out from single effects
+//! may miss it. How the windows change with a little of every effect is cheap; what any other can make of the change that
+//! the best made is then a small least-squares problem.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,19 +13,19 @@ use super::hypothesis::{Addition, Hypothesis};
 use super::robust::Loss;
 use super::search::{Data, Tried};
 
-/// A pair, and the values at which it comes nearest.
+/// As many effects as the best has, and the values at which they come nearest.
 #[derive(Debug, Clone)]
 pub struct Imitation {
-    /// The two effects.
-    pub additions: [Addition; 2],
+    /// The effects.
+    pub additions: Vec<Addition>,
     /// Values of their numbers.
-    pub values: [f64; 2],
-    /// Squared residuals that it leaves, in squared noise, as far as a linear look tells.
+    pub values: Vec<f64>,
+    /// Squared residuals that they leave, in squared noise, as far as a linear look tells.
     pub left: f64,
 }
 
-/// Every pair of `candidates`, each with one number, the nearest to the best pair first; none where its neighbourhood is no
-/// wall.
+/// Every one of `candidates`, or every pair where the best is one, each with one number, the nearest to the best first; none
+/// where its neighbourhood is no wall.
 ///
 /// `hypothesis` makes one of additions.
 pub fn imitations(
@@ -41,12 +42,17 @@ pub fn imitations(
     values[..known].copy_from_slice(&best.fit.values);
     let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
     let sums = Sums::new(data, &h, &at)?;
-    // Undoing the best pair is what another must make good.
+    // Undoing the best is what another must make good.
     let undone = (h.nuisances..known).map(|i| (i, h.unknowns[i].start - at.values[i])).collect::<Vec<_>>();
     let numbers = single_numbers(&h);
-    let pairs =
-        numbers.iter().enumerate().flat_map(|(n, one)| numbers[n + 1..].iter().map(move |two| [one, two]));
-    let mut found = pairs.filter_map(|pair| imitation(&h, &sums, &undone, pair)).collect::<Vec<_>>();
+    let sets: Vec<Vec<[usize; 2]>> = match own.len() {
+        1 => numbers.iter().filter(|[index, _]| *index > 0).map(|one| vec![*one]).collect(),
+        _ => {
+            let pairs = numbers.iter().enumerate();
+            pairs.flat_map(|(n, one)| numbers[n + 1..].iter().map(|two| vec![*one, *two])).collect()
+        }
+    };
+    let mut found = sets.iter().filter_map(|set| imitation(&h, &sums, &undone, set)).collect::<Vec<_>>();
     found.sort_by(|a, b| a.left.total_cmp(&b.left));
     Some(found)
 }
@@ -61,25 +67,18 @@ fn single_numbers(h: &Hypothesis) -> Vec<[usize; 2]> {
     (0..h.additions.len()).filter_map(number).collect()
 }
 
-/// What two additions make of it; none for two of a kind, for values outside their bounds, and where they leave no trace.
-fn imitation(
-    h: &Hypothesis,
-    sums: &Sums,
-    undone: &[(usize, f64)],
-    pair: [&[usize; 2]; 2],
-) -> Option<Imitation> {
-    let additions = pair.map(|[index, _]| h.additions[*index]);
-    let numbers = pair.map(|[_, number]| *number);
-    if additions[0].kind() == additions[1].kind() {
+/// What additions make of it; none for two of a kind, for values outside their bounds, and where they leave no trace.
+fn imitation(h: &Hypothesis, sums: &Sums, undone: &[(usize, f64)], set: &[[usize; 2]]) -> Option<Imitation> {
+    let additions = set.iter().map(|[index, _]| h.additions[*index]).collect::<Vec<_>>();
+    let numbers = set.iter().map(|[_, number]| *number).collect::<Vec<_>>();
+    if additions.len() == 2 && additions[0].kind() == additions[1].kind() {
         return None;
     }
-    let (left, steps) = sums.left(h.nuisances, undone, numbers)?;
-    let values = [0, 1].map(|k| h.unknowns[numbers[k]].start + steps[k]);
-    let within = |k: usize| {
-        let unknown = &h.unknowns[numbers[k]];
-        (unknown.lower..=unknown.upper).contains(&values[k])
-    };
-    (within(0) && within(1)).then_some(Imitation { additions, values, left })
+    let (left, steps) = sums.left(h.nuisances, undone, &numbers)?;
+    let unknowns = || numbers.iter().map(|number| &h.unknowns[*number]);
+    let values = unknowns().zip(&steps).map(|(unknown, step)| unknown.start + step).collect::<Vec<_>>();
+    let mut within = unknowns().zip(&values).map(|(unknown, v)| (unknown.lower..=unknown.upper).contains(v));
+    within.all(|holds| holds).then_some(Imitation { additions, values, left })
 }
 
 /// Sums over windows, weighted as in the fit: rᵀr, Jᵀr and JᵀJ.
@@ -112,14 +111,14 @@ impl Sums {
         Some(sums)
     }
 
-    /// What is left where some numbers are moved by given amounts and the first `own` numbers and two more are free, and
-    /// where these two go; none where they leave no trace.
-    fn left(&self, own: usize, moved: &[(usize, f64)], two: [usize; 2]) -> Option<(f64, [f64; 2])> {
+    /// What is left where some numbers are moved by given amounts and the first `own` numbers and some more are free, and
+    /// where these go; none where they leave no trace.
+    fn left(&self, own: usize, moved: &[(usize, f64)], more: &[usize]) -> Option<(f64, Vec<f64>)> {
         let mut step = DVector::zeros(self.jr.len());
         moved.iter().for_each(|(i, by)| step[*i] = *by);
         let gradient = &self.jr + &self.jj * &step;
         let fixed = self.rr + 2.0 * self.jr.dot(&step) + step.dot(&(&self.jj * &step));
-        let free = (0..own).chain(two).collect::<Vec<_>>();
+        let free = (0..own).chain(more.iter().copied()).collect::<Vec<_>>();
         let scale = free.iter().map(|i| self.jj[(*i, *i)].sqrt()).collect::<Vec<_>>();
         if scale.iter().any(|s| *s <= 0.0) {
             return None;
@@ -131,8 +130,7 @@ impl Sums {
         });
         let g = DVector::from_fn(count, |m, _| gradient[free[m]] / scale[m]);
         let x = -a.cholesky()?.solve(&g);
-        let value = |m: usize| x[m] / scale[m];
-        Some((fixed + g.dot(&x), [value(count - 2), value(count - 1)]))
+        Some((fixed + g.dot(&x), (own..count).map(|m| x[m] / scale[m]).collect()))
     }
 }
 
@@ -150,7 +148,7 @@ mod tests {
         let (j, r) = (DMatrix::from_fn(40, 4, &mut draw), DVector::from_fn(40, &mut draw));
         let sums = Sums { rr: r.norm_squared(), jr: j.transpose() * &r, jj: j.transpose() * &j };
         // The last is moved; the first is the wall's own.
-        let (left, two) = sums.left(1, &[(3, 0.5)], [1, 2]).expect("full rank");
+        let (left, two) = sums.left(1, &[(3, 0.5)], &[1, 2]).expect("full rank");
         let moved = &r + j.column(3) * 0.5;
         let free = j.columns(0, 3).into_owned();
         let x = -free.clone().svd(true, true).solve(&moved, 0.0).expect("full rank");

@@ -11,8 +11,10 @@ use super::search::{
 };
 use super::verdict::{against, closes, kinds};
 
-/// Pairs that are fitted because they may stand for the best. Chosen: a pair that was the truth once came eighth.
+/// Pairs, and single effects, that are fitted because they may stand for the best. Chosen: a pair that was the truth once
+/// came eighth.
 const IMITATIONS: usize = 8;
+const SINGLE_IMITATIONS: usize = 4;
 /// Coarse fits that are always finished, and at most; between them those this near the best, in natural logarithms of
 /// likelihood.
 const FINISHED: [usize; 2] = [6, 12];
@@ -26,6 +28,8 @@ const WORTH_POLISH: f64 = 10.0;
 const PARTS: usize = 6;
 /// Best rivals whose states the wall without effects tries too.
 const SHARING: usize = 8;
+/// Most hypotheses that share their states with each other.
+const SHARED: usize = 6;
 /// Windows in motion below which no effect could be told.
 const LEAST_MOVING: usize = 6;
 
@@ -248,31 +252,47 @@ impl<P: Progress> Trials<'_, P> {
         self.with_imitations(tried, gap)
     }
 
-    /// Pairs, and where the best closes the gap, those that may stand for it.
-    fn with_imitations(&self, mut pairs: Vec<Tried>, gap: f64) -> Vec<Tried> {
-        let Some(best) = pairs.first().filter(|t| closes(t, gap) && kinds(t).is_some()) else { return pairs };
+    /// Single effects or pairs, and where the best closes the gap, what may stand for it, from where it would.
+    pub fn with_imitations(&self, tried: Vec<Tried>, gap: f64) -> Vec<Tried> {
+        let Some(best) = tried.first().filter(|t| closes(t, gap) && kinds(t).is_some()) else { return tried };
         let nuisances = &self.experiment.nuisances;
         let candidates = candidates(self.experiment.wall.parameters());
-        let effects = candidates.into_iter().filter(|a| a.kind().is_some()).collect::<Vec<_>>();
+        // Factors on the coefficients of impact would free these of what was known of them.
+        let effect = |a: &Addition| a.kind().is_some_and(|kind| kind != "impact_dissipation");
+        let effects = candidates.into_iter().filter(effect).collect::<Vec<_>>();
         let hypothesis = |additions: &[Addition]| self.hypothesis(nuisances, additions);
-        let Some(imitations) = imitations(&self.data, best, &effects, hypothesis) else { return pairs };
-        let tried_before = |i: &Imitation| {
-            let has = |t: &&Tried| i.additions.iter().all(|a| t.hypothesis.additions.contains(a));
-            pairs.iter().any(|t| has(&t))
+        let Some(imitations) = imitations(&self.data, best, &effects, hypothesis) else { return tried };
+        // A pair that was fitted set out from its better effect; of the others nothing is known.
+        let one = best.hypothesis.additions.len() == 1;
+        let fitted_before = |i: &Imitation| {
+            tried.iter().any(|t| i.additions.iter().all(|a| t.hypothesis.additions.contains(a)))
         };
-        let new = imitations.into_iter().filter(|i| !tried_before(i)).take(IMITATIONS).collect::<Vec<_>>();
-        self.progress.step("pairs that may stand for the best", new.len());
+        let new = imitations.into_iter().filter(|i| one || !fitted_before(i));
+        let new = new.take(if one { SINGLE_IMITATIONS } else { IMITATIONS }).collect::<Vec<_>>();
+        self.progress.step("what may stand for the best", new.len());
         let fit = |imitation: &Imitation| {
             let h = self.hypothesis(nuisances, &imitation.additions);
-            let mut values = h.start();
+            let mut values = h.values_from(&best.hypothesis, &best.fit.values);
             values[h.nuisances..].copy_from_slice(&imitation.values);
             let tried = refit(&self.data, h, best, &values);
             self.progress.fitted();
             tried
         };
         let fitted = new.par_iter().filter_map(fit).collect::<Vec<_>>();
-        pairs.extend(fitted);
-        self.ordered(pairs)
+        self.sharing(self.best_of_each([tried, fitted].concat()))
+    }
+
+    /// The hypotheses near the best with the states that each of them found: a window near an impact that the noise decides
+    /// has several valleys, and none shall be told from another by the valleys it met.
+    fn sharing(&self, mut tried: Vec<Tried>) -> Vec<Tried> {
+        let Some(best) = tried.first() else { return tried };
+        let limit = against(&self.data, best) + NEAR_BEST;
+        let near = tried.iter().take(SHARED).filter(|t| against(&self.data, t) < limit).count();
+        let others = tried[..near].iter().collect::<Vec<_>>();
+        let share = |t: &Tried| shared_states(&self.data, t, &others);
+        let shared = others.par_iter().map(|t| share(t)).collect::<Vec<_>>();
+        tried.splice(..near, shared);
+        self.ordered(tried)
     }
 
     /// The pairs that promise most at a glance, and those of which only a fit would tell.
