@@ -72,11 +72,8 @@ fn gain(h: &Hypothesis, fit: &Fit, slopes: &[Sloped], rank: &[f64], i: usize) ->
         a += columns.transpose() * &columns * window.weight;
         g += columns.transpose() * &window.slopes.residual * window.weight;
     }
+    h.add_prior(&fit.values, &mut a, &mut g);
     for (k, unknown) in h.unknowns.iter().enumerate() {
-        if let Some(sd) = unknown.prior_sd {
-            a[(k, k)] += 1.0 / (sd * sd);
-            g[k] += (fit.values[k] - unknown.start) / (sd * sd);
-        }
         // A number without a trace stays where it is.
         a[(k, k)] += 1e-12 / (unknown.scale * unknown.scale);
     }

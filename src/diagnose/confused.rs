@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::fit::{Fit, WindowSlopes};
-use super::hypothesis::{Addition, Hypothesis};
+use super::hypothesis::Addition;
 use super::search::{Data, Tried};
 use super::verdict::{DETECTED, EQUIVALENT};
 
@@ -64,7 +64,8 @@ pub fn confused(data: &Data, recalibrated: &Tried, tried: &[Tried]) -> Vec<Confu
 
 fn trace<'t>(data: &Data, recalibrated: &Tried, tried: &'t Tried) -> Option<Trace<'t>> {
     let h = &tried.hypothesis;
-    let values = start(h, recalibrated);
+    // The wall's own numbers as they were fitted, and nothing added.
+    let values = h.values_from(&recalibrated.hypothesis, &recalibrated.fit.values);
     let at = Fit { values, windows: recalibrated.fit.windows.clone(), cost: 0.0, covariance: None };
     let covariance = tried.fit.covariance.as_ref()?;
     let change = |i: usize| {
@@ -74,16 +75,6 @@ fn trace<'t>(data: &Data, recalibrated: &Tried, tried: &'t Tried) -> Option<Trac
     let changes = (0..h.unknowns.len()).map(change).collect::<Option<Vec<_>>>()?;
     let (slopes, _) = data.fit.slopes(h, &at, Some(&changes))?;
     Some(Trace { tried, slopes })
-}
-
-/// The wall's own numbers as they were fitted, and nothing added.
-fn start(h: &Hypothesis, recalibrated: &Tried) -> Vec<f64> {
-    let own = |key: &str| recalibrated.hypothesis.unknowns.iter().position(|u| u.key == key);
-    let fitted = |key: &str| own(key).map(|i| recalibrated.fit.values[i]);
-    let value = |(i, u): (usize, &super::hypothesis::Unknown)| {
-        if i < h.nuisances { fitted(&u.key).unwrap_or(u.start) } else { u.start }
-    };
-    h.unknowns.iter().enumerate().map(value).collect()
 }
 
 fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {

@@ -334,11 +334,8 @@ fn normal_equations(
         a += linear.jp_left.transpose() * &linear.jp_left * w;
         g += linear.jp_left.transpose() * &linear.r_left * w;
     }
+    h.add_prior(&fit.values, &mut a, &mut g);
     for (i, unknown) in h.unknowns.iter().enumerate() {
-        if let Some(sd) = unknown.prior_sd {
-            a[(i, i)] += 1.0 / (sd * sd);
-            g[i] += (fit.values[i] - unknown.start) / (sd * sd);
-        }
         // A number without a trace stays where it is.
         a[(i, i)] += 1e-12 / (unknown.scale * unknown.scale);
     }

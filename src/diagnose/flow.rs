@@ -70,13 +70,13 @@ fn data<'a>(experiment: &'a Experiment, windows: &'a [Vec<Window>; 2]) -> Data<'
 /// # Errors
 /// An input error if no window of a test to fit starts in a pattern beyond doubt.
 pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result<Diagnosis> {
-    let (mut windows, mut alone) = alone(experiment, progress)?;
+    let (mut windows, mut alone) = try_alone(experiment, progress)?;
     for _ in 0..READ_AGAIN {
         let Some(gain) = alone.singles.first().and_then(|best| gain_misread(&experiment.tests, best)) else {
             break;
         };
         let before = set_gain(&mut experiment.tests, gain);
-        let (new_windows, new) = self::alone(experiment, progress)?;
+        let (new_windows, new) = try_alone(experiment, progress)?;
         if !reads_better(&alone.singles, &new.singles) {
             set_gain(&mut experiment.tests, before);
             break;
@@ -90,7 +90,7 @@ pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result
 }
 
 /// Windows of the tests, and what effects do to them one by one.
-fn alone(experiment: &Experiment, progress: &impl Progress) -> Result<([Vec<Window>; 2], Alone)> {
+fn try_alone(experiment: &Experiment, progress: &impl Progress) -> Result<([Vec<Window>; 2], Alone)> {
     let (fit, held_out) = windows(&experiment.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
     let windows: [Vec<Window>; 2] = [fit, held_out];
     let no_window = || {
@@ -162,7 +162,7 @@ impl<P: Progress> Trials<'_, P> {
             }
         }
         let singles = self.with_imitations(singles, gap);
-        let one = self.named(&singles, gap, &recalibrated);
+        let mut one = self.named(&singles, gap, &recalibrated);
         let mut tried = singles;
         let mut other_law = None;
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
@@ -171,9 +171,9 @@ impl<P: Progress> Trials<'_, P> {
             let single = best_answer(&tried).unwrap_or(&recalibrated).clone();
             let counts = if one.is_some() { BESIDE_A_NAME } else { WITHOUT_A_NAME };
             let pairs = self.pairs(&tried, &single, &before, gap, counts);
-            let mut one = one;
-            if pairs.first().is_some_and(|pair| !does_something(pair)) {
-                tried = self.ordered(tried.into_iter().map(|t| self.better_part(t, pairs.first())).collect());
+            // A pair of which one effect does nothing is the other alone, fitted better.
+            if let Some(pair) = pairs.first().filter(|pair| !does_something(pair)) {
+                tried = self.ordered(tried.into_iter().map(|t| self.better_part(t, pair)).collect());
                 one = self.named(&tried, gap, &recalibrated);
             }
             let single = best_answer(&tried).unwrap_or(&recalibrated).clone();

@@ -1,5 +1,7 @@
 //! A model that might be true: the wall, what is uncertain of it, and what is added to it.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::scale::Scales;
 use super::wall_number::WallNumber;
 use crate::model::{Effect, EffectVariant, Place, Wall, WallParameters};
@@ -244,6 +246,17 @@ impl Hypothesis {
     pub fn prior_penalty(&self, values: &[f64]) -> f64 {
         let distance = |(u, v): (&Unknown, &f64)| u.prior_sd.map_or(0.0, |sd| ((v - u.start) / sd).powi(2));
         self.unknowns.iter().zip(values).map(distance).sum()
+    }
+
+    /// Adds what was known before to normal equations in these values, as one more measurement; further rows of `a` and `g`
+    /// stay as they are.
+    pub fn add_prior(&self, values: &[f64], a: &mut DMatrix<f64>, g: &mut DVector<f64>) {
+        for (i, unknown) in self.unknowns.iter().enumerate() {
+            if let Some(sd) = unknown.prior_sd {
+                a[(i, i)] += 1.0 / (sd * sd);
+                g[i] += (values[i] - unknown.start) / (sd * sd);
+            }
+        }
     }
 
     /// The effects that the additions with these values are, for the wall file; none if one is outside its bounds.

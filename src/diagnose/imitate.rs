@@ -99,15 +99,8 @@ impl Sums {
             sums.jr += slopes.by_values.transpose() * &slopes.residual * weight;
             sums.jj += slopes.by_values.transpose() * &slopes.by_values * weight;
         }
-        // What was known before is one more measurement.
-        for i in 0..h.nuisances {
-            if let Some(sd) = h.unknowns[i].prior_sd {
-                let off = at.values[i] - h.unknowns[i].start;
-                sums.rr += (off / sd).powi(2);
-                sums.jr[i] += off / (sd * sd);
-                sums.jj[(i, i)] += 1.0 / (sd * sd);
-            }
-        }
+        sums.rr += h.prior_penalty(&at.values);
+        h.add_prior(&at.values, &mut sums.jj, &mut sums.jr);
         Some(sums)
     }
 

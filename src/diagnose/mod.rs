@@ -4,9 +4,9 @@
 //! [`windows`] that start where the measured [`pattern`] is beyond doubt; each window is simulated from a fitted state
 //! ([`replay`], [`window_fit`]), so that neither the past nor noisy derivatives enter; a [`hypothesis`], the wall with
 //! what is uncertain of it and what is added to it, is fitted to all windows together ([`fit`]) and judged on tests held
-//! out ([`search`], [`score`]); the catalogue is tried ([`trials`]), patterns are read again if a sensor turns out to read a gain
-//! ([`read_again`]), pairs may stand for pairs ([`imitate`]), and a [`verdict`] is reached ([`flow`]); what is found is written
-//! ([`output`]).
+//! out ([`search`], [`score`]); the catalogue is tried ([`trials`]), patterns are read again if a sensor turns out to read a
+//! gain ([`read_again`]), what may stand for the best is tried from where it would ([`imitate`]), and a [`verdict`] is
+//! reached ([`flow`]); what is found is written ([`output`]).
 
 pub mod amplitude;
 pub mod candidates;

@@ -55,8 +55,8 @@ impl Tried {
     }
 }
 
-/// Fits a hypothesis coarsely from several starts about its own and about the values of each of `from`, which give the
-/// states of the windows too.
+/// Fits a hypothesis coarsely from several starts about the values of each of `from`, where it has them, and its own; `from`
+/// gives the states of the windows too.
 ///
 /// None if no start makes a wall.
 pub fn try_coarsely(data: &Data, hypothesis: Hypothesis, from: &[&Tried]) -> Option<Tried> {

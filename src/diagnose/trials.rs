@@ -93,7 +93,7 @@ impl<P: Progress> Trials<'_, P> {
         let singles = self.try_all("single effects", nuisances, &self.starts(before, &recalibrated), &sets);
         let singles = self.polished(nuisances, before, singles, &recalibrated);
         let nearest = singles.iter().take(PARTS);
-        let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, Some(whole)));
+        let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, whole));
         if against(&self.data, &recalibrated) - against(&self.data, &better) < WORTH_POLISH {
             return (better, singles);
         }
@@ -203,11 +203,10 @@ impl<P: Progress> Trials<'_, P> {
 
     /// A hypothesis, or the same fitted from the values of one that holds more than it, where that is better: a number of
     /// the wall far from its prior is sometimes found beside a further effect only.
-    pub fn better_part(&self, part: Tried, whole: Option<&Tried>) -> Tried {
+    pub fn better_part(&self, part: Tried, whole: &Tried) -> Tried {
         let additions = &part.hypothesis.additions;
-        let holds = |w: &&Tried| additions.iter().all(|a| w.hypothesis.additions.contains(a));
-        let Some(whole) = whole.filter(holds) else { return part };
-        if against(&self.data, whole) > against(&self.data, &part) - WORTH_POLISH {
+        let holds = additions.iter().all(|a| whole.hypothesis.additions.contains(a));
+        if !holds || against(&self.data, whole) > against(&self.data, &part) - WORTH_POLISH {
             return part;
         }
         let h = self.hypothesis(&self.experiment.nuisances, additions);
@@ -289,8 +288,7 @@ impl<P: Progress> Trials<'_, P> {
         let limit = against(&self.data, best) + NEAR_BEST;
         let near = tried.iter().take(SHARED).filter(|t| against(&self.data, t) < limit).count();
         let others = tried[..near].iter().collect::<Vec<_>>();
-        let share = |t: &Tried| shared_states(&self.data, t, &others);
-        let shared = others.par_iter().map(|t| share(t)).collect::<Vec<_>>();
+        let shared = others.par_iter().map(|t| shared_states(&self.data, t, &others)).collect::<Vec<_>>();
         tried.splice(..near, shared);
         self.ordered(tried)
     }
