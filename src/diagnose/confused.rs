@@ -17,6 +17,9 @@ use super::verdict::{DETECTED, EQUIVALENT};
 const IMITATED: f64 = 0.9;
 /// Changes over which slopes are taken, in standard deviations of a number: well inside what the tests can tell.
 const CHANGE_SD: f64 = 1.0;
+/// A window whose change over half of that differs from half its change by more than this share is not linear there: an impact
+/// that is met on one side of the change only is no trace of anything. Chosen: a quarter of the two parts of a parabola.
+const BENT: f64 = 0.25;
 
 /// An effect that another imitates in these tests.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -44,7 +47,8 @@ pub struct Confused {
 /// How the windows change with the numbers of one addition.
 struct Trace<'t> {
     tried: &'t Tried,
-    slopes: Vec<WindowSlopes>,
+    /// Of every window; none where it is not linear.
+    slopes: Vec<Option<WindowSlopes>>,
 }
 
 /// Every effect of one number with what imitates most of it, the best imitated first.
@@ -74,16 +78,27 @@ fn trace<'t>(data: &Data, recalibrated: &Tried, tried: &'t Tried) -> Option<Trac
     };
     let changes = (0..h.unknowns.len()).map(change).collect::<Option<Vec<_>>>()?;
     let (slopes, _) = data.fit.slopes(h, &at, Some(&changes))?;
-    Some(Trace { tried, slopes })
+    let (near, _) = data.fit.slopes(h, &at, Some(&changes.iter().map(|c| c / 2.0).collect::<Vec<_>>()))?;
+    let linear = |(far, near): (WindowSlopes, WindowSlopes)| is_linear(&far, &near).then_some(far);
+    Some(Trace { tried, slopes: slopes.into_iter().zip(near).map(linear).collect() })
+}
+
+/// Whether the slopes over a change and over half of it are the same.
+fn is_linear(far: &WindowSlopes, near: &WindowSlopes) -> bool {
+    let columns = far.by_values.column_iter().zip(near.by_values.column_iter());
+    columns.into_iter().all(|(far, near)| (far - near).norm() <= BENT * near.norm())
 }
 
 fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
-    let alone = information(effect, None)?;
+    let alone = information(effect, effect, 0)?;
     let kind = |t: &Trace| t.tried.hypothesis.additions[0].kind();
     let others = all.iter().filter(|other| kind(other).is_none() || kind(other) != kind(effect));
-    let left = others.filter_map(|other| Some((information(effect, Some(other))?, other)));
-    let (left, other) = left.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let share = 1.0 - left / alone;
+    let shares = others.filter_map(|other| {
+        let added = other.tried.hypothesis.unknowns.len() - other.tried.hypothesis.nuisances;
+        let left = information(effect, other, added)?;
+        Some((1.0 - left / information(effect, other, 0)?, left, other))
+    });
+    let (share, left, other) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
     if share < IMITATED {
         return None;
     }
@@ -104,21 +119,19 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
     })
 }
 
-/// Inverse variance of an effect's number beside the wall's own uncertain numbers and those of another addition; none
-/// where it leaves no trace.
-fn information(effect: &Trace, other: Option<&Trace>) -> Option<f64> {
+/// Inverse variance of an effect's number beside the wall's own uncertain numbers and the first few of another addition, in
+/// the windows in which both are linear; none where it leaves no trace.
+fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
     let h = &effect.tried.hypothesis;
     let (own, at) = (h.nuisances, h.nuisances);
-    let added = other.map_or(0, |o| o.tried.hypothesis.unknowns.len() - o.tried.hypothesis.nuisances);
     let size = own + 1 + added;
     let mut a = DMatrix::zeros(size, size);
     for (w, window) in effect.slopes.iter().enumerate() {
+        let (Some(window), Some(theirs)) = (window, &other.slopes[w]) else { continue };
         let mut columns = window.by_values.clone().resize_horizontally(size, 0.0);
-        if let Some(other) = other {
-            let theirs = &other.slopes[w].by_values;
-            for k in 0..added {
-                columns.set_column(own + 1 + k, &theirs.column(other.tried.hypothesis.nuisances + k));
-            }
+        for k in 0..added {
+            let theirs = theirs.by_values.column(other.tried.hypothesis.nuisances + k);
+            columns.set_column(own + 1 + k, &theirs);
         }
         a += columns.transpose() * &columns;
     }

@@ -27,7 +27,7 @@ impl Motion {
 
     /// Displacement (m), velocity (m/s) and acceleration (m/s²) of the top, all relative to the ground.
     pub fn top(&self, theta: Pair, omega: Pair, theta_dd: Pair) -> [f64; 3] {
-        let t = self.turned(f64x2::new(theta));
+        let t = self.posture(theta);
         let omega = f64x2::new(omega);
         let sum = |pair: f64x2| pair.to_array().iter().sum::<f64>();
         let acceleration = sum(t.y * f64x2::new(theta_dd) - t.x * (omega * omega));
@@ -39,7 +39,7 @@ impl Motion {
         if self.freedom != Freedom::Both {
             return [0.0; 2];
         }
-        let [y_q, y_c] = self.turned(f64x2::new(theta)).y.to_array();
+        let [y_q, y_c] = self.posture(theta).y.to_array();
         let share = (y_q * omega[0] + y_c * omega[1]) / (y_q * y_q + y_c * y_c);
         [omega[0] - share * y_q, omega[1] - share * y_c]
     }

@@ -3,6 +3,7 @@
 use wide::f64x2;
 
 use super::effect::EffectSums;
+use crate::fused::fused;
 
 /// Everything that acts on the wall beyond its own masses, summed over the wall's spring and its effects.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,13 +42,14 @@ impl Laws {
     }
 
     /// Horizontal force of the springs at the top, N, at a displacement in m.
-    #[inline]
+    #[inline(always)]
     pub fn spring_force_n(&self, x_c_m: f64) -> f64 {
         // A linear spring need not wait for a square.
         if self.cubic_n_per_m3 == 0.0 {
-            return self.spring_offset_n - self.stiffness_n_per_m * x_c_m;
+            return fused(-self.stiffness_n_per_m, x_c_m, self.spring_offset_n);
         }
-        self.spring_offset_n - (self.stiffness_n_per_m + self.cubic_n_per_m3 * x_c_m * x_c_m) * x_c_m
+        let secant = fused(self.cubic_n_per_m3 * x_c_m, x_c_m, self.stiffness_n_per_m);
+        fused(-secant, x_c_m, self.spring_offset_n)
     }
 
     /// Whether anything takes energy.
@@ -63,17 +65,17 @@ impl Laws {
     }
 
     /// Horizontal force at the top against its velocity, N.
-    #[inline]
+    #[inline(always)]
     pub fn damping_force_n(&self, v_c_m_s: f64) -> f64 {
-        self.drag_n - self.viscous_n_s_per_m * v_c_m_s
+        fused(-self.viscous_n_s_per_m, v_c_m_s, self.drag_n)
     }
 
     /// Generalised moments of the joint dampers on θ_1 and θ_2, N m.
-    #[inline]
+    #[inline(always)]
     pub fn joint_moments_n_m(&self, omega: f64x2) -> f64x2 {
         let [c_ground, c_crack] = self.joint_damping_n_m_s;
         let [omega_1, omega_2] = omega.to_array();
         let at_crack = c_crack * (omega_2 - omega_1);
-        f64x2::new([at_crack - c_ground * omega_1, -at_crack])
+        f64x2::new([fused(-c_ground, omega_1, at_crack), -at_crack])
     }
 }

@@ -2,6 +2,7 @@
 
 use super::contact::Contact;
 use super::posture::Pair;
+use crate::fused::fused;
 
 /// Which rotations a contact state leaves free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -37,7 +38,7 @@ pub(crate) struct MassMatrix {
 
 impl MassMatrix {
     /// Solves M x = f in the rotations that are free; the others follow or stay.
-    #[inline]
+    #[inline(always)]
     pub fn solve(&self, freedom: Freedom, f: Pair) -> Pair {
         match freedom {
             Freedom::None => [0.0, 0.0],
@@ -47,8 +48,9 @@ impl MassMatrix {
             }
             Freedom::Upper => [0.0, f[1] / self.m22],
             Freedom::Both => {
-                let inverse = 1.0 / (self.m11 * self.m22 - self.m12 * self.m12);
-                [(self.m22 * f[0] - self.m12 * f[1]) * inverse, (self.m11 * f[1] - self.m12 * f[0]) * inverse]
+                let inverse = 1.0 / fused(-self.m12, self.m12, self.m11 * self.m22);
+                let cross = [-self.m12 * f[1], -self.m12 * f[0]];
+                [fused(self.m22, f[0], cross[0]) * inverse, fused(self.m11, f[1], cross[1]) * inverse]
             }
         }
     }

@@ -10,6 +10,7 @@
 //! with κ = Y_Q U_x - X_Q U_y and a_dp = a_x - X_Q ω_1² - X_C ω_2² the part of the carriage's acceleration
 //! that is known before θ''.
 
+use fearless_simd::{Level, dispatch};
 use wide::f64x2;
 
 use super::contact::Contact;
@@ -18,6 +19,7 @@ use super::mass_matrix::{Freedom, MassMatrix};
 use super::posture::{Arms, Pair, Turns};
 use super::vector::{Vector, sin_cos, sin_cos_pair};
 use super::wall::{G_M_S2, Wall};
+use crate::fused::{fused, fused_pair};
 
 /// What the equations of motion give at a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -77,6 +79,8 @@ pub(crate) struct Motion {
     pub(super) whole_inertia: f64,
     /// s_2 b_2/2.
     pub(super) q_x: f64,
+    /// Instructions that this processor has, which change nothing but the time it takes.
+    pub level: Level,
 }
 
 /// Everything that turns, at one posture, side by side: the first lane is the lower body (r_Q, V), the second the upper
@@ -138,6 +142,7 @@ impl Motion {
             whole_moment: v + u,
             whole_inertia: inertia_1 + 2.0 * arms.q.dot(u) + inertia_2,
             q_x: arms.q_x,
+            level: Level::new(),
         }
     }
 
@@ -159,14 +164,19 @@ impl Motion {
         self.freedom == Freedom::Monolithic && !self.held
     }
 
+    /// Everything turned by the rotations, outside of a step.
+    pub fn posture(&self, theta: Pair) -> Turned {
+        dispatch!(self.level, _ => self.turned(f64x2::new(theta)))
+    }
+
     /// Turns everything by the rotations.
-    #[inline]
+    #[inline(always)]
     pub fn turned(&self, theta: f64x2) -> Turned {
         let (sin, cos) = sin_cos_pair(theta);
         self.turned_by(sin, cos)
     }
 
-    #[inline]
+    #[inline(always)]
     fn turned_by(&self, sin: f64x2, cos: f64x2) -> Turned {
         let [arm_x, arm_y, moment_x, moment_y] = self.lanes;
         Turned {
@@ -179,13 +189,13 @@ impl Motion {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn mass_matrix_of(&self, t: &Turned) -> MassMatrix {
         let m_dp = self.laws.carriage_mass_kg;
         let ([x_q, _], [y_q, y_c]) = (t.x.to_array(), t.y.to_array());
         let ([_, u_x], [_, u_y]) = (t.s_x.to_array(), t.s_y.to_array());
         let [m11, m22] = (self.inertias + t.y * t.y * m_dp).to_array();
-        MassMatrix { m11, m12: x_q * u_x + y_q * u_y + m_dp * y_q * y_c, m22 }
+        MassMatrix { m11, m12: (x_q * u_x + y_q * u_y) + m_dp * y_q * y_c, m22 }
     }
 
     /// Mass matrix Jᵀ M J of the two rotations at a posture, whether free or not.
@@ -195,7 +205,8 @@ impl Motion {
 
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
-        self.rate_at(&self.turned(f64x2::new(theta)), f64x2::new(omega), ground).into()
+        let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
+        dispatch!(self.level, _ => self.rate_at(&self.turned(theta), omega, ground)).into()
     }
 
     /// The same at a posture that is known.
@@ -214,27 +225,28 @@ impl Motion {
         let m_dp = self.laws.carriage_mass_kg;
         let (a_x, a_y) = (ground.x, ground.y + G_M_S2);
         let v_c = r.y * omega;
-        let carriage = m_dp * (a_x - r.x * omega * omega);
-        let mut top = self.laws.spring_force_n(r.x + self.o_c) - carriage;
-        let mut weight_and_ground = w.x * a_y - w.y * a_x;
+        let carriage_acceleration = fused(-r.x, omega * omega, a_x);
+        let mut top = self.laws.spring_force_n(r.x + self.o_c) - m_dp * carriage_acceleration;
+        let mut weight_and_ground = fused(w.x, a_y, -w.y * a_x);
         let mut loss_power_w = 0.0;
         if self.damped {
             let damping = self.laws.damping_force_n(v_c);
             let [joint, _] = self.laws.joint_moments_n_m(f64x2::splat(omega)).to_array();
             top += damping;
             weight_and_ground += joint;
-            loss_power_w = -(damping * v_c + joint * omega);
+            loss_power_w = -fused(damping, v_c, joint * omega);
         }
         // The inverse is ready before the forces are.
-        let inverse = 1.0 / (self.whole_inertia + m_dp * r.y * r.y);
-        let theta_dd = (weight_and_ground + r.y * top) * inverse;
-        let ground_power_w = ground.y * w.x * omega - ground.x * (w.y * omega + m_dp * v_c);
+        let inverse = 1.0 / fused(m_dp * r.y, r.y, self.whole_inertia);
+        let theta_dd = fused(r.y, top, weight_and_ground) * inverse;
+        let momentum_x = fused(w.y, omega, m_dp * v_c);
+        let ground_power_w = fused(ground.y * w.x, omega, -ground.x * momentum_x);
         RatePair { theta_dd: f64x2::splat(theta_dd), powers_w: f64x2::new([ground_power_w, loss_power_w]) }
     }
 
     #[inline(always)]
     pub(super) fn law(&self, t: &Turned, omega: f64x2, ground: Vector) -> Law {
-        let ([x_q, x_c], [y_q, y_c]) = (t.x.to_array(), t.y.to_array());
+        let ([x_q, x_c], [y_q, _]) = (t.x.to_array(), t.y.to_array());
         let ([_, u_x], [_, u_y]) = (t.s_x.to_array(), t.s_y.to_array());
         let (a_x, a_y) = (ground.x, ground.y + G_M_S2);
         let squares = omega * omega;
@@ -245,17 +257,19 @@ impl Motion {
         let [c_q, c_qc] = (t.x * squares).to_array();
         let spring = self.laws.spring_force_n(x_c_m);
         let m_dp = self.laws.carriage_mass_kg;
-        let carriage = m_dp * (a_x - c_q - c_qc);
+        let carriage_acceleration = a_x - c_q - c_qc;
         let kappa = y_q * u_x - x_q * u_y;
-        let forces = t.s_x * a_y - t.s_y * a_x + f64x2::new([kappa * w2, -(kappa * w1)]);
-        let [m11, m22] = (self.inertias + t.y * t.y * m_dp).to_array();
-        let mass = MassMatrix { m11, m12: x_q * u_x + y_q * u_y + m_dp * y_q * y_c, m22 };
+        let weight_and_ground = fused_pair(t.s_x, f64x2::splat(a_y), -t.s_y * a_x);
+        let forces = fused_pair(f64x2::splat(kappa), f64x2::new([w2, -w1]), weight_and_ground);
+        let mass = self.mass_matrix_of(t);
         let law = Law { mass, f: forces, squares, x_c: x_c_m, v_c, damping: 0.0, spring_and_damping: spring };
         if !self.damped {
-            return Law { f: forces + t.y * (spring - carriage), ..law };
+            let top = spring - m_dp * carriage_acceleration;
+            return Law { f: fused_pair(t.y, f64x2::splat(top), forces), ..law };
         }
         let damping = self.laws.damping_force_n(v_c);
-        let f = forces + t.y * (spring + damping - carriage) + self.laws.joint_moments_n_m(omega);
+        let top = spring + damping - m_dp * carriage_acceleration;
+        let f = fused_pair(t.y, f64x2::splat(top), forces) + self.laws.joint_moments_n_m(omega);
         Law { f, damping, spring_and_damping: spring + damping, ..law }
     }
 
@@ -263,11 +277,11 @@ impl Motion {
     pub(super) fn rate_by(&self, law: &Law, t: &Turned, omega: f64x2, ground: Vector) -> RatePair {
         let [p_1, p_2] = (t.s_y * omega).to_array();
         let [l_1, l_2] = (t.s_x * omega).to_array();
-        let momentum_x = p_1 + p_2 + self.laws.carriage_mass_kg * law.v_c;
-        let ground_power_w = ground.y * (l_1 + l_2) - ground.x * momentum_x;
+        let momentum_x = fused(self.laws.carriage_mass_kg, law.v_c, p_1 + p_2);
+        let ground_power_w = fused(ground.y, l_1 + l_2, -ground.x * momentum_x);
         let loss_power_w = if self.damped {
             let [j_1, j_2] = (self.laws.joint_moments_n_m(omega) * omega).to_array();
-            -(law.damping * law.v_c + (j_1 + j_2))
+            -fused(law.damping, law.v_c, j_1 + j_2)
         } else {
             0.0
         };
@@ -280,7 +294,7 @@ impl Motion {
 
     /// Kinetic, gravity and spring energy at a state, J; gravity is zero at rest.
     pub fn energy_j(&self, theta: Pair, omega: Pair) -> f64 {
-        let t = self.turned(f64x2::new(theta));
+        let t = self.posture(theta);
         let kinetic = 0.5 * self.mass_matrix_of(&t).quadratic(omega);
         let [v_y, u_y] = t.s_y.to_array();
         let lifted = (v_y - self.v.y) + (u_y - self.u.y);
@@ -294,7 +308,7 @@ impl Motion {
 
     /// Horizontal displacement s_Cx of the top, m.
     pub fn top_displacement_m(&self, theta: Pair) -> f64 {
-        let t = self.turned(f64x2::new(theta));
+        let t = self.posture(theta);
         let [x_q, x_c] = t.x.to_array();
         (x_q + x_c) + self.o_c
     }

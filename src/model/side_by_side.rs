@@ -4,12 +4,11 @@
 //! bit alone and beside others. Only for walls without dampers, held tops and cubic springs; the others move alone.
 //!
 //! What works on lanes is `#[inline(always)]`, closures are avoided: only so does all of it become part of the one function
-//! that is compiled for the vector instructions of a processor. None of them joins a product and a sum, which would round
-//! otherwise.
+//! that is compiled for the vector instructions of a processor.
 
 use std::f64::consts::FRAC_PI_4;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x4, mask64x4};
 
 use super::balance::Aftermath;
 use super::joint::{JointForce, JointForces};
@@ -98,6 +97,18 @@ impl Motion {
     }
 }
 
+/// a b + c, rounded once by any processor.
+#[inline(always)]
+pub(crate) fn fused<S: Simd>(a: F<S>, b: F<S>, c: F<S>) -> F<S> {
+    a.mul_add_precise(b, c)
+}
+
+/// As [`super::vector::Vector::moment_of`].
+#[inline(always)]
+fn moment<S: Simd>(arm: [F<S>; 2], force: [F<S>; 2]) -> F<S> {
+    arm[1] * force[0] - arm[0] * force[1]
+}
+
 #[inline(always)]
 fn rotated<S: Simd>([x, y]: [F<S>; 2], sin: F<S>, cos: F<S>) -> [F<S>; 2] {
     [x * cos + y * sin, y * cos - x * sin]
@@ -110,13 +121,21 @@ fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
     }
     let z = theta * theta;
     let zz = z * z;
-    (theta + theta * z * polynomial(&SIN, z, zz), 1.0 - (z * 0.5 - zz * polynomial(&COS, z, zz)))
+    let [one, half] = [F::splat(theta.simd, 1.0), F::splat(theta.simd, -0.5)];
+    let sin = fused(theta * z, polynomial(&SIN, z, zz), theta);
+    (sin, fused(zz, polynomial(&COS, z, zz), fused(z, half, one)))
 }
 
-/// In the order of [`sin_cos`]; a function, for a closure would be compiled without the processor's instructions.
+/// In the order of [`sin_cos`].
 #[inline(always)]
 fn polynomial<S: Simd>(c: &[f64; 6], z: F<S>, zz: F<S>) -> F<S> {
-    (z * c[1] + c[0]) + zz * ((z * c[3] + c[2]) + zz * (z * c[5] + c[4]))
+    fused(zz, fused(zz, pair(c, 4, z), pair(c, 2, z)), pair(c, 0, z))
+}
+
+/// Two neighbours of a polynomial.
+#[inline(always)]
+fn pair<S: Simd>(c: &[f64; 6], n: usize, z: F<S>) -> F<S> {
+    fused(z, F::splat(z.simd, c[n + 1]), F::splat(z.simd, c[n]))
 }
 
 #[cold]
@@ -170,7 +189,7 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
 
     #[inline(always)]
     fn spring_force_n(&self, x_c: F<S>) -> F<S> {
-        self.offset - self.stiffness * x_c
+        fused(-self.stiffness, x_c, self.offset)
     }
 
     /// As [`Motion::monolithic_rate`].
@@ -181,12 +200,13 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
         let w = rotated(self.whole_moment, sin, cos);
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let v_c = r[1] * omega;
-        let carriage = self.m_dp * (a_x - r[0] * omega * omega);
-        let top = self.spring_force_n(r[0] + self.o_c) - carriage;
-        let weight_and_ground = w[0] * a_y - w[1] * a_x;
-        let inverse = 1.0 / (self.whole_inertia + self.m_dp * r[1] * r[1]);
-        let theta_dd = (weight_and_ground + r[1] * top) * inverse;
-        let power = g_y * w[0] * omega - g_x * (w[1] * omega + self.m_dp * v_c);
+        let carriage_acceleration = fused(-r[0], omega * omega, a_x);
+        let top = self.spring_force_n(r[0] + self.o_c) - self.m_dp * carriage_acceleration;
+        let weight_and_ground = fused(w[0], a_y, -w[1] * a_x);
+        let inverse = 1.0 / fused(self.m_dp * r[1], r[1], self.whole_inertia);
+        let theta_dd = fused(r[1], top, weight_and_ground) * inverse;
+        let momentum_x = fused(w[1], omega, self.m_dp * v_c);
+        let power = fused(g_y * w[0], omega, -g_x * momentum_x);
         (theta_dd, power)
     }
 
@@ -202,18 +222,18 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
         let x_c = (t.q[0] + t.c[0]) + self.o_c;
         let v_c = t.q[1] * w1 + t.c[1] * w2;
         let spring = self.spring_force_n(x_c);
-        let carriage = self.m_dp * (a_x - t.q[0] * squares[0] - t.c[0] * squares[1]);
+        let carriage_acceleration = a_x - t.q[0] * squares[0] - t.c[0] * squares[1];
         let kappa = t.q[1] * t.u[0] - t.q[0] * t.u[1];
         let forces = [
-            t.v[0] * a_y - t.v[1] * a_x + kappa * squares[1],
-            t.u[0] * a_y - t.u[1] * a_x - kappa * squares[0],
+            fused(kappa, squares[1], fused(t.v[0], a_y, -t.v[1] * a_x)),
+            fused(kappa, -squares[0], fused(t.u[0], a_y, -t.u[1] * a_x)),
         ];
-        let top = spring - carriage;
+        let top = spring - self.m_dp * carriage_acceleration;
         Law {
             m11: self.inertias[0] + t.q[1] * t.q[1] * self.m_dp,
             m22: self.inertias[1] + t.c[1] * t.c[1] * self.m_dp,
-            m12: t.q[0] * t.u[0] + t.q[1] * t.u[1] + self.m_dp * t.q[1] * t.c[1],
-            f: [forces[0] + t.q[1] * top, forces[1] + t.c[1] * top],
+            m12: (t.q[0] * t.u[0] + t.q[1] * t.u[1]) + self.m_dp * t.q[1] * t.c[1],
+            f: [fused(t.q[1], top, forces[0]), fused(t.c[1], top, forces[1])],
             squares,
             x_c,
             v_c,
@@ -229,8 +249,8 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
         [w1, w2]: [F<S>; 2],
         [g_x, g_y]: [F<S>; 2],
     ) -> RateLanes<S> {
-        let momentum_x = t.v[1] * w1 + t.u[1] * w2 + self.m_dp * law.v_c;
-        let ground_power_w = g_y * (t.v[0] * w1 + t.u[0] * w2) - g_x * momentum_x;
+        let momentum_x = fused(self.m_dp, law.v_c, t.v[1] * w1 + t.u[1] * w2);
+        let ground_power_w = fused(g_y, t.v[0] * w1 + t.u[0] * w2, -g_x * momentum_x);
         RateLanes { theta_dd: self.solve(law), ground_power_w }
     }
 
@@ -241,8 +261,8 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
             let x = (f1 + f2) / (m11 + m12 * 2.0 + m22);
             return [x, x];
         }
-        let inverse = 1.0 / (m11 * m22 - m12 * m12);
-        let both = [(m22 * f1 - m12 * f2) * inverse, (m11 * f2 - m12 * f1) * inverse];
+        let inverse = 1.0 / fused(-m12, m12, m11 * m22);
+        let both = [fused(m22, f1, -m12 * f2) * inverse, fused(m11, f2, -m12 * f1) * inverse];
         if !self.any_upper {
             return both;
         }
@@ -273,29 +293,26 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
     ) -> AftermathLanes<S> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let [w1, w2] = law.squares;
-        let q_x = t.q[1] * dd_1 - t.q[0] * w1;
-        let c_x = t.c[1] * dd_2 - t.c[0] * w2;
-        let q_y = t.q[0] * dd_1 + t.q[1] * w1;
-        let u_x = t.u[1] * dd_2 - t.u[0] * w2;
-        let u_y = t.u[0] * dd_2 + t.u[1] * w2;
-        let top = self.m_dp * (a_x + q_x + c_x) - law.spring;
+        let q_x = fused(t.q[1], dd_1, -t.q[0] * w1);
+        let c_x = fused(t.c[1], dd_2, -t.c[0] * w2);
+        let q_y = fused(t.q[0], dd_1, t.q[1] * w1);
+        let u_x = fused(t.u[1], dd_2, -t.u[0] * w2);
+        let u_y = fused(t.u[0], dd_2, t.u[1] * w2);
+        let top = fused(self.m_dp, a_x + q_x + c_x, -law.spring);
         let at_q = [a_x + q_x, a_y - q_y];
-        let crack = [self.upper_mass * at_q[0] + u_x + top, self.upper_mass * at_q[1] - u_y];
-        let about_q = (t.u[1] * at_q[0] - t.u[0] * at_q[1]) + self.inertias[1] * dd_2 + t.c[1] * top;
-        let w = [t.v[0] - self.upper_mass * t.q[0], t.v[1] - self.upper_mass * t.q[1]];
+        let crack = [fused(self.upper_mass, at_q[0], u_x) + top, fused(self.upper_mass, at_q[1], -u_y)];
+        let about_q = fused(t.c[1], top, fused(self.inertias[1], dd_2, moment(t.u, at_q)));
+        let w = [fused(-self.upper_mass, t.q[0], t.v[0]), fused(-self.upper_mass, t.q[1], t.v[1])];
         let lower = [
-            a_x * self.lower_mass + w[1] * dd_1 - w[0] * w1,
-            a_y * self.lower_mass + -w[0] * dd_1 - w[1] * w1,
+            fused(a_x, self.lower_mass, fused(w[1], dd_1, w[0] * -w1)),
+            fused(a_y, self.lower_mass, fused(-w[0], dd_1, w[1] * -w1)),
         ];
         let through_ground = [lower[0] + crack[0], lower[1] + crack[1]];
-        let about_o = (w[1] * a_x - w[0] * a_y)
-            + self.lower_inertia * dd_1
-            + about_q
-            + (t.q[1] * crack[0] - t.q[0] * crack[1]);
+        let about_o = fused(self.lower_inertia, dd_1, moment(w, [a_x, a_y])) + about_q + moment(t.q, crack);
         let in_crack = [crack[0] * t.cos_1 - crack[1] * t.sin_1, crack[1] * t.cos_1 + crack[0] * t.sin_1];
         AftermathLanes {
-            ground: [through_ground[0], through_ground[1], about_o - self.o_x * through_ground[1]],
-            crack: [in_crack[0], in_crack[1], about_q - self.q_x * in_crack[1]],
+            ground: [through_ground[0], through_ground[1], fused(-self.o_x, through_ground[1], about_o)],
+            crack: [in_crack[0], in_crack[1], fused(-self.q_x, in_crack[1], about_q)],
             top: [law.x_c, law.v_c, q_x + c_x],
         }
     }

@@ -5,6 +5,8 @@ use std::ops::{Add, Mul, Sub};
 
 use wide::f64x2;
 
+use crate::fused::{fused, fused_pair};
+
 /// A vector in the plane: x out of the wall, y up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Vector {
@@ -15,36 +17,42 @@ pub struct Vector {
 }
 
 impl Vector {
-    #[inline]
+    #[inline(always)]
     pub(crate) const fn new(x: f64, y: f64) -> Self {
         Self { x, y }
     }
 
     /// R(θ)(x, y) = (x cos θ + y sin θ, -x sin θ + y cos θ).
-    #[inline]
+    #[inline(always)]
     pub(crate) fn rotated(self, (sin, cos): (f64, f64)) -> Self {
         Self::new(self.x * cos + self.y * sin, self.y * cos - self.x * sin)
     }
 
     /// R(-θ): from the world's axes to those of a body turned by θ.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn rotated_back(self, (sin, cos): (f64, f64)) -> Self {
         Self::new(self.x * cos - self.y * sin, self.y * cos + self.x * sin)
     }
 
     /// d/dθ of a vector that turns with θ: (X, Y) becomes (Y, -X).
-    #[inline]
+    #[inline(always)]
     pub(crate) fn turned(self) -> Self {
         Self::new(self.y, -self.x)
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn dot(self, other: Self) -> f64 {
         self.x * other.x + self.y * other.y
     }
 
+    /// This vector times a factor, and another.
+    #[inline(always)]
+    pub(crate) fn times_plus(self, factor: f64, other: Self) -> Self {
+        Self::new(fused(self.x, factor, other.x), fused(self.y, factor, other.y))
+    }
+
     /// Clockwise moment of a force at this arm: Y F_x - X F_y.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn moment_of(self, force: Self) -> f64 {
         self.y * force.x - self.x * force.y
     }
@@ -52,7 +60,7 @@ impl Vector {
 
 impl Add for Vector {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self::new(self.x + other.x, self.y + other.y)
     }
@@ -60,7 +68,7 @@ impl Add for Vector {
 
 impl Sub for Vector {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self::new(self.x - other.x, self.y - other.y)
     }
@@ -68,7 +76,7 @@ impl Sub for Vector {
 
 impl Mul<f64> for Vector {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, factor: f64) -> Self {
         Self::new(self.x * factor, self.y * factor)
     }
@@ -94,16 +102,21 @@ pub(super) const COS: [f64; 6] = [
 
 /// Sine and cosine; within ±π/4, where walls live, by the polynomials of fdlibm (error below one unit in the last
 /// place), because the library's argument reduction costs more than the motion.
-#[inline]
+#[inline(always)]
 pub(crate) fn sin_cos(theta: f64) -> (f64, f64) {
     if theta.abs() > FRAC_PI_4 {
         return theta.sin_cos();
     }
     let z = theta * theta;
     let zz = z * z;
-    // Estrin's order: pairs side by side, because each sum would otherwise wait for the one before.
-    let sum = |c: &[f64; 6]| (c[0] + z * c[1]) + zz * ((c[2] + z * c[3]) + zz * (c[4] + z * c[5]));
-    (theta + theta * z * sum(&SIN), 1.0 - (0.5 * z - zz * sum(&COS)))
+    let sin = fused(theta * z, polynomial(&SIN, z, zz), theta);
+    (sin, fused(zz, polynomial(&COS, z, zz), fused(z, -0.5, 1.0)))
+}
+
+/// In Estrin's order: pairs side by side, because each sum would otherwise wait for the one before.
+#[inline(always)]
+fn polynomial(c: &[f64; 6], z: f64, zz: f64) -> f64 {
+    fused(zz, fused(zz, fused(z, c[5], c[4]), fused(z, c[3], c[2])), fused(z, c[1], c[0]))
 }
 
 /// [`sin_cos`] of two angles side by side, to the same bits.
@@ -114,8 +127,15 @@ pub(crate) fn sin_cos_pair(theta: f64x2) -> (f64x2, f64x2) {
     }
     let z = theta * theta;
     let zz = z * z;
-    let sum = |c: &[f64; 6]| (z * c[1] + c[0]) + zz * ((z * c[3] + c[2]) + zz * (z * c[5] + c[4]));
-    (theta + theta * z * sum(&SIN), f64x2::ONE - (z * 0.5 - zz * sum(&COS)))
+    let sin = fused_pair(theta * z, polynomial_pair(&SIN, z, zz), theta);
+    let first = fused_pair(z, f64x2::splat(-0.5), f64x2::ONE);
+    (sin, fused_pair(zz, polynomial_pair(&COS, z, zz), first))
+}
+
+#[inline(always)]
+fn polynomial_pair(c: &[f64; 6], z: f64x2, zz: f64x2) -> f64x2 {
+    let two = |n: usize| fused_pair(z, f64x2::splat(c[n + 1]), f64x2::splat(c[n]));
+    fused_pair(zz, fused_pair(zz, two(4), two(2)), two(0))
 }
 
 #[cold]

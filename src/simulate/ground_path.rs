@@ -33,7 +33,7 @@ pub(crate) struct Piece {
 
 impl Piece {
     /// Ground acceleration at a time after the start of the piece, m/s².
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, offset_s: f64) -> Vector {
         self.from + self.slope * offset_s
     }

@@ -98,9 +98,10 @@ impl<O: Observer> Run<O> {
 
     /// The whole run, step by step.
     pub fn go(mut self, start_s: f64) -> Response {
+        let mut after = Aftermath::default();
         self.begin(start_s);
         while self.wants_step() {
-            let (step, after) = self.asked().take();
+            let step = self.asked().take(&mut after);
             self.answer(&step, &after);
         }
         self.end()

@@ -2,13 +2,13 @@
 //!
 //! What a run gives does not depend on those beside it: every lane does the sums that the run would do alone.
 
-use std::ops::{Add, Mul};
+use std::ops::Mul;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
 use super::response::Response;
 use super::run::{Asked, Run};
-use crate::model::{Aftermath, AftermathLanes, LANES, Motions, TurnedLanes, lanes};
+use crate::model::{Aftermath, AftermathLanes, LANES, Motions, TurnedLanes, fused, lanes};
 use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
 
 type F<S> = f64x4<S>;
@@ -19,14 +19,6 @@ struct One<S: Simd>(F<S>);
 
 #[derive(Clone, Copy)]
 struct Two<S: Simd>([F<S>; 2]);
-
-impl<S: Simd> Add for One<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self(self.0 + other.0)
-    }
-}
 
 impl<S: Simd> Mul<f64> for One<S> {
     type Output = Self;
@@ -42,13 +34,15 @@ impl<S: Simd> Values for One<S> {
     fn over(self, length: F<S>) -> Self {
         Self(self.0 * length)
     }
-}
 
-impl<S: Simd> Add for Two<S> {
-    type Output = Self;
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self([self.0[0] + other.0[0], self.0[1] + other.0[1]])
+    fn over_plus(self, length: F<S>, other: Self) -> Self {
+        Self(fused(self.0, length, other.0))
+    }
+
+    #[inline(always)]
+    fn times_plus(self, factor: f64, other: Self) -> Self {
+        Self(fused(self.0, F::splat(self.0.simd, factor), other.0))
     }
 }
 
@@ -65,6 +59,16 @@ impl<S: Simd> Values for Two<S> {
     #[inline(always)]
     fn over(self, length: F<S>) -> Self {
         Self([self.0[0] * length, self.0[1] * length])
+    }
+
+    #[inline(always)]
+    fn over_plus(self, length: F<S>, other: Self) -> Self {
+        Self([fused(self.0[0], length, other.0[0]), fused(self.0[1], length, other.0[1])])
+    }
+
+    #[inline(always)]
+    fn times_plus(self, factor: f64, other: Self) -> Self {
+        self.over_plus(F::splat(self.0[0].simd, factor), other)
     }
 }
 
@@ -284,7 +288,8 @@ impl<T, N: FnMut() -> Option<(T, Prepared)>, D: FnMut(T, Response)> Work<T, N, D
                 Some(true) => return self.as_one.push(slot),
                 Some(false) => return self.apart.push(slot),
                 None => {
-                    let (step, after) = run.asked().take();
+                    let mut after = Aftermath::default();
+                    let step = run.asked().take(&mut after);
                     run.answer(&step, &after);
                 }
             }

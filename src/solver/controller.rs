@@ -18,8 +18,10 @@ pub struct ErrorScale {
 /// Keeps the error of each step below a bound and proposes the length of the next.
 #[derive(Debug, Clone, Copy)]
 pub struct Controller {
-    scale: ErrorScale,
-    bound: f64,
+    /// Errors per position: one over its size and the bound.
+    per_position: f64x2,
+    time_s: f64,
+    fastest_rate_per_s: f64,
     proposed_s: f64,
 }
 
@@ -34,7 +36,12 @@ const ESTIMATE_ORDER: i32 = 6;
 impl Controller {
     /// Keeps the scaled error of a step below `bound`, starting from a proposed step.
     pub fn new(scale: ErrorScale, bound: f64, first_s: f64) -> Self {
-        Self { scale, bound, proposed_s: first_s }
+        Self {
+            per_position: f64x2::ONE / (f64x2::new(scale.position) * bound),
+            time_s: scale.time_s,
+            fastest_rate_per_s: scale.fastest_rate_per_s,
+            proposed_s: first_s,
+        }
     }
 
     /// Length for the next step with `remaining_s` to go: the proposal, or equal parts of what remains.
@@ -55,9 +62,8 @@ impl Controller {
     #[inline]
     fn error(&self, step: &Step) -> f64 {
         let [x, v] = [step.position_error, step.velocity_error].map(|e| f64x2::new(e).abs());
-        // Side by side, for a division is slow.
-        let [first, second] = (x.max(v * self.scale.time_s) / f64x2::new(self.scale.position)).to_array();
-        f64::max(first, second) * (step.h * self.scale.fastest_rate_per_s).min(1.0) / self.bound
+        let [first, second] = (x.max(v * self.time_s) * self.per_position).to_array();
+        f64::max(first, second) * (step.h * self.fastest_rate_per_s).min(1.0)
     }
 
     /// Whether a step may be kept; proposes the next length either way.

@@ -6,19 +6,26 @@
 //! 5 in which accelerations depend on velocities once or twice is met. `benches/work_precision.rs` has the method beside
 //! others.
 
-use std::ops::{Add, Mul};
+use std::ops::Mul;
 
 use wide::f64x2;
 
 use super::quintic::Point;
+use crate::fused::fused_pair;
 
 /// Values side by side that a step moves: the two coordinates of one motion, or those of several motions.
-pub trait Values: Copy + Add<Output = Self> + Mul<f64, Output = Self> {
+pub trait Values: Copy + Mul<f64, Output = Self> {
     /// The length of a step: one, or one for each motion.
     type Length: Copy + Mul<Output = Self::Length> + Mul<f64, Output = Self::Length>;
 
     /// Times a length, or a product of lengths.
     fn over(self, length: Self::Length) -> Self;
+
+    /// Times a length, or a product of lengths, and another, rounded once.
+    fn over_plus(self, length: Self::Length, other: Self) -> Self;
+
+    /// Times a number, and another, rounded once.
+    fn times_plus(self, factor: f64, other: Self) -> Self;
 }
 
 impl Values for f64x2 {
@@ -27,6 +34,16 @@ impl Values for f64x2 {
     #[inline(always)]
     fn over(self, length: f64) -> Self {
         self * length
+    }
+
+    #[inline(always)]
+    fn over_plus(self, length: f64, other: Self) -> Self {
+        fused_pair(self, f64x2::splat(length), other)
+    }
+
+    #[inline(always)]
+    fn times_plus(self, factor: f64, other: Self) -> Self {
+        fused_pair(self, f64x2::splat(factor), other)
     }
 }
 
@@ -133,7 +150,7 @@ pub struct Stride<V> {
 impl Nystrom {
     /// Steps one motion from `start`, whose acceleration is known, over `h`.
     #[inline(always)]
-    pub fn step(start: Point, start_quadrature_rate: [f64; 2], h: f64, field: &mut impl Field) -> Step {
+    pub fn step(start: &Point, start_quadrature_rate: [f64; 2], h: f64, field: &mut impl Field) -> Step {
         let (x, v) = (f64x2::new(start.position), f64x2::new(start.velocity));
         let rate = Rate {
             acceleration: f64x2::new(start.acceleration),
@@ -142,7 +159,7 @@ impl Nystrom {
         let stride = Self::stride(x, v, rate, h, field);
         Step {
             h,
-            start,
+            start: *start,
             end: Point {
                 position: stride.position.to_array(),
                 velocity: stride.velocity.to_array(),
@@ -174,7 +191,7 @@ impl Nystrom {
         // Each stage has its own number of terms; written out so that the sums unroll.
         macro_rules! stage {
             ($n:literal) => {
-                position = sum::<$n, V>(x + v.over(h * C[$n]), h2, &A_POSITION[$n], &accelerations);
+                position = sum::<$n, V>(v.over_plus(h * C[$n], x), h2, &A_POSITION[$n], &accelerations);
                 let velocity = sum::<$n, V>(v, h, &A_VELOCITY[$n], &accelerations);
                 let now = field.rate(h * C[$n], position, velocity);
                 accelerations[$n] = now.acceleration;
@@ -199,17 +216,17 @@ impl Nystrom {
     }
 }
 
-/// x + f Σ w_j r_j over the first `N` rates; what waits for the last of them is one product and one sum.
+/// x + f Σ w_j r_j over the first `N` rates; what waits for the last of them is one product with a sum.
 #[inline(always)]
 fn sum<const N: usize, V: Values>(x: V, factor: V::Length, weights: &[f64], rates: &[V; 6]) -> V {
-    let last = rates[N - 1].over(factor * weights[N - 1]);
-    if N == 1 { x + last } else { (x + earlier::<N, V>(weights, rates).over(factor)) + last }
+    let before = if N == 1 { x } else { earlier::<N, V>(weights, rates).over_plus(factor, x) };
+    rates[N - 1].over_plus(factor * weights[N - 1], before)
 }
 
 /// The same from zero.
 #[inline(always)]
 fn gain<const N: usize, V: Values>(factor: V::Length, weights: &[f64], rates: &[V; 6]) -> V {
-    earlier::<N, V>(weights, rates).over(factor) + rates[N - 1].over(factor * weights[N - 1])
+    rates[N - 1].over_plus(factor * weights[N - 1], earlier::<N, V>(weights, rates).over(factor))
 }
 
 /// Σ w_j r_j over the first rates of `N`, without the last.
@@ -217,7 +234,7 @@ fn gain<const N: usize, V: Values>(factor: V::Length, weights: &[f64], rates: &[
 fn earlier<const N: usize, V: Values>(weights: &[f64], rates: &[V; 6]) -> V {
     let mut sum = rates[0] * weights[0];
     for j in 1..N - 1 {
-        sum = sum + rates[j] * weights[j];
+        sum = rates[j].times_plus(weights[j], sum);
     }
     sum
 }
@@ -292,7 +309,7 @@ mod tests {
         let steps = (10.0 / h).round() as usize;
         let mut worst = 0.0_f64;
         for n in 1..=steps {
-            point = Nystrom::step(point, [0.0; 2], h, &mut Oscillators { damping }).end;
+            point = Nystrom::step(&point, [0.0; 2], h, &mut Oscillators { damping }).end;
             let t = n as f64 * h;
             worst = worst.max((point.position[0] - exact(1.0, t)).abs());
             worst = worst.max((point.position[1] - exact(2.0, t)).abs());

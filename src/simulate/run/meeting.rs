@@ -1,7 +1,5 @@
 //! On over a step, or up to the first event inside it: found, placed, and let happen.
 
-use wide::f64x2;
-
 use super::super::events::{Event, first_event};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
@@ -58,8 +56,7 @@ impl<O: Observer> Run<O> {
 
     fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
         let law = self.wall.motion(self.contact);
-        let [theta, omega] = [motion.position(share), motion.velocity(share)].map(f64x2::new);
-        let (_, after) = law.arrival(&law.turned(theta), omega, ground);
+        let (_, after) = law.arrival_at(motion.position(share), motion.velocity(share), ground);
         self.wall.least_hold(self.contact, &after).unwrap_or(f64::INFINITY)
     }
 

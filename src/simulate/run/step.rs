@@ -1,5 +1,6 @@
 //! The step that a run asks for, and how it is taken alone; [`super::super::side_by_side`] takes several.
 
+use fearless_simd::dispatch;
 use wide::f64x2;
 
 use super::super::ground_path::Piece;
@@ -17,31 +18,32 @@ pub(in super::super) struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    /// Takes the step; gives it and the joint forces at its end.
+    /// Takes the step; tells the joint forces at its end.
+    #[inline]
+    pub fn take(&self, after: &mut Aftermath) -> Step {
+        dispatch!(self.law.level, _ => self.step(after))
+    }
+
     #[inline(always)]
-    pub fn take(&self) -> (Step, Aftermath) {
-        let mut shaken = Shaken {
-            law: self.law,
-            piece: *self.piece,
-            from_s: self.from_s,
-            posture: Turned::default(),
-            after: Aftermath::default(),
-        };
-        let step = Nystrom::step(*self.now, self.quadrature_rate, self.h, &mut shaken);
-        (step, shaken.after)
+    fn step(&self, after: &mut Aftermath) -> Step {
+        let (law, piece, from_s) = (self.law, self.piece, self.from_s);
+        let mut shaken = Shaken { law, piece, from_s, posture: Turned::default(), after };
+        Nystrom::step(self.now, self.quadrature_rate, self.h, &mut shaken)
     }
 }
 
 /// The motion of a contact state under a piece of the record, and what its last landing told.
-struct Shaken<'a> {
+///
+/// Both of the latter where they are: to copy what was just written, wider than it was written, would wait for the writing.
+struct Shaken<'a, 'b> {
     law: &'a Motion,
-    piece: Piece,
     from_s: f64,
     posture: Turned,
-    after: Aftermath,
+    piece: &'a Piece,
+    after: &'b mut Aftermath,
 }
 
-impl Field for Shaken<'_> {
+impl Field for Shaken<'_, '_> {
     #[inline(always)]
     fn rate(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
         let ground = self.piece.at(self.from_s + after_s);
@@ -59,7 +61,7 @@ impl Field for Shaken<'_> {
             self.posture = self.law.turned(theta);
         }
         let (rate, after) = self.law.arrival(&self.posture, omega, self.piece.at(self.from_s + after_s));
-        self.after = after;
+        *self.after = after;
         as_rate(rate)
     }
 }
