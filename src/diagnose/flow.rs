@@ -2,16 +2,16 @@
 
 use super::candidates::candidates;
 use super::experiment::Experiment;
-use super::fit::Problem;
+use super::fit::{Fit, Problem};
 use super::force::{acts_at_top, force_points};
 use super::hypothesis::{Addition, Nuisance};
 use super::other_law::OtherLaw;
-use super::read_again::{gain_misread, reads_better, set_gain};
+use super::read_again::{gain_misread, opened, reads_better, set_gain};
 use super::search::{Data, Tried};
 use super::trials::{Alone, Progress, Trials};
 use super::verdict::{
-    EQUIVALENT, HELD_OUT, Verdict, WORTH_A_NAME, against, closes, could_show, does_something, is_noise,
-    joint_error, kinds, moved_unknown, name_of_number, names, worth_two,
+    EQUIVALENT, HELD_OUT, NOISE_AFTER, Verdict, WORTH_A_NAME, against, closes, could_show, does_something,
+    is_noise, joint_error, kinds, moved_unknown, name_of_number, names, worth_two,
 };
 use super::windows::{Window, is_readable, windows};
 use crate::error::{InputError, Result};
@@ -27,6 +27,8 @@ const WORTH_PAIRS: f64 = 60.0;
 const PLACE_SHARE: f64 = 0.3;
 /// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
 const KNOWN: f64 = 0.02;
+/// Windows that start with a joint open by less than the noise, for which everything is fitted again.
+const WORTH_OPENING: usize = 2;
 /// Times that patterns are read again without a sensor's gain.
 const READ_AGAIN: usize = 3;
 
@@ -83,6 +85,10 @@ pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result
         }
         (windows, alone) = (new_windows, new);
     }
+    if let Some(opened) = opened_windows(experiment, &windows, &alone) {
+        alone = alone_in(experiment, &opened, progress)?;
+        windows = opened;
+    }
     let trials = Trials { experiment, data: data(experiment, &windows), progress };
     let found = trials.judge(alone);
     let Found { verdict, before, recalibrated, after, equivalent, place, other_law, tried } = found;
@@ -93,6 +99,12 @@ pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result
 fn try_alone(experiment: &Experiment, progress: &impl Progress) -> Result<([Vec<Window>; 2], Alone)> {
     let (fit, held_out) = windows(&experiment.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
     let windows: [Vec<Window>; 2] = [fit, held_out];
+    let alone = alone_in(experiment, &windows, progress)?;
+    Ok((windows, alone))
+}
+
+/// What effects do to windows one by one.
+fn alone_in(experiment: &Experiment, windows: &[Vec<Window>; 2], progress: &impl Progress) -> Result<Alone> {
     let no_window = || {
         let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
         InputError::file(&experiment.path, "no window that starts in a pattern beyond doubt", allowed)
@@ -100,9 +112,31 @@ fn try_alone(experiment: &Experiment, progress: &impl Progress) -> Result<([Vec<
     if !experiment.tests.iter().any(|test| test.purpose == Purpose::Fit && is_readable(test)) {
         return Err(no_window().into());
     }
-    let trials = Trials { experiment, data: data(experiment, &windows), progress };
-    let alone = trials.alone().ok_or_else(no_window)?;
-    Ok((windows, alone))
+    let trials = Trials { experiment, data: data(experiment, windows), progress };
+    Ok(trials.alone().ok_or_else(no_window)?)
+}
+
+/// The windows with joints open that read as closed, where the best single effect does not follow the tests for them.
+fn opened_windows(
+    experiment: &Experiment,
+    [fit, held_out]: &[Vec<Window>; 2],
+    alone: &Alone,
+) -> Option<[Vec<Window>; 2]> {
+    let best = best_answer(&alone.singles)?;
+    if joint_error(best).is_none_or(|error| error < NOISE_AFTER) {
+        return None;
+    }
+    let of = |own: &Fit, windows: &[Window]| opened(&experiment.tests, best, own, windows);
+    let found = [of(&best.fit, fit), of(&best.held_out, held_out)];
+    let count = |new: &Option<Vec<Window>>, old: &[Window]| {
+        let changed = |new: &Vec<Window>| new.iter().zip(old).filter(|(n, o)| n.freedom != o.freedom).count();
+        new.as_ref().map_or(0, changed)
+    };
+    if count(&found[0], fit) + count(&found[1], held_out) < WORTH_OPENING {
+        return None;
+    }
+    let [new_fit, new_held_out] = found;
+    Some([new_fit.unwrap_or_else(|| fit.clone()), new_held_out.unwrap_or_else(|| held_out.clone())])
 }
 
 struct Found {

@@ -11,8 +11,8 @@ use super::verdict::names;
 /// Right names leave 6 and less, once 28; a quadratic drag called a damper 101 and 400, a loose mass 169.
 const BENT: f64 = 50.0;
 /// Gain in natural logarithms of likelihood that a trend of a named size with the amplitude may have. Right names have 9 and
-/// less, and one of 27 is lost to this; damping that grows with displacement called a damper, or a damper with other impacts, 37, 55 and 313.
-const TREND: f64 = 25.0;
+/// less, once 27; damping that grows with displacement called a damper, or a damper with other impacts, 37, 55 and 313.
+const TREND: f64 = 32.0;
 
 /// Signs of a law outside the catalogue.
 #[derive(Debug, Clone, PartialEq, Serialize)]

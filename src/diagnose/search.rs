@@ -106,11 +106,24 @@ fn glances(data: &Data, h: &Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Op
     Some(starts.iter().filter_map(|values| data.fit.glance(h, values, &from.fit, &chords)).collect())
 }
 
-/// A fit with the tests held out beside it, whose states alone are fitted.
+/// A fit with the tests held out beside it, whose states alone are fitted: from those of another hypothesis, and where that
+/// may be far from the truth, from those measured too.
 fn judged(data: &Data, hypothesis: Hypothesis, fit: Fit, from: &Tried, thorough: bool) -> Option<Tried> {
-    let x = states_of(&from.held_out);
-    let held_out = data.held_out.states(&hypothesis, &fit.values, &x, 3, thorough)?;
+    let states = |x: &[Vec<f64>]| data.held_out.states(&hypothesis, &fit.values, x, 3, thorough);
+    let mut held_out = states(&states_of(&from.held_out))?;
+    if thorough {
+        take_better(&mut held_out, states(&data.held_out.measured_states())?);
+    }
     Some(Tried { hypothesis, fit, held_out })
+}
+
+/// Takes the states of another fit of the same values in the windows where they are better.
+fn take_better(own: &mut Fit, other: Fit) {
+    for (mine, new) in own.windows.iter_mut().zip(other.windows) {
+        if new.squares < mine.squares {
+            *mine = new;
+        }
+    }
 }
 
 /// The model as it is, with nothing to find but the states.
@@ -198,11 +211,7 @@ pub fn shared_states(data: &Data, tried: &Tried, others: &[&Tried]) -> Tried {
             [(&data.fit, &mut best.fit, &other.fit), (&data.held_out, &mut best.held_out, &other.held_out)];
         for (problem, own, from) in sides {
             let Some(found) = problem.states(h, values, &states_of(from), 2, false) else { continue };
-            for (mine, new) in own.windows.iter_mut().zip(found.windows) {
-                if new.squares < mine.squares {
-                    *mine = new;
-                }
-            }
+            take_better(own, found);
         }
     }
     best
