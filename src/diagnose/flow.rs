@@ -126,7 +126,8 @@ fn opened_windows(
     if joint_error(best).is_none_or(|error| error < NOISE_AFTER) {
         return None;
     }
-    let of = |own: &Fit, windows: &[Window]| opened(&experiment.tests, best, own, windows);
+    let physics = best.hypothesis.physics(&best.fit.values)?;
+    let of = |own: &Fit, windows: &[Window]| opened(&experiment.tests, &physics, &own.windows, windows);
     let found = [of(&best.fit, fit), of(&best.held_out, held_out)];
     let count = |new: &Option<Vec<Window>>, old: &[Window]| {
         let changed = |new: &Vec<Window>| new.iter().zip(old).filter(|(n, o)| n.freedom != o.freedom).count();
