@@ -129,11 +129,7 @@ fn opened_windows(
     let physics = best.hypothesis.physics(&best.fit.values)?;
     let of = |own: &Fit, windows: &[Window]| opened(&experiment.tests, &physics, &own.windows, windows);
     let found = [of(&best.fit, fit), of(&best.held_out, held_out)];
-    let count = |new: &Option<Vec<Window>>, old: &[Window]| {
-        let changed = |new: &Vec<Window>| new.iter().zip(old).filter(|(n, o)| n.freedom != o.freedom).count();
-        new.as_ref().map_or(0, changed)
-    };
-    if count(&found[0], fit) + count(&found[1], held_out) < WORTH_OPENING {
+    if found.iter().flatten().flatten().filter(|window| window.opened).count() < WORTH_OPENING {
         return None;
     }
     let [new_fit, new_held_out] = found;

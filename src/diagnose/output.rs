@@ -147,7 +147,11 @@ fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
             "recalibrated": against(&data, &diagnosis.recalibrated),
             "after": against(&data, &diagnosis.after),
         },
-        "windows": {"fit": data.fit.windows.len(), "held_out": data.held_out.windows.len()},
+        "windows": {
+            "fit": data.fit.windows.len(),
+            "held_out": data.held_out.windows.len(),
+            "opened": diagnosis.windows.iter().flatten().filter(|window| window.opened).count(),
+        },
         "could_hide": could_hide(diagnosis),
         "confused": confused(&data, &diagnosis.recalibrated, &diagnosis.tried),
         "rivals": rivals,

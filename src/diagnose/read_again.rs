@@ -81,7 +81,7 @@ fn with_free_bodies(
     closed: &WindowFit,
 ) -> Option<Window> {
     let spread = [&window.spread[..], &window.spread].concat();
-    let free = Window { freedom: Freedom::Both, spread, ..window.clone() };
+    let free = Window { freedom: Freedom::Both, opened: true, spread, ..window.clone() };
     let starts = [&window.measured, &closed.x].map(|x| openings(&tests[window.test], window.freedom, x));
     let fits = starts.into_iter().flatten().map(|x| fit_window(replay, &free, &x, STEPS));
     let fit = fits.min_by(|a, b| a.squares.total_cmp(&b.squares))?;
@@ -142,6 +142,7 @@ mod tests {
             purpose: Purpose::Fit,
             samples: 0..COUNT,
             freedom,
+            opened: false,
             measured: measured.to_vec(),
             spread: [0.5 * NOISE_RAD, 5.0 * NOISE_RAD].repeat(measured.len() / 2),
         };

@@ -35,6 +35,8 @@ pub struct Window {
     pub samples: Range<usize>,
     /// What is free at its start.
     pub freedom: Freedom,
+    /// Whether both bodies are free though a joint reads as closed.
+    pub opened: bool,
     /// The state smoothed from the measurement: (θ, θ') of the free bodies.
     pub measured: Vec<f64>,
     /// Changes of these, within what the noise leaves open, over which sensitivities are taken.
@@ -118,6 +120,7 @@ fn window(index: usize, test: &TestData, samples: Range<usize>, start: &Measured
         test: index,
         purpose: test.purpose,
         freedom: start.freedom,
+        opened: false,
         measured: start.numbers.clone(),
         spread: spread.iter().copied().cycle().take(start.freedom.numbers()).collect(),
         samples,

@@ -98,6 +98,9 @@ fn notes(stored: &Stored) -> Vec<String> {
         let [lower, upper] = test.read_gain.map(number);
         notes.push(format!("Patterns were read without gains of the sensors that the tests showed: θ₁ times {lower}, θ₂ times {upper}."));
     }
+    if stored.windows.opened > 0 {
+        notes.push(format!("{} windows start with a joint open by less than the noise: it reads as closed, but so no wall followed them.", stored.windows.opened));
+    }
     if !stored.tests.iter().any(|test| test.purpose == "hold-out") {
         notes.push("No test was held out: nothing here was judged by data that the fit had not seen.".into());
     }

@@ -318,6 +318,7 @@ fn analytic_twin_with_nothing_hidden_is_none() {
     assert_eq!(found["verdict"], "none", "{found:#}");
     assert_confusions_are_told(&found);
     assert_eq!(found["effects"].as_array().expect("a list").len(), 0);
+    assert_eq!(found["windows"]["opened"], 0);
     assert!(!found["could_hide"].as_array().expect("a list").is_empty());
 }
 

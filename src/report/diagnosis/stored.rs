@@ -21,6 +21,8 @@ pub struct Stored {
     pub tests: Vec<StoredTest>,
     #[serde(default)]
     pub other_law: Option<StoredOtherLaw>,
+    #[serde(default)]
+    pub windows: StoredWindows,
     pub windowed_error: Steps,
     pub against: Option<Steps>,
     pub could_hide: Vec<StoredPower>,
@@ -30,6 +32,12 @@ pub struct Stored {
     pub missing_force: StoredForce,
     #[serde(default)]
     pub next_tests: Option<StoredNext>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub struct StoredWindows {
+    #[serde(default)]
+    pub opened: usize,
 }
 
 #[derive(Debug, Deserialize)]
