@@ -1,23 +1,32 @@
 //! Whether an effect has one size in small and in large motion; a law that imitates another has not.
 
 use nalgebra::{DMatrix, DVector};
+use serde::Serialize;
 
 use super::fit::{Fit, Problem, WindowSlopes};
 use super::hypothesis::Hypothesis;
 use super::robust::Loss;
 use super::search::{Data, Tried};
 
-/// Gain in natural logarithms of likelihood of a fitted hypothesis, over the windows fitted and held out, were one of its
-/// added numbers free to grow or shrink steadily with the largest rotation of a window; the largest of these gains.
+/// What an added number would be, were it free to grow or shrink steadily with the largest rotation of a window.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Trend {
+    /// Gain in natural logarithms of likelihood, over the windows fitted and held out.
+    pub nats: f64,
+    /// By how much the number is larger or smaller than in the middle where the wall turns most, over its size.
+    pub share: f64,
+}
+
+/// The trends of the added numbers of a fitted hypothesis.
 ///
-/// Linear about the fit. Factors of impacts are not asked: they come in sixes. None where there is nothing to ask.
-pub fn trend_with_amplitude(data: &Data, tried: &Tried) -> Option<f64> {
+/// Linear about the fit. Factors of impacts are not asked: they come in sixes. None where the slopes cannot be told.
+pub fn trends_with_amplitude(data: &Data, tried: &Tried) -> Option<Vec<Trend>> {
     let h = &tried.hypothesis;
     let sides = [(data.fit, &tried.fit), (data.held_out, &tried.held_out)];
     let slopes = slopes(h, &tried.fit, sides)?;
     let rank = ranks(&slopes.iter().map(|s| s.amplitude).collect::<Vec<_>>());
     let asked = (h.nuisances..h.unknowns.len()).filter(|&i| h.unknowns[i].prior_sd.is_none());
-    asked.filter_map(|i| gain(h, &tried.fit, &slopes, &rank, i)).reduce(f64::max)
+    Some(asked.filter_map(|i| trend(h, &tried.fit, &slopes, &rank, i)).collect())
 }
 
 /// A window with how far the wall turns in it, and the weight it has in the fit.
@@ -60,8 +69,8 @@ fn ranks(x: &[f64]) -> Vec<f64> {
     ranks
 }
 
-/// What a trend of the number `i` would gain beyond what another step of all numbers would.
-fn gain(h: &Hypothesis, fit: &Fit, slopes: &[Sloped], rank: &[f64], i: usize) -> Option<f64> {
+/// The trend of the number `i`; its gain is what goes beyond that of another step of all numbers.
+fn trend(h: &Hypothesis, fit: &Fit, slopes: &[Sloped], rank: &[f64], i: usize) -> Option<Trend> {
     let count = h.unknowns.len();
     let (mut a, mut g) = (DMatrix::zeros(count + 1, count + 1), DVector::zeros(count + 1));
     for (window, rank) in slopes.iter().zip(rank) {
@@ -78,7 +87,10 @@ fn gain(h: &Hypothesis, fit: &Fit, slopes: &[Sloped], rank: &[f64], i: usize) ->
         a[(k, k)] += 1e-12 / (unknown.scale * unknown.scale);
     }
     a[(count, count)] += 1e-12 / (h.unknowns[i].scale * h.unknowns[i].scale);
-    let won = |a: DMatrix<f64>, g: DVector<f64>| Some(0.5 * g.dot(&a.cholesky()?.solve(&g)));
-    let without = won(a.view((0, 0), (count, count)).into_owned(), g.rows(0, count).into_owned())?;
-    Some(won(a, g)? - without)
+    let step = |a: DMatrix<f64>, g: &DVector<f64>| Some(a.cholesky()?.solve(g));
+    let (first, own) = (a.view((0, 0), (count, count)).into_owned(), g.rows(0, count).into_owned());
+    let without = 0.5 * own.dot(&step(first, &own)?);
+    let all = step(a, &g)?;
+    let size = (fit.values[i] - h.unknowns[i].start).abs();
+    Some(Trend { nats: 0.5 * g.dot(&all) - without, share: all[count].abs() / size.max(f64::MIN_POSITIVE) })
 }

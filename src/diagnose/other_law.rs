@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::amplitude::trend_with_amplitude;
+use super::amplitude::{Trend, trends_with_amplitude};
 use super::force::{curve_left, force_points};
 use super::search::{Data, Tried};
 use super::verdict::names;
@@ -11,8 +11,11 @@ use super::verdict::names;
 /// Right names leave 6 and less, once 28; a quadratic drag called a damper 101 and 400, a loose mass 169.
 const BENT: f64 = 50.0;
 /// Gain in natural logarithms of likelihood that a trend of a named size with the amplitude may have. Right names have 9 and
-/// less, once 27; damping that grows with displacement called a damper, or a damper with other impacts, 37, 55 and 313.
-const TREND: f64 = 32.0;
+/// less, twice 27 and 51; damping that grows with displacement called a damper, or a damper with other impacts, 37, 55 and 313.
+const TREND: f64 = 25.0;
+/// Share of its size by which a named size may differ in large motion: at a noise of 1e-5 rad the finer points of a contact
+/// make a trend of a few percent; of another law it is a good part.
+const TREND_SHARE: f64 = 0.1;
 
 /// Signs of a law outside the catalogue.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -21,8 +24,9 @@ pub struct OtherLaw {
     pub looks_like: Vec<String>,
     /// See [`curve_left`].
     pub curve_left: Option<f64>,
-    /// See [`trend_with_amplitude`].
-    pub trend_with_amplitude_nats: Option<f64>,
+    /// See [`trends_with_amplitude`]: of the sizes that differ in large motion by more than a tenth, or else of all, that which
+    /// gains most.
+    pub trend_with_amplitude: Option<Trend>,
 }
 
 impl OtherLaw {
@@ -33,13 +37,18 @@ impl OtherLaw {
         Self {
             looks_like: names(named),
             curve_left: points.and_then(|points| curve_left(&points)),
-            trend_with_amplitude_nats: trend_with_amplitude(data, named),
+            trend_with_amplitude: trends_with_amplitude(data, named).and_then(largest),
         }
     }
 
     /// Whether the law cannot be the named one.
     pub fn speaks(&self) -> bool {
-        let beyond = |found: Option<f64>, limit: f64| found.is_some_and(|found| found > limit);
-        beyond(self.curve_left, BENT) || beyond(self.trend_with_amplitude_nats, TREND)
+        let bent = self.curve_left.is_some_and(|found| found > BENT);
+        bent || self.trend_with_amplitude.is_some_and(|trend| trend.nats > TREND && trend.share > TREND_SHARE)
     }
+}
+
+fn largest(trends: Vec<Trend>) -> Option<Trend> {
+    let clear = |trend: &Trend| trend.share > TREND_SHARE;
+    trends.into_iter().max_by(|a, b| clear(a).cmp(&clear(b)).then(a.nats.total_cmp(&b.nats)))
 }
