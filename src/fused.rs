@@ -3,6 +3,7 @@
 //!
 //! Rounded once on every processor: one without the instruction takes longer and gives the same bits.
 
+use fearless_simd::{Simd, SimdFloat, f64x4};
 use wide::f64x2;
 
 /// a b + c.
@@ -16,4 +17,10 @@ pub(crate) fn fused(a: f64, b: f64, c: f64) -> f64 {
 pub(crate) fn fused_pair(a: f64x2, b: f64x2, c: f64x2) -> f64x2 {
     let ([a_1, a_2], [b_1, b_2], [c_1, c_2]) = (a.to_array(), b.to_array(), c.to_array());
     f64x2::new([fused(a_1, b_1, c_1), fused(a_2, b_2, c_2)])
+}
+
+/// The same of the lanes of several walls.
+#[inline(always)]
+pub(crate) fn fused_lanes<S: Simd>(a: f64x4<S>, b: f64x4<S>, c: f64x4<S>) -> f64x4<S> {
+    a.mul_add_precise(b, c)
 }

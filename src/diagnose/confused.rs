@@ -18,7 +18,7 @@ const IMITATED: f64 = 0.9;
 /// Changes over which slopes are taken, in standard deviations of a number: well inside what the tests can tell.
 const CHANGE_SD: f64 = 1.0;
 /// A window whose change over half of that differs from half its change by more than this share is not linear there: an impact
-/// that is met on one side of the change only is no trace of anything. Chosen: a quarter of the two parts of a parabola.
+/// that is met on one side of the change only is no trace of anything. Chosen.
 const BENT: f64 = 0.25;
 
 /// An effect that another imitates in these tests.

@@ -85,9 +85,9 @@ pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result
         }
         (windows, alone) = (new_windows, new);
     }
-    if let Some(opened) = opened_windows(experiment, &windows, &alone) {
-        alone = alone_in(experiment, &opened, progress)?;
-        windows = opened;
+    if let Some(new_windows) = opened_windows(experiment, &windows, &alone) {
+        alone = alone_in(experiment, &new_windows, progress)?;
+        windows = new_windows;
     }
     let trials = Trials { experiment, data: data(experiment, &windows), progress };
     let found = trials.judge(alone);

@@ -11,10 +11,10 @@ use super::verdict::names;
 /// Right names leave 6 and less, once 28; a quadratic drag called a damper 101 and 400, a loose mass 169.
 const BENT: f64 = 50.0;
 /// Gain in natural logarithms of likelihood that a trend of a named size with the amplitude may have. Right names have 9 and
-/// less, twice 27 and 51; damping that grows with displacement called a damper, or a damper with other impacts, 37, 55 and 313.
+/// less, but at a noise of 1e-5 rad 27, 51 and 57; damping that grows with displacement called a damper, or a damper with other impacts, 37, 55 and 313.
 const TREND: f64 = 25.0;
-/// Share of its size by which a named size may differ in large motion: at a noise of 1e-5 rad the finer points of a contact
-/// make a trend of a few percent; of another law it is a good part.
+/// Share of its size by which a named size may differ in large motion: those right names have 0.4 to 2 % (the finer points of a
+/// contact), a quadratic drag called a damper 56 %.
 const TREND_SHARE: f64 = 0.1;
 
 /// Signs of a law outside the catalogue.
@@ -51,4 +51,22 @@ impl OtherLaw {
 fn largest(trends: Vec<Trend>) -> Option<Trend> {
     let clear = |trend: &Trend| trend.share > TREND_SHARE;
     trends.into_iter().max_by(|a, b| clear(a).cmp(&clear(b)).then(a.nats.total_cmp(&b.nats)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn speaks(trends: &[(f64, f64)]) -> bool {
+        let trends = trends.iter().map(|&(nats, share)| Trend { nats, share }).collect();
+        OtherLaw { looks_like: Vec::new(), curve_left: None, trend_with_amplitude: largest(trends) }.speaks()
+    }
+
+    #[test]
+    fn analytic_a_trend_speaks_where_it_is_both_sure_and_large() {
+        assert!(speaks(&[(240.0, 0.56)]));
+        assert!(!speaks(&[(51.0, 0.004)]) && !speaks(&[(9.0, 0.5)]) && !speaks(&[]));
+        // Of two numbers, the one that is surer does not hide the other.
+        assert!(speaks(&[(100.0, 0.01), (40.0, 0.3)]));
+    }
 }

@@ -106,8 +106,8 @@ fn glances(data: &Data, h: &Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Op
     Some(starts.iter().filter_map(|values| data.fit.glance(h, values, &from.fit, &chords)).collect())
 }
 
-/// A fit with the tests held out beside it, whose states alone are fitted: from those of another hypothesis, and where that
-/// may be far from the truth, from those measured too.
+/// A fit with the tests held out beside it, whose states alone are fitted: from those of another hypothesis, which may be far
+/// from the truth, and where it is thorough from those measured too.
 fn judged(data: &Data, hypothesis: Hypothesis, fit: Fit, from: &Tried, thorough: bool) -> Option<Tried> {
     let states = |x: &[Vec<f64>]| data.held_out.states(&hypothesis, &fit.values, x, 3, thorough);
     let mut held_out = states(&states_of(&from.held_out))?;

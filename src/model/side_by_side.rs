@@ -8,7 +8,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
 use super::balance::Aftermath;
 use super::joint::{JointForce, JointForces};
@@ -16,6 +16,7 @@ use super::mass_matrix::Freedom;
 use super::motion::Motion;
 use super::vector::{COS, SIN, sin_cos};
 use super::wall::G_M_S2;
+use crate::fused::fused_lanes as fused;
 
 /// Walls side by side; eight do not fit the registers of every x86-64 and take longer.
 pub(crate) const LANES: usize = 4;
@@ -97,12 +98,6 @@ impl Motion {
     }
 }
 
-/// a b + c, rounded once by any processor.
-#[inline(always)]
-pub(crate) fn fused<S: Simd>(a: F<S>, b: F<S>, c: F<S>) -> F<S> {
-    a.mul_add_precise(b, c)
-}
-
 /// As [`super::vector::Vector::moment_of`].
 #[inline(always)]
 fn moment<S: Simd>(arm: [F<S>; 2], force: [F<S>; 2]) -> F<S> {
@@ -121,9 +116,9 @@ fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
     }
     let z = theta * theta;
     let zz = z * z;
-    let [one, half] = [F::splat(theta.simd, 1.0), F::splat(theta.simd, -0.5)];
+    let [one, minus_half] = [F::splat(theta.simd, 1.0), F::splat(theta.simd, -0.5)];
     let sin = fused(theta * z, polynomial(&SIN, z, zz), theta);
-    (sin, fused(zz, polynomial(&COS, z, zz), fused(z, half, one)))
+    (sin, fused(zz, polynomial(&COS, z, zz), fused(z, minus_half, one)))
 }
 
 /// In the order of [`sin_cos`].

@@ -8,7 +8,8 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
 use super::response::Response;
 use super::run::{Asked, Run};
-use crate::model::{Aftermath, AftermathLanes, LANES, Motions, TurnedLanes, fused, lanes};
+use crate::fused::fused_lanes;
+use crate::model::{Aftermath, AftermathLanes, LANES, Motions, TurnedLanes, lanes};
 use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
 
 type F<S> = f64x4<S>;
@@ -37,12 +38,12 @@ impl<S: Simd> Values for One<S> {
 
     #[inline(always)]
     fn over_plus(self, length: F<S>, other: Self) -> Self {
-        Self(fused(self.0, length, other.0))
+        Self(fused_lanes(self.0, length, other.0))
     }
 
     #[inline(always)]
     fn times_plus(self, factor: f64, other: Self) -> Self {
-        Self(fused(self.0, F::splat(self.0.simd, factor), other.0))
+        Self(fused_lanes(self.0, F::splat(self.0.simd, factor), other.0))
     }
 }
 
@@ -63,7 +64,7 @@ impl<S: Simd> Values for Two<S> {
 
     #[inline(always)]
     fn over_plus(self, length: F<S>, other: Self) -> Self {
-        Self([fused(self.0[0], length, other.0[0]), fused(self.0[1], length, other.0[1])])
+        Self([fused_lanes(self.0[0], length, other.0[0]), fused_lanes(self.0[1], length, other.0[1])])
     }
 
     #[inline(always)]
