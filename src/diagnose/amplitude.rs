@@ -3,8 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-use super::fit::{Fit, Problem, WindowSlopes};
+use super::fit::{Fit, Problem};
 use super::hypothesis::Hypothesis;
+use super::linear::WindowSlopes;
 use super::robust::Loss;
 use super::search::{Data, Tried};
 

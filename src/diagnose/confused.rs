@@ -8,8 +8,9 @@ use nalgebra::DMatrix;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::fit::{Fit, WindowSlopes};
+use super::fit::Fit;
 use super::hypothesis::Addition;
+use super::linear::WindowSlopes;
 use super::search::{Data, Tried};
 use super::verdict::{DETECTED, EQUIVALENT};
 

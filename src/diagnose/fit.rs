@@ -7,10 +7,11 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::hypothesis::Hypothesis;
+use super::linear::{Linear, first_changes, next_changes};
 use super::replay::Replay;
 use super::robust::Loss;
 use super::test_data::TestData;
-use super::window_fit::{POOR, WindowFit, fit_window, newton_step, other_valleys, state_jacobian};
+use super::window_fit::{WindowFit, fit_window, newton_step, other_valleys, state_jacobian};
 use super::windows::Window;
 
 /// When to end the steps with one loss.
@@ -32,14 +33,7 @@ const FIRST_DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 10.0;
 const TRIES: usize = 5;
 /// Share of poor windows above which no other valleys are looked for.
-const MOST_POOR: f64 = 0.4;
-/// A sensitivity is taken over a change of the residuals of this many standard deviations of the noise ...
-const CHANGE: f64 = 0.3;
-/// ... and over these shares of a number's scale.
-const CHANGE_SHARES: [f64; 2] = [1e-6, 0.05];
-/// The same share before anything is known.
-const FIRST_CHANGE_SHARE: f64 = 1e-3;
-
+const MOST_POOR: f64 = 0.3;
 /// A fitted hypothesis.
 #[derive(Debug, Clone)]
 pub struct Fit {
@@ -53,6 +47,14 @@ pub struct Fit {
     pub covariance: Option<DMatrix<f64>>,
 }
 
+impl Fit {
+    /// Whether the model, and not the states it was given, is what misses the windows.
+    pub fn misses_many(&self) -> bool {
+        let poor = self.windows.iter().filter(|w| w.is_poor()).count();
+        poor as f64 > MOST_POOR * self.windows.len() as f64
+    }
+}
+
 /// Windows of some tests.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
@@ -62,43 +64,7 @@ pub struct Problem<'a> {
     pub windows: &'a [Window],
 }
 
-/// One window, linear about a state and values.
-struct Linear {
-    jx: DMatrix<f64>,
-    jp: DMatrix<f64>,
-    r: DVector<f64>,
-    /// Jp and r without what the state can do.
-    jp_left: DMatrix<f64>,
-    r_left: DVector<f64>,
-}
-
-/// One window about a fit, without what its state can do: the residuals, and how they change with the values.
-#[derive(Debug, Clone)]
-pub struct WindowSlopes {
-    /// Residuals, in standard deviations of the noise.
-    pub residual: DVector<f64>,
-    /// Their derivatives, a column a value.
-    pub by_values: DMatrix<f64>,
-}
-
 impl Problem<'_> {
-    /// How each window of a fit changes with the values, and the changes of the values over which that was taken: the
-    /// given ones, or fitting ones. None if a neighbour is no wall.
-    pub fn slopes(
-        &self,
-        h: &Hypothesis,
-        fit: &Fit,
-        changes: Option<&[f64]>,
-    ) -> Option<(Vec<WindowSlopes>, Vec<f64>)> {
-        let changes = match changes {
-            Some(changes) => changes.to_vec(),
-            None => next_changes(h, &self.linear(h, fit, &first_changes(h))?),
-        };
-        let linear = self.linear(h, fit, &changes)?;
-        let of = |l: Linear| WindowSlopes { residual: l.r_left, by_values: l.jp_left };
-        Some((linear.into_iter().map(of).collect(), changes))
-    }
-
     /// The states as measured.
     pub fn measured_states(&self) -> Vec<Vec<f64>> {
         self.windows.iter().map(|w| w.measured.clone()).collect()
@@ -148,18 +114,17 @@ impl Problem<'_> {
     ) -> Option<Fit> {
         let replay = Replay::new(self.tests, &h.physics(values)?);
         let fit = |(window, x): (&Window, &Vec<f64>)| fit_window(&replay, window, x, steps);
-        let mut windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
-        let poor = windows.iter().filter(|w| w.reduced() > POOR).count();
+        let windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
+        let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
         // A model that misses most windows is not in the wrong valley of each.
-        if thorough && poor as f64 <= MOST_POOR * windows.len() as f64 {
+        if thorough && !found.misses_many() {
             let search = |(window, fit): (&Window, &mut WindowFit)| {
-                if fit.reduced() > POOR {
+                if fit.is_poor() {
                     *fit = other_valleys(&replay, window, fit, steps);
                 }
             };
-            self.windows.par_iter().zip(&mut windows).for_each(search);
+            self.windows.par_iter().zip(&mut found.windows).for_each(search);
         }
-        let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
         found.cost = cost(h, &found, Loss::NEAR);
         Some(found)
     }
@@ -222,32 +187,6 @@ impl Problem<'_> {
             }
         }
         fit
-    }
-
-    /// Every window, linear about the fit; none if a neighbour is no wall.
-    fn linear(&self, h: &Hypothesis, fit: &Fit, changes: &[f64]) -> Option<Vec<Linear>> {
-        let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
-        let neighbours = h.unknowns.iter().zip(changes).enumerate().map(|(i, (unknown, change))| {
-            let change = if fit.values[i] + change <= unknown.upper { *change } else { -change };
-            let mut values = fit.values.clone();
-            values[i] += change;
-            Some((Replay::new(self.tests, &h.physics(&values)?), change))
-        });
-        let neighbours = neighbours.collect::<Option<Vec<_>>>()?;
-        let linear = |(window, state): (&Window, &WindowFit)| {
-            let r = replay.residual(window, &state.x);
-            let jx = state_jacobian(&replay, window, &state.x, &r);
-            let column = |(other, change): &(Replay, f64)| (other.residual(window, &state.x) - &r) / *change;
-            let jp = DMatrix::from_columns(&neighbours.iter().map(column).collect::<Vec<_>>());
-            let (mut jp_left, mut r_left) = (jp.clone(), r.clone());
-            if jx.ncols() > 0 {
-                let q = jx.clone().qr().q();
-                r_left -= &q * (q.transpose() * &r);
-                jp_left -= &q * (q.transpose() * &jp);
-            }
-            Linear { jx, jp, r, jp_left, r_left }
-        };
-        Some(self.windows.par_iter().zip(&fit.windows).map(linear).collect())
     }
 
     /// One damped step of the numbers; the states go with it as the linear windows say, and once more from there.
@@ -340,21 +279,4 @@ fn normal_equations(
         a[(i, i)] += 1e-12 / (unknown.scale * unknown.scale);
     }
     (a, g)
-}
-
-fn first_changes(h: &Hypothesis) -> Vec<f64> {
-    h.unknowns.iter().map(|u| FIRST_CHANGE_SHARE * u.scale).collect()
-}
-
-/// Changes of the numbers over which the next sensitivities are taken: small beside the noise in most windows.
-fn next_changes(h: &Hypothesis, linear: &[Linear]) -> Vec<f64> {
-    let of = |(i, unknown): (usize, &super::hypothesis::Unknown)| {
-        let size = |l: &Linear| (l.jp_left.column(i).norm_squared() / l.r.len() as f64).sqrt();
-        let mut sizes = linear.iter().map(size).collect::<Vec<_>>();
-        sizes.sort_by(f64::total_cmp);
-        let upper = sizes[sizes.len() * 9 / 10];
-        let [least, most] = CHANGE_SHARES.map(|share| share * unknown.scale);
-        if upper > 0.0 { (CHANGE / upper).clamp(least, most) } else { most }
-    };
-    h.unknowns.iter().enumerate().map(of).collect()
 }

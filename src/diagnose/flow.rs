@@ -4,14 +4,14 @@ use super::candidates::candidates;
 use super::experiment::Experiment;
 use super::fit::{Fit, Problem};
 use super::force::{acts_at_top, force_points};
-use super::hypothesis::{Addition, Nuisance};
+use super::hypothesis::{Addition, Hypothesis, Nuisance};
 use super::other_law::OtherLaw;
 use super::read_again::{gain_misread, opened, reads_better, set_gain};
-use super::search::{Data, Tried};
+use super::search::{Data, Tried, untouched};
 use super::trials::{Alone, Progress, Trials};
 use super::verdict::{
-    EQUIVALENT, HELD_OUT, NOISE_AFTER, Verdict, WORTH_A_NAME, against, closes, could_show, does_something,
-    is_noise, joint_error, kinds, moved_unknown, name_of_number, names, worth_two,
+    EQUIVALENT, HELD_OUT, Verdict, WORTH_A_NAME, against, closes, could_show, does_something, is_noise,
+    joint_error, kinds, moved_unknown, name_of_number, names, worth_two,
 };
 use super::windows::{Window, is_readable, windows};
 use crate::error::{InputError, Result};
@@ -86,7 +86,7 @@ pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result
         (windows, alone) = (new_windows, new);
     }
     if let Some(new_windows) = opened_windows(experiment, &windows, &alone) {
-        alone = alone_in(experiment, &new_windows, progress)?;
+        alone = alone_in(experiment, &new_windows, Some(&alone.recalibrated.fit.values), progress)?;
         windows = new_windows;
     }
     let trials = Trials { experiment, data: data(experiment, &windows), progress };
@@ -99,12 +99,18 @@ pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result
 fn try_alone(experiment: &Experiment, progress: &impl Progress) -> Result<([Vec<Window>; 2], Alone)> {
     let (fit, held_out) = windows(&experiment.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
     let windows: [Vec<Window>; 2] = [fit, held_out];
-    let alone = alone_in(experiment, &windows, progress)?;
+    let windows = opened_as_given(experiment, &windows).unwrap_or(windows);
+    let alone = alone_in(experiment, &windows, None, progress)?;
     Ok((windows, alone))
 }
 
-/// What effects do to windows one by one.
-fn alone_in(experiment: &Experiment, windows: &[Vec<Window>; 2], progress: &impl Progress) -> Result<Alone> {
+/// What effects do to windows one by one, where values of the wall's uncertain numbers may be known from other windows.
+fn alone_in(
+    experiment: &Experiment,
+    windows: &[Vec<Window>; 2],
+    known: Option<&[f64]>,
+    progress: &impl Progress,
+) -> Result<Alone> {
     let no_window = || {
         let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
         InputError::file(&experiment.path, "no window that starts in a pattern beyond doubt", allowed)
@@ -113,27 +119,41 @@ fn alone_in(experiment: &Experiment, windows: &[Vec<Window>; 2], progress: &impl
         return Err(no_window().into());
     }
     let trials = Trials { experiment, data: data(experiment, windows), progress };
-    Ok(trials.alone().ok_or_else(no_window)?)
+    Ok(trials.alone(known).ok_or_else(no_window)?)
 }
 
-/// The windows with joints open that read as closed, where the best single effect does not follow the tests for them.
+/// The windows with joints open that read as closed, where the wall as given follows them so: a small gap does not show
+/// beside windows that no wall follows.
+fn opened_as_given(experiment: &Experiment, windows: &[Vec<Window>; 2]) -> Option<[Vec<Window>; 2]> {
+    let wall = Hypothesis::new(experiment.wall.parameters(), &experiment.scales, &[], &[]);
+    let as_given = untouched(&data(experiment, windows), wall)?;
+    if as_given.fit.misses_many() {
+        return None;
+    }
+    opened_under(experiment, windows, &as_given).map(|(windows, _)| windows)
+}
+
+/// The same for the best single effect, where it opens enough of them for everything to be fitted again.
 fn opened_windows(
     experiment: &Experiment,
-    [fit, held_out]: &[Vec<Window>; 2],
+    windows: &[Vec<Window>; 2],
     alone: &Alone,
 ) -> Option<[Vec<Window>; 2]> {
-    let best = best_answer(&alone.singles)?;
-    if joint_error(best).is_none_or(|error| error < NOISE_AFTER) {
-        return None;
-    }
-    let physics = best.hypothesis.physics(&best.fit.values)?;
+    let (windows, count) = opened_under(experiment, windows, best_answer(&alone.singles)?)?;
+    (count >= WORTH_OPENING).then_some(windows)
+}
+
+/// The windows with those that a hypothesis follows once their joints are open, and how many these are.
+fn opened_under(
+    experiment: &Experiment,
+    [fit, held_out]: &[Vec<Window>; 2],
+    tried: &Tried,
+) -> Option<([Vec<Window>; 2], usize)> {
+    let physics = tried.hypothesis.physics(&tried.fit.values)?;
     let of = |own: &Fit, windows: &[Window]| opened(&experiment.tests, &physics, &own.windows, windows);
-    let found = [of(&best.fit, fit), of(&best.held_out, held_out)];
-    if found.iter().flatten().flatten().filter(|window| window.opened).count() < WORTH_OPENING {
-        return None;
-    }
-    let [new_fit, new_held_out] = found;
-    Some([new_fit.unwrap_or_else(|| fit.clone()), new_held_out.unwrap_or_else(|| held_out.clone())])
+    let found = [of(&tried.fit, fit), of(&tried.held_out, held_out)];
+    let count = found.iter().map(|(_, count)| count).sum();
+    Some((found.map(|(windows, _)| windows), count))
 }
 
 struct Found {
@@ -211,6 +231,7 @@ impl<P: Progress> Trials<'_, P> {
             let two = self.named(&pairs, gap, &single).filter(|(_, two, _)| worth_two(data, &single, two));
             tried.extend(pairs);
             if let Some((verdict, after, equivalent)) = two.or(one) {
+                let after = self.settled(after);
                 let signs = OtherLaw::beside(data, &after);
                 let speaks = signs.speaks();
                 other_law = Some(signs);

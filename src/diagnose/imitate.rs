@@ -57,6 +57,39 @@ pub fn imitations(
     Some(found)
 }
 
+/// Every one of `candidates` of one number beside the best, the one that takes away most first, with values of all added
+/// numbers; none where its neighbourhood is no wall.
+pub fn seconds(
+    data: &Data,
+    best: &Tried,
+    candidates: &[Addition],
+    hypothesis: impl Fn(&[Addition]) -> Hypothesis,
+) -> Option<Vec<Imitation>> {
+    let own = &best.hypothesis.additions;
+    let kinds = own.iter().map(Addition::kind).collect::<Vec<_>>();
+    let others = candidates.iter().filter(|c| !kinds.contains(&c.kind())).copied();
+    let h = hypothesis(&own.iter().copied().chain(others).collect::<Vec<_>>());
+    let known = best.fit.values.len();
+    let mut values = h.start();
+    values[..known].copy_from_slice(&best.fit.values);
+    let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
+    let sums = Sums::new(data, &h, &at)?;
+    let beside = |[index, number]: &[usize; 2]| {
+        let (left, steps) = sums.left(known, &[], &[*number])?;
+        let unknown = &h.unknowns[*number];
+        let value = unknown.start + steps[0];
+        let additions = own.iter().copied().chain([h.additions[*index]]).collect();
+        let values = best.fit.values[h.nuisances..].iter().copied().chain([value]).collect();
+        let within = (unknown.lower..=unknown.upper).contains(&value);
+        within.then_some(Imitation { additions, values, left })
+    };
+    let numbers = single_numbers(&h);
+    let mut found =
+        numbers.iter().filter(|[index, _]| *index >= own.len()).filter_map(beside).collect::<Vec<_>>();
+    found.sort_by(|a, b| a.left.total_cmp(&b.left));
+    Some(found)
+}
+
 /// Additions of one number, by their index, with the index of that number.
 fn single_numbers(h: &Hypothesis) -> Vec<[usize; 2]> {
     let number = |index: usize| {
@@ -105,17 +138,19 @@ impl Sums {
     }
 
     /// What is left where some numbers are moved by given amounts and the first `own` numbers and some more are free, and
-    /// where these go; none where they leave no trace.
+    /// where the latter go; none where these leave no trace.
     fn left(&self, own: usize, moved: &[(usize, f64)], more: &[usize]) -> Option<(f64, Vec<f64>)> {
         let mut step = DVector::zeros(self.jr.len());
         moved.iter().for_each(|(i, by)| step[*i] = *by);
         let gradient = &self.jr + &self.jj * &step;
         let fixed = self.rr + 2.0 * self.jr.dot(&step) + step.dot(&(&self.jj * &step));
-        let free = (0..own).chain(more.iter().copied()).collect::<Vec<_>>();
-        let scale = free.iter().map(|i| self.jj[(*i, *i)].sqrt()).collect::<Vec<_>>();
-        if scale.iter().any(|s| *s <= 0.0) {
+        let traced = |i: &usize| self.jj[(*i, *i)] > 0.0;
+        if !more.iter().all(traced) {
             return None;
         }
+        let own = (0..own).filter(traced).collect::<Vec<_>>();
+        let free = own.iter().chain(more).copied().collect::<Vec<_>>();
+        let scale = free.iter().map(|i| self.jj[(*i, *i)].sqrt()).collect::<Vec<_>>();
         let count = free.len();
         // Columns of length one: two that are each other's double must not stop the solution.
         let a = DMatrix::from_fn(count, count, |m, n| {
@@ -123,7 +158,7 @@ impl Sums {
         });
         let g = DVector::from_fn(count, |m, _| gradient[free[m]] / scale[m]);
         let x = -a.cholesky()?.solve(&g);
-        Some((fixed + g.dot(&x), (own..count).map(|m| x[m] / scale[m]).collect()))
+        Some((fixed + g.dot(&x), (own.len()..count).map(|m| x[m] / scale[m]).collect()))
     }
 }
 

@@ -15,7 +15,9 @@ const SIZES: Sizes =
     Sizes { one: &[0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 1.6], each_of_two: &[0.05, 0.1, 0.2, 0.4, 0.8, 1.6] };
 /// Enough to see whether an addition would help.
 const FEW_SIZES: Sizes = Sizes { one: &[0.05, 0.3], each_of_two: &[0.15, 0.6] };
-/// Most starts of two added numbers that are fitted coarsely.
+/// Most numbers of a second addition that a glance tells of.
+const MOST_AT_A_GLANCE: usize = 2;
+/// Most starts of two or more added numbers that are fitted coarsely.
 const BEGUN: usize = 3;
 
 /// A hypothesis, fitted, and judged on tests that the fit has not seen.
@@ -82,12 +84,12 @@ pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Opti
 
 /// The best coarse fit from starts about `base` that move the numbers from the `first` on; starts are compared at a glance.
 ///
-/// Of two numbers, several sizes of the second are fitted: a spring that yields at too large a force does not feel that
+/// Of two numbers or more, several sizes of the last are fitted: a spring that yields at too large a force does not feel that
 /// force at all.
 fn best_coarse(data: &Data, h: &Hypothesis, from: &Tried, base: &[f64], first: usize) -> Option<Fit> {
     let mut glances = glances(data, h, from, &ladder(h, base, first, &SIZES))?;
     glances.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let most = if h.unknowns.len() - first == 2 { BEGUN } else { 1 };
+    let most = if h.unknowns.len() - first >= 2 { BEGUN } else { 1 };
     // Equal costs are one motion: a spring yields at neither force.
     let same = |a: &Fit, b: &Fit| a.values.last() == b.values.last() || a.cost == b.cost;
     let mut begun: Vec<Fit> = Vec::new();
@@ -137,7 +139,8 @@ fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
     fit.windows.iter().map(|w| w.x.clone()).collect()
 }
 
-/// Starts about `start`: itself, and the numbers from the `first` on, one or two, at several sizes; one of either sign.
+/// Starts about `start`: itself, and the numbers from the `first` on, one, two, or more moved together, at several sizes; one,
+/// or all together, of either sign.
 fn ladder(h: &Hypothesis, start: &[f64], first: usize, sizes: &Sizes) -> Vec<Vec<f64>> {
     let moved = |values: &[f64], i: usize, by: f64| {
         let unknown = &h.unknowns[i];
@@ -159,7 +162,15 @@ fn ladder(h: &Hypothesis, start: &[f64], first: usize, sizes: &Sizes) -> Vec<Vec
             };
             starts.extend(one.flat_map(two));
         }
-        _ => {}
+        0 => {}
+        // Factors of impacts: all less, or more, than they were.
+        _ => {
+            let shares = sizes.one.iter().flat_map(|share| [*share, -share]);
+            let all = |share: f64| {
+                (first..h.unknowns.len()).try_fold(start.to_vec(), |values, i| moved(&values, i, share))
+            };
+            starts.extend(shares.filter_map(all));
+        }
     }
     starts
 }
@@ -175,10 +186,10 @@ pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, values: &[f64]) 
 /// would tell.
 pub fn promise(data: &Data, hypothesis: &Hypothesis, first: &Tried) -> Option<f64> {
     let (base, second) = beside(hypothesis, first);
-    let starts = ladder(hypothesis, &base, second, &FEW_SIZES);
-    if starts.len() == 1 {
+    if hypothesis.unknowns.len() - second > MOST_AT_A_GLANCE {
         return None;
     }
+    let starts = ladder(hypothesis, &base, second, &FEW_SIZES);
     glances(data, hypothesis, first, &starts)?.iter().map(|fit| fit.cost).min_by(f64::total_cmp)
 }
 

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::candidates::candidates;
 use super::experiment::Experiment;
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
-use super::imitate::{Imitation, imitations};
+use super::imitate::{Imitation, imitations, seconds};
 use super::search::{
     Data, Tried, finish, promise, refit, shared_states, try_coarsely, try_hypothesis, try_second, untouched,
 };
@@ -15,6 +15,8 @@ use super::verdict::{against, closes, kinds};
 /// came eighth.
 const IMITATIONS: usize = 8;
 const SINGLE_IMITATIONS: usize = 4;
+/// Effects fitted beside the best single one because a linear look says that they take away most.
+const BESIDE: usize = 4;
 /// Coarse fits that are always finished, and at most; between them those this near the best, in natural logarithms of
 /// likelihood.
 const FINISHED: [usize; 2] = [6, 12];
@@ -66,8 +68,9 @@ impl<P: Progress> Trials<'_, P> {
         Hypothesis::new(self.experiment.wall.parameters(), &self.experiment.scales, nuisances, additions)
     }
 
-    /// Everything that is tried alone; none if there is no window to start in.
-    pub fn alone(&self) -> Option<Alone> {
+    /// Everything that is tried alone; none if there is no window to start in. The wall's uncertain numbers are fitted from
+    /// values `known` from elsewhere too.
+    pub fn alone(&self, known: Option<&[f64]>) -> Option<Alone> {
         let nuisances = &self.experiment.nuisances;
         self.progress.step("the wall as given", 2);
         let before = untouched(&self.data, self.hypothesis(&[], &[]))?;
@@ -77,6 +80,9 @@ impl<P: Progress> Trials<'_, P> {
             return Some(Alone { before, recalibrated, singles: Vec::new() });
         }
         let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before)?;
+        let known = known.and_then(|v| refit(&self.data, self.hypothesis(nuisances, &[]), &before, v));
+        let better = known.filter(|known| against(&self.data, known) < against(&self.data, &recalibrated));
+        let recalibrated = better.unwrap_or(recalibrated);
         self.progress.fitted();
         let (recalibrated, singles) = self.singles(&before, recalibrated);
         let best = singles.iter().take(SHARING).collect::<Vec<_>>();
@@ -91,10 +97,10 @@ impl<P: Progress> Trials<'_, P> {
         let additions = candidates(self.experiment.wall.parameters());
         let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
         let singles = self.try_all("single effects", nuisances, &self.starts(before, &recalibrated), &sets);
-        let singles = self.polished(nuisances, before, singles, &recalibrated);
         let nearest = singles.iter().take(PARTS);
         let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, whole));
         if against(&self.data, &recalibrated) - against(&self.data, &better) < WORTH_POLISH {
+            let singles = self.polished(nuisances, before, singles, &better);
             return (better, singles);
         }
         // What was tried before had missed the same; the best need not have.
@@ -247,8 +253,21 @@ impl<P: Progress> Trials<'_, P> {
         };
         let tried = pairs.par_iter().filter_map(try_one).collect();
         let tried = self.finished(self.ordered(tried));
+        let nearest = self.beside(answers.first().copied().unwrap_or(single));
+        let tried = self.best_of_each([tried, nearest].concat());
         let tried = self.polished(&self.experiment.nuisances, before, tried, single);
         self.with_imitations(tried, gap)
+    }
+
+    /// The best single effect with those that take away most beside it, as far as a linear look tells.
+    fn beside(&self, first: &Tried) -> Vec<Tried> {
+        let hypothesis = |additions: &[Addition]| self.hypothesis(&self.experiment.nuisances, additions);
+        let effects = candidates(self.experiment.wall.parameters());
+        let effects = effects.into_iter().filter(|a| a.kind().is_some()).collect::<Vec<_>>();
+        let Some(found) = seconds(&self.data, first, &effects, hypothesis) else { return Vec::new() };
+        let found = found.into_iter().take(BESIDE).collect::<Vec<_>>();
+        self.progress.step("what helps most beside the best", found.len());
+        found.par_iter().filter_map(|imitation| self.fit_from(imitation, first)).collect()
     }
 
     /// Single effects or pairs, and where the best closes the gap, what may stand for it, from where it would.
@@ -269,16 +288,18 @@ impl<P: Progress> Trials<'_, P> {
         let new = imitations.into_iter().filter(|i| one || !fitted_before(i));
         let new = new.take(if one { SINGLE_IMITATIONS } else { IMITATIONS }).collect::<Vec<_>>();
         self.progress.step("what may stand for the best", new.len());
-        let fit = |imitation: &Imitation| {
-            let h = self.hypothesis(nuisances, &imitation.additions);
-            let mut values = h.values_from(&best.hypothesis, &best.fit.values);
-            values[h.nuisances..].copy_from_slice(&imitation.values);
-            let tried = refit(&self.data, h, best, &values);
-            self.progress.fitted();
-            tried
-        };
-        let fitted = new.par_iter().filter_map(fit).collect::<Vec<_>>();
+        let fitted = new.par_iter().filter_map(|i| self.fit_from(i, best)).collect::<Vec<_>>();
         self.sharing(self.best_of_each([tried, fitted].concat()))
+    }
+
+    /// Fits additions from the values that a linear look about another hypothesis gave them.
+    fn fit_from(&self, imitation: &Imitation, about: &Tried) -> Option<Tried> {
+        let h = self.hypothesis(&self.experiment.nuisances, &imitation.additions);
+        let mut values = h.values_from(&about.hypothesis, &about.fit.values);
+        values[h.nuisances..].copy_from_slice(&imitation.values);
+        let tried = refit(&self.data, h, about, &values);
+        self.progress.fitted();
+        tried
     }
 
     /// The hypotheses near the best with the states that each of them found: a window near an impact that the noise decides

@@ -11,11 +11,14 @@ use super::windows::Window;
 const SHORTER: [f64; 4] = [1.0, 0.4, 0.16, 0.06];
 /// Gain in the sum of squares, in squared noise, that is not worth another step.
 const LITTLE: f64 = 0.5;
-/// Reduced chi-square above which other starts are tried: an impact just missed or just met has valleys of its own.
-pub const POOR: f64 = 2.0;
+/// Standard deviations of what noise leaves by which a window is followed badly: other starts are tried, for an impact just
+/// missed or just met has valleys of its own.
+const POOR_SD: f64 = 5.0;
+/// Share of the spread of a smoothed state over which sensitivities to it are taken.
+const CHANGE_SHARE: f64 = 0.1;
 /// Other starts drawn about the smoothed state, and how many of the best are refined.
-const DRAWS: usize = 16;
-const REFINED: usize = 2;
+const DRAWS: usize = 32;
+const REFINED: usize = 3;
 
 /// A window with its state fitted.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,16 +36,22 @@ impl WindowFit {
     pub fn reduced(&self) -> f64 {
         self.squares / self.freedom
     }
+
+    /// Whether noise alone does not leave so much: the squared error of noise has twice its freedom as variance.
+    pub fn is_poor(&self) -> bool {
+        self.reduced() > 1.0 + POOR_SD * (2.0 / self.freedom).sqrt()
+    }
 }
 
-/// Sensitivity of the residuals r at x to the state, over the spread of the smoothed state: well inside the noise, where
-/// one-sided differences do.
+/// Sensitivity of the residuals r at x to the state, over a share of the spread of the smoothed state: so far inside the noise
+/// that one-sided differences do.
 pub fn state_jacobian(replay: &Replay, window: &Window, x: &[f64], r: &DVector<f64>) -> DMatrix<f64> {
     let mut jacobian = DMatrix::zeros(r.len(), x.len());
     for (i, h) in window.spread.iter().enumerate() {
         let mut y = x.to_vec();
+        let h = CHANGE_SHARE * h;
         y[i] += h;
-        jacobian.set_column(i, &((replay.residual(window, &y) - r) / *h));
+        jacobian.set_column(i, &((replay.residual(window, &y) - r) / h));
     }
     jacobian
 }
