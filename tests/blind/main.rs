@@ -104,7 +104,10 @@ fn make_and_diagnose(
     program: Option<&diagnose::Program>,
 ) -> Result<(), String> {
     // The answer is written last: with it a case is whole.
-    if !folder.join("answer.json").is_file() {
+    let answer = folder.join("answer.json");
+    if answer.is_file() {
+        cases::folder::is_this(case, &answer)?;
+    } else {
         cases::folder::write(case, motions, folder)?;
     }
     program.map_or(Ok(()), |program| program.diagnose(folder))

@@ -247,14 +247,28 @@ fn its_folder_is_whole(out: &Path) {
     assert_eq!(inputs.len(), 2 + 3 * 2, "experiment, wall, and of each test a record and a measurement");
     let mut names = std::fs::read_dir(out).expect("a folder").map(|e| e.expect("an entry").file_name());
     assert!(names.all(|name| !name.to_string_lossy().starts_with('.')), "nothing unfinished is left");
+    the_median_whole_run_is_followed(out);
+}
+
+/// One of the three tests parts from every simulation for the smallest cause; their median does not.
+fn the_median_whole_run_is_followed(out: &Path) {
     let columns = ["theta1_measured_rad", "theta1_before_rad", "theta1_after_rad"];
-    let histories = Table::read(&out.join("histories.parquet"), &columns).expect("histories");
+    let histories =
+        Table::read(&out.join("histories.parquet"), &[&["test"][..], &columns].concat()).expect("histories");
     let [measured, before, after] = columns.map(|name| histories.numbers(name).expect("numbers"));
-    let error = |simulated: &[Option<f64>]| {
-        let pairs = measured.iter().zip(simulated).filter_map(|(m, s)| m.zip(*s));
-        pairs.map(|(m, s)| (m - s).powi(2)).sum::<f64>()
+    let tests = histories.labels("test").expect("names");
+    let error = |simulated: &[Option<f64>], test: &str| {
+        let rows = measured.iter().zip(simulated).zip(&tests).filter(|(_, name)| name.as_str() == test);
+        rows.filter_map(|((m, s), _)| m.zip(*s)).map(|(m, s)| (m - s).powi(2)).sum::<f64>()
     };
-    assert!(error(&after) < 0.2 * error(&before), "{} after, {} before", error(&after), error(&before));
+    let left = |i: usize| {
+        let test = format!("test {i}");
+        error(&after, &test) / error(&before, &test)
+    };
+    let mut left = [0, 1, 2].map(left);
+    left.sort_by(f64::total_cmp);
+    // The coefficient is found within parts in a thousand: where nothing chaotic decides, that leaves a percent.
+    assert!(left[1] < 0.05, "squared errors after over before: {left:?}");
 }
 
 /// The order in which a page tells what was found.
@@ -296,16 +310,16 @@ fn rejects_a_folder_of_other_files_before_anything_is_computed() {
     assert!(!folder.path().join("manifest.json").exists());
 }
 
-/// A narrower crack and a carriage lumped into m_d change the moment of the weight at the crack alike: in this wall most of
-/// the one is imitated by the other, so that only several times what shows alone is told apart.
+/// A carriage and more of m_d differ by the weight of the latter alone: in this wall most of the one is imitated by the other,
+/// so that only several times what shows alone is told apart.
 fn assert_confusions_are_told(found: &Value) {
     let rows = found["confused"].as_array().expect("a list");
-    let row =
-        rows.iter().find(|row| row["effect"] == "corner_indentation.crack").expect("the crack's corners");
-    assert_eq!(row["imitated_by"], "carriage_mass.lumped", "{row:#}");
+    let row = rows.iter().find(|row| row["effect"] == "carriage_mass").expect("the carriage");
+    assert_eq!(row["imitated_by"], "diaphragm.mass_kg", "{row:#}");
     let number = |key: &str| row[key].as_f64().expect("a number");
     assert!((0.9..1.0).contains(&number("share")), "{row:#}");
-    assert!(number("told_apart") > 5.0 * number("told_from_nothing"), "{row:#}");
+    // Of the information a share above 0.9 is lost: the size grows by the root of ten, told apart by more than told at all.
+    assert!(number("told_apart") > 3.0 * number("told_from_nothing"), "{row:#}");
     // What is told from everything else is told from nothing too, and is not listed.
     assert!(rows.iter().all(|row| row["effect"] != "record_gain"), "{rows:#?}");
 }

@@ -28,6 +28,22 @@ pub fn write(case: &Case, motions: &[Vec<f64>], folder: &Path) -> Result<(), Str
     put("answer.json", format!("{:#}\n", answer(case, &tests)))
 }
 
+/// Whether the answer of a folder is that of a case.
+///
+/// # Errors
+/// Text for people where it is another's, or no answer: a folder that holds another set must not be judged as this one.
+pub fn is_this(case: &Case, answer: &Path) -> Result<(), String> {
+    let told = |e: &dyn std::fmt::Display| format!("{}: {e}", answer.display());
+    let text = std::fs::read_to_string(answer).map_err(|e| told(&e))?;
+    let found: Value = serde_json::from_str(&text).map_err(|e| told(&e))?;
+    let [set, number] = ["set", "number"].map(|key| &found["case"][key]);
+    if *set == json!(case.set) && *number == json!(case.number) {
+        return Ok(());
+    }
+    let wanted = format!("case {} of the set {}", case.number, case.set);
+    Err(told(&format!("holds case {number} of the set {set}, not {wanted}; give another folder with --out")))
+}
+
 fn experiment(case: &Case) -> String {
     let mut text = format!(
         "wall = \"wall.toml\"\n\n[prior]                       # relative standard deviation of what was known before\n\
