@@ -37,13 +37,10 @@ pub fn imitations(
     let own = &best.hypothesis.additions;
     let others = candidates.iter().filter(|c| !own.contains(c)).copied();
     let h = hypothesis(&own.iter().copied().chain(others).collect::<Vec<_>>());
-    let known = best.fit.values.len();
-    let mut values = h.start();
-    values[..known].copy_from_slice(&best.fit.values);
-    let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
-    let sums = Sums::new(data, &h, &at)?;
+    let sums = Sums::about(data, &h, best)?;
     // Undoing the best is what another must make good.
-    let undone = (h.nuisances..known).map(|i| (i, h.unknowns[i].start - at.values[i])).collect::<Vec<_>>();
+    let values = best.fit.values.iter().enumerate().skip(h.nuisances);
+    let undone = values.map(|(i, value)| (i, h.unknowns[i].start - value)).collect::<Vec<_>>();
     let numbers = single_numbers(&h);
     let sets: Vec<Vec<[usize; 2]>> = match own.len() {
         1 => numbers.iter().filter(|[index, _]| *index > 0).map(|one| vec![*one]).collect(),
@@ -69,13 +66,9 @@ pub fn seconds(
     let kinds = own.iter().map(Addition::kind).collect::<Vec<_>>();
     let others = candidates.iter().filter(|c| !kinds.contains(&c.kind())).copied();
     let h = hypothesis(&own.iter().copied().chain(others).collect::<Vec<_>>());
-    let known = best.fit.values.len();
-    let mut values = h.start();
-    values[..known].copy_from_slice(&best.fit.values);
-    let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
-    let sums = Sums::new(data, &h, &at)?;
+    let sums = Sums::about(data, &h, best)?;
     let beside = |[index, number]: &[usize; 2]| {
-        let (left, steps) = sums.left(known, &[], &[*number])?;
+        let (left, steps) = sums.left(best.fit.values.len(), &[], &[*number])?;
         let unknown = &h.unknowns[*number];
         let value = unknown.start + steps[0];
         let additions = own.iter().copied().chain([h.additions[*index]]).collect();
@@ -122,8 +115,12 @@ struct Sums {
 }
 
 impl Sums {
-    fn new(data: &Data, h: &Hypothesis, at: &Fit) -> Option<Self> {
-        let (slopes, _) = data.fit.slopes(h, at, None)?;
+    /// Of a hypothesis that begins with the numbers of another, about where that is and with nothing more.
+    fn about(data: &Data, h: &Hypothesis, best: &Tried) -> Option<Self> {
+        let mut values = h.start();
+        values[..best.fit.values.len()].copy_from_slice(&best.fit.values);
+        let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
+        let (slopes, _) = data.fit.slopes(h, &at, None)?;
         let count = h.unknowns.len();
         let mut sums = Self { rr: 0.0, jr: DVector::zeros(count), jj: DMatrix::zeros(count, count) };
         for (window, slopes) in at.windows.iter().zip(slopes) {
