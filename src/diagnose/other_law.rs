@@ -11,11 +11,12 @@ use super::verdict::names;
 /// Right names leave 6 and less, once 28; a quadratic drag called a damper 101 and 400, a loose mass 169.
 const BENT: f64 = 50.0;
 /// Gain in natural logarithms of likelihood that a trend of a named size with the amplitude may have. Right names have 9 and
-/// less, but at a noise of 1e-5 rad 27, 51 and 57; damping that grows with displacement called a damper, or a damper with other impacts, 37, 55 and 313.
+/// less, but at a noise of 1e-5 rad 27, 51 and 57; damping that grows with displacement called
+/// a damper, or a damper with other impacts, 37, 55 and 313; a spring that saturates called a cubic one 274.
 const TREND: f64 = 25.0;
-/// Share of its size by which a named size may differ in large motion: those right names have 0.4 to 2 % (the finer points of a
-/// contact), a quadratic drag called a damper 56 %.
-const TREND_SHARE: f64 = 0.1;
+/// Share of its size by which a named size may differ in large motion: right names that gain so much have 0.4 to 2 % (the finer
+/// points of a contact), a spring that saturates called a cubic one 8 %, a quadratic drag called a damper 56 %.
+const TREND_SHARE: f64 = 0.04;
 
 /// Signs of a law outside the catalogue.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -24,7 +25,7 @@ pub struct OtherLaw {
     pub looks_like: Vec<String>,
     /// See [`curve_left`].
     pub curve_left: Option<f64>,
-    /// See [`trends_with_amplitude`]: of the sizes that differ in large motion by more than a tenth, or else of all, that which
+    /// See [`trends_with_amplitude`]: of the sizes that differ in large motion by more than that share, or else of all, that which
     /// gains most.
     pub trend_with_amplitude: Option<Trend>,
 }
