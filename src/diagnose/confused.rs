@@ -84,10 +84,11 @@ fn trace<'t>(data: &Data, recalibrated: &Tried, tried: &'t Tried) -> Option<Trac
     Some(Trace { tried, slopes: slopes.into_iter().zip(near).map(linear).collect() })
 }
 
-/// Whether the slopes over a change and over half of it are the same.
+/// Whether a window is linear over a change and over half of it, with the same slopes.
 fn is_linear(far: &WindowSlopes, near: &WindowSlopes) -> bool {
     let columns = far.by_values.column_iter().zip(near.by_values.column_iter());
-    columns.into_iter().all(|(far, near)| (far - near).norm() <= BENT * near.norm())
+    let same = columns.into_iter().all(|(far, near)| (far - near).norm() <= BENT * near.norm());
+    far.holds && near.holds && same
 }
 
 fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {

@@ -34,6 +34,7 @@ const DAMPING_FACTOR: f64 = 10.0;
 const TRIES: usize = 5;
 /// Share of poor windows above which no other valleys are looked for.
 const MOST_POOR: f64 = 0.3;
+
 /// A fitted hypothesis.
 #[derive(Debug, Clone)]
 pub struct Fit {

@@ -179,6 +179,11 @@ impl Unknown {
     pub fn belongs_to(&self, index: usize) -> bool {
         matches!(self.slot, Slot::Added(i, _) if i == index)
     }
+
+    /// A value with a share of its distance from the start.
+    pub fn with_share(&self, share: f64, value: f64) -> f64 {
+        (self.start + share * (value - self.start)).clamp(self.lower, self.upper)
+    }
 }
 
 /// The wall under a hypothesis, and the share of the reversed record that a placebo shakes it with upwards.

@@ -35,9 +35,8 @@ pub fn imitations(
     hypothesis: impl Fn(&[Addition]) -> Hypothesis,
 ) -> Option<Vec<Imitation>> {
     let own = &best.hypothesis.additions;
-    let others = candidates.iter().filter(|c| !own.contains(c)).copied();
-    let h = hypothesis(&own.iter().copied().chain(others).collect::<Vec<_>>());
-    let sums = Sums::about(data, &h, best)?;
+    let others = candidates.iter().filter(|c| !own.contains(c));
+    let (h, sums) = with_others(data, best, others, hypothesis)?;
     // Undoing the best is what another must make good.
     let values = best.fit.values.iter().enumerate().skip(h.nuisances);
     let undone = values.map(|(i, value)| (i, h.unknowns[i].start - value)).collect::<Vec<_>>();
@@ -64,9 +63,8 @@ pub fn seconds(
 ) -> Option<Vec<Imitation>> {
     let own = &best.hypothesis.additions;
     let kinds = own.iter().map(Addition::kind).collect::<Vec<_>>();
-    let others = candidates.iter().filter(|c| !kinds.contains(&c.kind())).copied();
-    let h = hypothesis(&own.iter().copied().chain(others).collect::<Vec<_>>());
-    let sums = Sums::about(data, &h, best)?;
+    let others = candidates.iter().filter(|c| !kinds.contains(&c.kind()));
+    let (h, sums) = with_others(data, best, others, hypothesis)?;
     let beside = |[index, number]: &[usize; 2]| {
         let (left, steps) = sums.left(best.fit.values.len(), &[], &[*number])?;
         let unknown = &h.unknowns[*number];
@@ -81,6 +79,18 @@ pub fn seconds(
         numbers.iter().filter(|[index, _]| *index >= own.len()).filter_map(beside).collect::<Vec<_>>();
     found.sort_by(|a, b| a.left.total_cmp(&b.left));
     Some(found)
+}
+
+/// The best with a little of all the others, linear about it.
+fn with_others<'a>(
+    data: &Data,
+    best: &'a Tried,
+    others: impl Iterator<Item = &'a Addition>,
+    hypothesis: impl Fn(&[Addition]) -> Hypothesis,
+) -> Option<(Hypothesis, Sums)> {
+    let h = hypothesis(&best.hypothesis.additions.iter().chain(others).copied().collect::<Vec<_>>());
+    let sums = Sums::about(data, &h, best)?;
+    Some((h, sums))
 }
 
 /// Additions of one number, by their index, with the index of that number.

@@ -32,7 +32,7 @@ fn variances(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
     let (slopes, _) = data.fit.slopes(&tried.hypothesis, &tried.fit, None)?;
     let mut curvature = DMatrix::zeros(count, count);
     let mut pulls: Vec<(usize, DVector<f64>)> = Vec::new();
-    for ((window, state), WindowSlopes { residual, by_values }) in
+    for ((window, state), WindowSlopes { residual, by_values, .. }) in
         data.fit.windows.iter().zip(&tried.fit.windows).zip(&slopes)
     {
         let weight = Loss::Likelihood.weight(state);

@@ -41,6 +41,8 @@ pub(super) struct Linear {
     /// Jp and r without what the state can do.
     pub jp_left: DMatrix<f64>,
     pub r_left: DVector<f64>,
+    /// Whether it is linear.
+    pub holds: bool,
 }
 
 impl Linear {
@@ -52,11 +54,12 @@ impl Linear {
         let r_left = &r - &q * (q.transpose() * &r);
         let mut jp = (&jp[0] + &jp[1]) * 0.5;
         let mut jp_left = (&sides[0] + &sides[1]) * 0.5;
-        if changes.iter().enumerate().any(|(i, change)| is_bent(&sides, i, *change)) {
+        let holds = !changes.iter().enumerate().any(|(i, change)| is_bent(&sides, i, *change));
+        if !holds {
             jp.fill(0.0);
             jp_left.fill(0.0);
         }
-        Self { jx, jp, r, jp_left, r_left }
+        Self { jx, jp, r, jp_left, r_left, holds }
     }
 
     /// Root mean square of the change that a change of one value makes, in standard deviations of the noise.
@@ -72,6 +75,8 @@ pub struct WindowSlopes {
     pub residual: DVector<f64>,
     /// Their derivatives, a column a value; zero where the window is not linear.
     pub by_values: DMatrix<f64>,
+    /// Whether the window is linear.
+    pub holds: bool,
 }
 
 /// The wall with one number changed.
@@ -101,7 +106,7 @@ impl Problem<'_> {
             None => next_changes(h, &self.linear(h, fit, &first_changes(h))?),
         };
         let linear = self.linear(h, fit, &changes)?;
-        let of = |l: Linear| WindowSlopes { residual: l.r_left, by_values: l.jp_left };
+        let of = |l: Linear| WindowSlopes { residual: l.r_left, by_values: l.jp_left, holds: l.holds };
         Some((linear.into_iter().map(of).collect(), changes))
     }
 
@@ -196,9 +201,15 @@ mod tests {
     #[test]
     fn analytic_a_window_that_parts_on_one_side_of_a_value_tells_nothing() {
         let parted = linear([4.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 40.0]);
-        assert!(parted.jp_left.amax() == 0.0 && parted.jp.amax() == 0.0 && parted.r_left.amax() > 0.0);
+        assert!(
+            !parted.holds
+                && parted.jp_left.amax() == 0.0
+                && parted.jp.amax() == 0.0
+                && parted.r_left.amax() > 0.0
+        );
         // A change far inside the noise may bend as it likes: both sides are averaged.
         let little = linear([0.4, 0.0, 0.0, 0.0], [0.0, 0.4, 0.0, 0.0]);
+        assert!(little.holds);
         assert_eq!(little.jp[(0, 1)], 0.2);
         assert_eq!(little.jp[(1, 1)], 0.2);
     }

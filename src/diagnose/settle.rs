@@ -65,9 +65,7 @@ fn starts(best: &Tried) -> Vec<Vec<f64>> {
     let moved = |numbers: &[usize], share: f64| {
         let mut values = best.fit.values.clone();
         for i in numbers {
-            let unknown = &h.unknowns[*i];
-            let value = unknown.start + share * (values[*i] - unknown.start);
-            values[*i] = value.clamp(unknown.lower, unknown.upper);
+            values[*i] = h.unknowns[*i].with_share(share, values[*i]);
         }
         values
     };

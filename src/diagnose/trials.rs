@@ -188,13 +188,9 @@ impl<P: Progress> Trials<'_, P> {
         let again = |old: &Tried| {
             let h = self.hypothesis(nuisances, &old.hypothesis.additions);
             let about = |factor: f64| {
-                let mut values = old.fit.values.clone();
-                for (i, u) in h.unknowns.iter().enumerate() {
-                    values[i] =
-                        if i < h.nuisances { u.start } else { u.start + factor * (values[i] - u.start) };
-                    values[i] = values[i].clamp(u.lower, u.upper);
-                }
-                values
+                let shares = (0..h.unknowns.len()).map(|i| if i < h.nuisances { 0.0 } else { factor });
+                let values = h.unknowns.iter().zip(shares).zip(&old.fit.values);
+                values.map(|((unknown, share), value)| unknown.with_share(share, *value)).collect::<Vec<_>>()
             };
             let tries = [0.92, 1.0, 1.08].map(about);
             let fits = tries.par_iter().filter_map(|values| refit(&self.data, h.clone(), from, values));

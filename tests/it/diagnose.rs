@@ -268,7 +268,7 @@ fn the_median_whole_run_is_followed(out: &Path) {
     let mut left = [0, 1, 2].map(left);
     left.sort_by(f64::total_cmp);
     // The coefficient is found within parts in a thousand: where nothing chaotic decides, that leaves a percent.
-    assert!(left[1] < 0.05, "squared errors after over before: {left:?}");
+    assert!(left[1] < 0.01, "squared errors after over before: {left:?}");
 }
 
 /// The order in which a page tells what was found.
@@ -318,8 +318,7 @@ fn assert_confusions_are_told(found: &Value) {
     assert_eq!(row["imitated_by"], "diaphragm.mass_kg", "{row:#}");
     let number = |key: &str| row[key].as_f64().expect("a number");
     assert!((0.9..1.0).contains(&number("share")), "{row:#}");
-    // Of the information a share above 0.9 is lost: the size grows by the root of ten, told apart by more than told at all.
-    assert!(number("told_apart") > 3.0 * number("told_from_nothing"), "{row:#}");
+    assert!(number("told_apart") > 5.0 * number("told_from_nothing"), "{row:#}");
     // What is told from everything else is told from nothing too, and is not listed.
     assert!(rows.iter().all(|row| row["effect"] != "record_gain"), "{rows:#?}");
 }
