@@ -6,7 +6,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::hypothesis::Hypothesis;
+use super::hypothesis::{Hypothesis, Unknown};
 use super::linear::{Linear, first_changes, next_changes};
 use super::replay::Replay;
 use super::robust::Loss;
@@ -32,6 +32,9 @@ const COARSE: Patience = Patience { steps: 5, little: 1.0, little_share: 2e-3 };
 const FIRST_DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 10.0;
 const TRIES: usize = 5;
+/// Longest step of a number, as a multiple of its size or of a size that matters: without it one that leaves no trace is tried
+/// at its bounds, where dampers are so stiff that a fit takes minutes.
+const MOST_OF_SIZE: f64 = 10.0;
 /// Share of poor windows above which no other valleys are looked for.
 const MOST_POOR: f64 = 0.3;
 
@@ -205,8 +208,10 @@ impl Problem<'_> {
             damped[(i, i)] *= 1.0 + damping;
         }
         let dp = -damped.cholesky()?.solve(g);
-        let within =
-            |(i, u): (usize, &super::hypothesis::Unknown)| (fit.values[i] + dp[i]).clamp(u.lower, u.upper);
+        let within = |(i, u): (usize, &Unknown)| {
+            let most = MOST_OF_SIZE * u.scale.max((fit.values[i] - u.start).abs());
+            (fit.values[i] + dp[i].clamp(-most, most)).clamp(u.lower, u.upper)
+        };
         let values = h.unknowns.iter().enumerate().map(within).collect::<Vec<_>>();
         let dp =
             DVector::from_iterator(values.len(), values.iter().zip(&fit.values).map(|(new, old)| new - old));

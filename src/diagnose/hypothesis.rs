@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::scale::Scales;
 use super::wall_number::WallNumber;
-use crate::model::{Effect, EffectVariant, Place, Wall, WallParameters};
+use crate::model::{Effect, EffectParameter, EffectVariant, Place, Wall, WallParameters};
 
 /// Standard deviations of its prior within which a number of the wall is taken to lie.
 pub const PRIOR_REACH: f64 = 3.0;
@@ -12,6 +12,8 @@ pub const PRIOR_REACH: f64 = 3.0;
 const WIDE_PRIOR: f64 = 0.1;
 /// Coefficients that impacts under the law `contact` can act with; C_7 and C_8 belong to impacts that end in sticking.
 pub const ACTING: usize = 6;
+/// Largest damper, in sizes that matter: it holds what it is on, and a stronger one does the same in ever shorter steps.
+const STRONGEST_DAMPER: f64 = 100.0;
 /// Standard deviation of a factor on C_l about 1: wide, but a factor that never acts stays at 1.
 const FACTOR_SD: f64 = 0.3;
 
@@ -125,19 +127,21 @@ fn place_name(variant: &EffectVariant) -> &'static str {
 fn effect_unknowns(variant: EffectVariant, scales: &Scales, index: usize) -> Vec<Unknown> {
     let parameters = variant.kind.parameters.iter().enumerate();
     let acting = |(i, _): &(usize, _)| variant.kind.name != "impact_dissipation" || *i < ACTING;
-    parameters
-        .filter(acting)
-        .map(|(i, parameter)| Unknown {
+    let unknown = |(i, parameter): (usize, &EffectParameter)| {
+        let scale = scales.of_unit(parameter.unit, parameter.key);
+        let damper = matches!(parameter.unit, "N s/m" | "N m s/rad");
+        Unknown {
             key: parameter.key.into(),
             unit: parameter.unit,
             start: neutral(parameter.key).clamp(parameter.least, parameter.most),
-            scale: scales.of_unit(parameter.unit, parameter.key),
+            scale,
             lower: parameter.least,
-            upper: parameter.most,
+            upper: if damper { parameter.most.min(STRONGEST_DAMPER * scale) } else { parameter.most },
             prior_sd: parameter.key.starts_with("factor").then_some(FACTOR_SD),
             slot: Slot::Added(index, i),
-        })
-        .collect()
+        }
+    };
+    parameters.filter(acting).map(unknown).collect()
 }
 
 /// The value of a number at which its effect does nothing.

@@ -17,6 +17,7 @@ use super::confused::confused;
 use super::ensemble::ensemble;
 use super::experiment::Experiment;
 use super::flow::Diagnosis;
+use super::friction::{FRICTION, giving_friction};
 use super::hypothesis::Unknown;
 use super::interval::intervals;
 use super::manifest::write_manifest;
@@ -170,6 +171,18 @@ fn effects(data: &Data, after: &Tried) -> Vec<Value> {
         let count = h.unknowns.iter().filter(|u| u.belongs_to(index)).count();
         let range = from..from + count;
         from += count;
+        if let Some(friction) = giving_friction(h, &after.fit.values, index) {
+            all.push(json!({
+                "kind": FRICTION,
+                "name": FRICTION,
+                "place": addition.place(),
+                "parameters": {"force_n": after.fit.values[friction.force]},
+                "interval": {"force_n": intervals[friction.force]},
+                "written_as": addition.name(),
+                "sets_in_over_m": friction.onset_m,
+            }));
+            continue;
+        }
         let of = |f: &dyn Fn(usize) -> Value| {
             range.clone().map(|i| (h.unknowns[i].key.clone(), f(i))).collect::<serde_json::Map<_, _>>()
         };

@@ -3,9 +3,10 @@
 use nalgebra::DVector;
 
 use super::hypothesis::Physics;
+use super::memory::SpringMemory;
 use super::test_data::TestData;
 use super::windows::Window;
-use crate::model::{Contact, Effect, Pair, RockingWall};
+use crate::model::{Contact, Pair};
 use crate::simulate::{Accuracy, Observer, Response, Shaking, Simulator, Start};
 use crate::solver::Quintic;
 
@@ -17,8 +18,8 @@ const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
 pub struct Replay<'a> {
     tests: &'a [TestData],
     simulators: Vec<Simulator>,
-    /// Plastic displacement of a yielding spring at every sample, m, by test; empty without one.
-    plastic_m: Vec<Vec<f64>>,
+    /// By test.
+    springs: Vec<SpringMemory>,
 }
 
 impl<'a> Replay<'a> {
@@ -29,8 +30,8 @@ impl<'a> Replay<'a> {
             Simulator::new(&physics.wall, &shaking, ACCURACY)
         };
         let simulators = tests.iter().map(simulator).collect::<Vec<_>>();
-        let plastic_m = tests.iter().map(|test| plastic_displacements_m(test, physics)).collect();
-        Self { tests, simulators, plastic_m }
+        let springs = tests.iter().map(|test| SpringMemory::new(test, physics)).collect();
+        Self { tests, simulators, springs }
     }
 
     /// Measured less simulated rotations over the noise, θ_1 and θ_2 of each sample in turn; zero where none was
@@ -60,10 +61,11 @@ impl<'a> Replay<'a> {
         let time_s = &self.tests[window.test].time_s;
         let (state, contact) = window.freedom.state(x);
         let from = window.samples.start;
-        let plastic = self.plastic_m[window.test].get(from).copied().unwrap_or(0.0);
-        let start =
-            Start { time_s: time_s[from], state, contact: Some(contact), plastic_displacement_m: plastic };
-        self.simulators[window.test].run_from(&start, time_s[window.samples.end - 1], observer)
+        let simulator = &self.simulators[window.test];
+        let plastic_displacement_m =
+            self.springs[window.test].plastic_m(from, simulator.wall(), contact, state.theta);
+        let start = Start { time_s: time_s[from], state, contact: Some(contact), plastic_displacement_m };
+        simulator.run_from(&start, time_s[window.samples.end - 1], observer)
     }
 }
 
@@ -80,32 +82,6 @@ pub(super) fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
         shaking.vertical = crate::ground::Accelerogram::new(record.step_s(), backwards).ok();
     }
     shaking
-}
-
-/// The memory of a yielding spring, carried along the measured displacement of the top; empty without such a spring.
-pub(super) fn plastic_displacements_m(test: &TestData, physics: &Physics) -> Vec<f64> {
-    let yields = |effect: &Effect| effect.kind().name == "yielding_spring";
-    if !physics.wall.parameters().effects.iter().any(yields) {
-        return Vec::new();
-    }
-    let wall = RockingWall::new(&physics.wall);
-    let mut plastic_m = 0.0;
-    let count = test.theta_rad.len();
-    let smoothed = |k: usize, channel: usize| {
-        // Five samples: less noise, and no swing is shorter.
-        let around = k.saturating_sub(2)..(k + 3).min(count);
-        let n = around.len() as f64;
-        around.map(|k| test.from_rest_rad(k)[channel]).sum::<f64>() / n
-    };
-    let at = |k: usize| {
-        let theta = [smoothed(k, 0), smoothed(k, 1)];
-        if theta.iter().all(|t| t.is_finite()) {
-            let x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
-            plastic_m = physics.wall.plastic_displacement_m(plastic_m, x_c);
-        }
-        plastic_m
-    };
-    (0..count).map(at).collect()
 }
 
 /// Takes the rotations at given times, s.

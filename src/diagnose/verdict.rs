@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::friction::kind_of;
 use super::hypothesis::{Addition, Nuisance};
 use super::score::{share_beyond, windowed_error};
 use super::search::{Data, Tried};
@@ -95,18 +96,21 @@ pub fn closes(tried: &Tried, before: f64) -> bool {
 
 /// Kinds of a hypothesis' additions, sorted; none if one is no answer.
 pub fn kinds(tried: &Tried) -> Option<Vec<&'static str>> {
-    let mut kinds = tried.hypothesis.additions.iter().map(Addition::kind).collect::<Option<Vec<_>>>()?;
+    let h = &tried.hypothesis;
+    let kind = |index| kind_of(h, &tried.fit.values, index);
+    let mut kinds = (0..h.additions.len()).map(kind).collect::<Option<Vec<_>>>()?;
     kinds.sort_unstable();
     Some(kinds)
 }
 
 /// Names by which equivalent hypotheses go in answers: kinds, and last words of keys of the wall.
 pub fn names(tried: &Tried) -> Vec<String> {
-    let name = |addition: &Addition| match addition {
+    let h = &tried.hypothesis;
+    let name = |(index, addition): (usize, &Addition)| match addition {
         Addition::Number(number) => name_of_number(number),
-        addition => addition.kind().map_or_else(|| addition.name(), str::to_owned),
+        addition => kind_of(h, &tried.fit.values, index).map_or_else(|| addition.name(), str::to_owned),
     };
-    tried.hypothesis.additions.iter().map(name).collect()
+    h.additions.iter().enumerate().map(name).collect()
 }
 
 /// Last word of the key of a number of the wall, without its unit.

@@ -179,11 +179,11 @@ fn analytic_twin_of_a_damped_floor_is_named_and_its_wall_runs() {
 }
 
 /// Diagnoses a twin of the table wall with these effects; what was named, sorted, with the first number of each.
-fn named_in_a_twin(effects: &[(&str, f64)], change: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<(String, f64)> {
+fn named_in_a_twin(effects: &[(&str, &[f64])], change: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<(String, f64)> {
     let folder = tempfile::tempdir().expect("a folder");
     let described = table_wall(ImpactLaw::Contact);
     let mut true_wall = described.clone();
-    let effect = |(name, value): &(&str, f64)| Effect::with_parameters(name, &[*value]).expect("an effect");
+    let effect = |(name, values): &(&str, &[f64])| Effect::with_parameters(name, values).expect("an effect");
     true_wall.effects.extend(effects.iter().map(effect));
     let experiment = write_twin(folder.path(), &described, &true_wall, change);
     let found = diagnosed(&experiment, &folder.path().join("out"));
@@ -212,7 +212,7 @@ fn analytic_twin_read_with_a_gain_is_named_though_its_patterns_look_different() 
 #[test]
 fn analytic_twin_damped_at_its_foot_is_named_where_the_damping_is_small() {
     // At the wall's own speeds some percent of the moment that opens the joint.
-    let named = named_in_a_twin(&[("joint_damping.ground", 600.0)], |theta| theta);
+    let named = named_in_a_twin(&[("joint_damping.ground", &[600.0])], |theta| theta);
     let [(name, coefficient)] = &named[..] else { panic!("{named:?}") };
     assert_eq!(name, "joint_damping.ground");
     // The target for the median of such errors is 5 %.
@@ -221,11 +221,21 @@ fn analytic_twin_damped_at_its_foot_is_named_where_the_damping_is_small() {
 
 #[test]
 fn analytic_twin_of_two_effects_is_named_by_both() {
-    let named = named_in_a_twin(&[("carriage_mass", 300.0), ("record_gain", 0.96)], |theta| theta);
+    let named = named_in_a_twin(&[("carriage_mass", &[300.0]), ("record_gain", &[0.96])], |theta| theta);
     let [(carriage, mass_kg), (record, gain)] = &named[..] else { panic!("{named:?}") };
     assert_eq!([carriage.as_str(), record.as_str()], ["carriage_mass", "record_gain"]);
     // As for one effect.
     assert!((mass_kg / 300.0 - 1.0).abs() < 0.05 && (gain - 0.96).abs() < 0.05 * 0.04, "{named:?}");
+}
+
+#[test]
+fn analytic_twin_with_friction_that_gives_a_little_first_is_named_friction() {
+    // 250 N after 0.02 mm, about what a rotation of a quarter of the noise moves the top by.
+    let named = named_in_a_twin(&[("yielding_spring", &[1.25e7, 250.0])], |theta| theta);
+    let [(name, force_n)] = &named[..] else { panic!("{named:?}") };
+    assert_eq!(name, "coulomb_friction");
+    // The target for the median of such errors is 5 %.
+    assert!((force_n / 250.0 - 1.0).abs() < 0.05, "{force_n}");
 }
 
 fn its_force_is_measured(found: &Value) {

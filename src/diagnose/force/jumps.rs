@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::super::hypothesis::Physics;
-use super::super::replay::{plastic_displacements_m, shaken};
+use super::super::memory::SpringMemory;
+use super::super::replay::shaken;
 use super::super::test_data::TestData;
 use super::stretch::{Stretch, stretches};
 use crate::model::{Contact, Pair, RockingWall, State};
@@ -54,7 +55,7 @@ pub fn jumps(tests: &[TestData], physics: &Physics) -> Vec<Jump> {
 }
 
 fn of_test(index: usize, test: &TestData, physics: &Physics) -> Vec<Jump> {
-    let plastic_m = plastic_displacements_m(test, physics);
+    let spring = SpringMemory::new(test, physics);
     let shaking = shaken(&test.shaking, physics.reversed_ratio);
     let simulator = Simulator::new(&physics.wall, &shaking, Accuracy::default());
     let longest = test.samples_in(LONGEST_DOUBT * simulator.wall().response_time_s());
@@ -70,12 +71,10 @@ fn of_test(index: usize, test: &TestData, physics: &Physics) -> Vec<Jump> {
         if !moves || first - last > longest + 2 * GUARD || before.contact == after.contact {
             return None;
         }
-        let start = Start {
-            time_s: test.time_s[last],
-            state: before.states[inner],
-            contact: Some(before.contact),
-            plastic_displacement_m: plastic_m.get(last).copied().unwrap_or(0.0),
-        };
+        let (state, contact) = (before.states[inner], before.contact);
+        let plastic_displacement_m = spring.plastic_m(last, simulator.wall(), contact, state.theta);
+        let start =
+            Start { time_s: test.time_s[last], state, contact: Some(contact), plastic_displacement_m };
         let mut end = End::default();
         let response = simulator.run_from(&start, test.time_s[first], &mut end);
         let impacts = response.impacts;

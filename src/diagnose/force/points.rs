@@ -3,13 +3,14 @@
 use rayon::prelude::*;
 
 use super::super::hypothesis::Physics;
+use super::super::memory::SpringMemory;
 use super::super::offset::rest_offset_rad;
 use super::super::pattern::Freedom;
-use super::super::replay::{plastic_displacements_m, shaken};
+use super::super::replay::shaken;
 use super::super::test_data::TestData;
 use super::kernel::Kernel;
 use super::stretch::{Stretch, stretches};
-use crate::model::{Contact, Pair, RockingWall, Vector};
+use crate::model::{Contact, Pair, RockingWall, State, Vector};
 use crate::simulate::{Accuracy, Simulator};
 
 /// Half the reach of a test function, as a share of the wall's time of response: over an eighth of a swing.
@@ -71,7 +72,7 @@ struct Residual {
     test: TestData,
     wall: RockingWall,
     simulator: Simulator,
-    plastic_m: Vec<f64>,
+    spring: SpringMemory,
 }
 
 impl Residual {
@@ -88,7 +89,7 @@ impl Residual {
         let shaking = shaken(&test.shaking, physics.reversed_ratio);
         Self {
             index,
-            plastic_m: plastic_displacements_m(&test, physics),
+            spring: SpringMemory::new(&test, physics),
             wall: RockingWall::new(&physics.wall),
             simulator: Simulator::new(&physics.wall, &shaking, Accuracy::default()),
             test,
@@ -120,9 +121,10 @@ impl Residual {
 
     /// Angular accelerations of the model at every sample of a stretch.
     fn model(&mut self, stretch: &Stretch) -> Vec<Pair> {
-        let at = |(i, state)| {
+        let at = |(i, state): (usize, &State)| {
             let k = stretch.from + i;
-            self.wall.place_top(stretch.contact, state, self.plastic_m.get(k).copied().unwrap_or(0.0));
+            let plastic_m = self.spring.plastic_m(k, &self.wall, stretch.contact, state.theta);
+            self.wall.place_top(stretch.contact, state, plastic_m);
             self.wall.rate(stretch.contact, state, self.ground_about(self.test.time_s[k])).theta_dd
         };
         stretch.states.iter().enumerate().map(at).collect()

@@ -62,7 +62,7 @@ fn made(stored: &Stored, [id, title, text]: [&str; 3], rivals: &[&StoredRival]) 
 /// The effects of the answer, or of the best where there is no answer.
 fn answer<'s>(stored: &'s Stored, rivals: &[&'s StoredRival]) -> Vec<&'s str> {
     if stored.is_answered() {
-        return stored.effects.iter().filter_map(|e| e.name.as_deref()).collect();
+        return stored.effects.iter().filter_map(|e| e.written_as.as_deref().or(e.name.as_deref())).collect();
     }
     rivals.first().map_or_else(Vec::new, |best| best.name.split(" + ").collect())
 }

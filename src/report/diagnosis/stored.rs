@@ -46,6 +46,11 @@ pub struct StoredEffect {
     pub place: Option<String>,
     pub parameters: BTreeMap<String, f64>,
     pub interval: BTreeMap<String, [f64; 2]>,
+    /// The effect in the wall file that it is, where that goes by another name.
+    #[serde(default)]
+    pub written_as: Option<String>,
+    #[serde(default)]
+    pub sets_in_over_m: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]

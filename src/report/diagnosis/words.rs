@@ -45,7 +45,13 @@ fn effect(e: &StoredEffect) -> String {
         format!("{key} = {}{range}", number(*value))
     };
     let values = e.parameters.iter().map(value).collect::<Vec<_>>().join(", ");
-    format!("{}{at}: {values}", e.name.as_deref().unwrap_or("a law outside the catalogue"))
+    let onset = e.sets_in_over_m.map_or(String::new(), |m| {
+        format!(
+            ", which sets in over {} mm: the wall file has it as a spring that yields so soon",
+            number(1e3 * m)
+        )
+    });
+    format!("{}{at}: {values}{onset}", e.name.as_deref().unwrap_or("a law outside the catalogue"))
 }
 
 /// A place in a sentence.

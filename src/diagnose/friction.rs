@@ -1,0 +1,93 @@
+//! A spring that yields almost at once is friction.
+//!
+//! No dry friction acts at once: what the top slides on gives a little first, some micrometres. Where the tests are quiet
+//! enough to tell, the spring of the catalogue that yields follows them better than friction that jumps. It is called by what
+//! it is: friction, of the force at which it yields. Its wall keeps the spring.
+
+use super::hypothesis::{Addition, Hypothesis};
+
+/// Kinds of the catalogue.
+const SPRING: &str = "yielding_spring";
+pub const FRICTION: &str = "coulomb_friction";
+/// Share of the largest displacement of the top within which a spring yields that is friction. Chosen: a tie or a nail that
+/// yields gives by tens of percent of it, friction by hundredths.
+const AT_ONCE: f64 = 0.01;
+
+/// Friction that is an addition by the name of a spring.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GivingFriction {
+    /// Which of the numbers of its hypothesis is its force.
+    pub force: usize,
+    /// Displacement over which it sets in, m.
+    pub onset_m: f64,
+}
+
+/// The friction that an addition of a fitted hypothesis is, if it is a spring that yields almost at once.
+pub fn giving_friction(h: &Hypothesis, values: &[f64], index: usize) -> Option<GivingFriction> {
+    if h.additions[index].kind() != Some(SPRING) {
+        return None;
+    }
+    let number = |key: &str| h.unknowns.iter().position(|u| u.belongs_to(index) && u.key == key);
+    let (stiffness, force) = (number("stiffness_n_per_m")?, number("yield_force_n")?);
+    let onset_m = values[force] / values[stiffness];
+    // The size of a force that matters over that of a stiffness is the largest displacement.
+    let largest_m = h.unknowns[force].scale / h.unknowns[stiffness].scale;
+    (onset_m > 0.0 && onset_m < AT_ONCE * largest_m).then_some(GivingFriction { force, onset_m })
+}
+
+/// Kind that an addition of a fitted hypothesis goes by in answers; none for what is no answer.
+pub fn kind_of(h: &Hypothesis, values: &[f64], index: usize) -> Option<&'static str> {
+    let friction = giving_friction(h, values, index).map(|_| FRICTION);
+    friction.or_else(|| Addition::kind(&h.additions[index]))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::diagnose::candidates::candidates;
+    use crate::diagnose::scale::Scales;
+    use crate::input::parse_wall;
+
+    const SCALES: Scales = Scales {
+        displacement_m: 0.05,
+        rotation_rad: 0.02,
+        frequency_rad_s: 5.0,
+        force_n: 1000.0,
+        moment_n_m: 2000.0,
+        width_m: 0.3,
+    };
+
+    /// The starter's wall with an effect of this name among others.
+    fn with(name: &str) -> Hypothesis {
+        let wall = parse_wall(Path::new("wall.toml"), include_str!("../starter/wall.toml"))
+            .expect("the starter's wall");
+        let all = candidates(wall.parameters());
+        let additions = ["viscous_damping", name].map(|name| {
+            *all.iter().find(|a| a.name() == name).unwrap_or_else(|| panic!("{name} in the catalogue"))
+        });
+        Hypothesis::new(wall.parameters(), &SCALES, &[], &additions)
+    }
+
+    #[test]
+    fn analytic_a_spring_that_yields_within_a_hundredth_of_the_motion_is_friction() {
+        let h = with("yielding_spring");
+        // 300 N over 0.4 mm of 50 mm, and over 0.6 mm.
+        let values = |onset_m: f64| [0.0, 300.0 / onset_m, 300.0];
+        let found = giving_friction(&h, &values(4e-4), 1).expect("friction");
+        assert_eq!(found.force, 2);
+        assert!((found.onset_m - 4e-4).abs() < 1e-18, "{found:?}");
+        assert_eq!(kind_of(&h, &values(4e-4), 1), Some("coulomb_friction"));
+        assert_eq!(kind_of(&h, &values(6e-4), 1), Some("yielding_spring"));
+        assert_eq!(kind_of(&h, &values(4e-4), 0), Some("viscous_damping"));
+        // A spring that holds nothing, or is none.
+        assert_eq!(kind_of(&h, &[0.0, 1e6, 0.0], 1), Some("yielding_spring"));
+        assert_eq!(kind_of(&h, &[0.0, 0.0, 0.0], 1), Some("yielding_spring"));
+    }
+
+    #[test]
+    fn analytic_other_effects_keep_their_names() {
+        assert_eq!(kind_of(&with("gap"), &[0.0, 1e-6], 1), Some("gap"));
+    }
+}
