@@ -19,6 +19,8 @@ const FEW_SIZES: Sizes = Sizes { one: &[0.05, 0.3], each_of_two: &[0.15, 0.6] };
 const MOST_AT_A_GLANCE: usize = 2;
 /// Most starts of two or more added numbers that are fitted coarsely.
 const BEGUN: usize = 3;
+/// Share of the size that matters from which a start of one number does something.
+const DOES_SOMETHING: f64 = 0.05;
 
 /// A hypothesis, fitted, and judged on tests that the fit has not seen.
 #[derive(Debug, Clone)]
@@ -83,23 +85,40 @@ pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Opti
 }
 
 /// The best coarse fit from starts about `base` that move the numbers from the `first` on; starts are compared at a glance.
-///
-/// Of two numbers or more, several sizes of the last are fitted: a spring that yields at too large a force does not feel that
-/// force at all.
 fn best_coarse(data: &Data, h: &Hypothesis, from: &Tried, base: &[f64], first: usize) -> Option<Fit> {
     let mut glances = glances(data, h, from, &ladder(h, base, first, &SIZES))?;
     glances.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let most = if h.unknowns.len() - first >= 2 { BEGUN } else { 1 };
-    // Equal costs are one motion: a spring yields at neither force.
+    let begun =
+        if h.unknowns.len() - first >= 2 { several(glances) } else { with_a_size(h, base, first, glances) };
+    let fits = begun.into_iter().filter_map(|start| data.fit.fit_coarsely(h, start));
+    fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
+}
+
+/// Of two numbers or more, the best of several sizes of the last: a spring that yields at too large a force does not feel that
+/// force at all. Equal costs are one motion: it yields at neither force.
+fn several(glances: Vec<Fit>) -> Vec<Fit> {
     let same = |a: &Fit, b: &Fit| a.values.last() == b.values.last() || a.cost == b.cost;
     let mut begun: Vec<Fit> = Vec::new();
     for glance in glances {
-        if begun.len() < most && !begun.iter().any(|other| same(other, &glance)) {
+        if begun.len() < BEGUN && !begun.iter().any(|other| same(other, &glance)) {
             begun.push(glance);
         }
     }
-    let fits = begun.into_iter().filter_map(|start| data.fit.fit_coarsely(h, start));
-    fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
+    begun
+}
+
+/// Of one number, the best, and the best of those that do something: the states of windows were fitted without it, and hold it
+/// where it does nothing though it is there.
+fn with_a_size(h: &Hypothesis, base: &[f64], number: usize, glances: Vec<Fit>) -> Vec<Fit> {
+    let does = |glance: &Fit| {
+        let size =
+            glance.values.get(number).zip(base.get(number)).map_or(0.0, |(own, base)| (own - base).abs());
+        h.unknowns.get(number).is_some_and(|unknown| size >= DOES_SOMETHING * unknown.scale)
+    };
+    let (doing, others): (Vec<_>, Vec<_>) = glances.into_iter().partition(does);
+    let mut begun = others.into_iter().take(1).chain(doing.into_iter().take(1)).collect::<Vec<_>>();
+    begun.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    begun
 }
 
 /// The states of another hypothesis, looked at with values of this one.
@@ -226,4 +245,72 @@ pub fn shared_states(data: &Data, tried: &Tried, others: &[&Tried]) -> Tried {
         }
     }
     best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::hypothesis::Unknown;
+    use super::*;
+
+    fn glances(of: &[(f64, f64)]) -> Vec<Fit> {
+        let one = |&(value, cost): &(f64, f64)| Fit {
+            values: vec![value],
+            windows: Vec::new(),
+            cost,
+            covariance: None,
+        };
+        of.iter().map(one).collect()
+    }
+
+    /// A wall with vertical motion, whose ratio of 1 matters.
+    fn shaken_upwards() -> Hypothesis {
+        use crate::diagnose::candidates::candidates;
+        use crate::diagnose::scale::Scales;
+
+        let text = include_str!("../starter/wall.toml");
+        let wall =
+            crate::input::parse_wall(std::path::Path::new("wall.toml"), text).expect("the starter's wall");
+        let all = candidates(wall.parameters());
+        let vertical = *all.iter().find(|a| a.name() == "vertical_ground_motion").expect("in the catalogue");
+        let scales = Scales::of(&wall, &[]);
+        Hypothesis::new(wall.parameters(), &scales, &[], &[vertical])
+    }
+
+    #[test]
+    fn analytic_one_number_starts_where_it_does_something_too() {
+        let h = shaken_upwards();
+        let [Unknown { scale, .. }] = &h.unknowns[..] else { panic!("one number") };
+        assert_eq!(*scale, 1.0);
+        let values = |begun: &[Fit]| begun.iter().map(|fit| fit.values[0]).collect::<Vec<_>>();
+        let near = glances(&[(0.0, 1.0), (-0.01, 2.0), (-0.08, 3.0), (0.2, 4.0)]);
+        assert_eq!(values(&with_a_size(&h, &[0.0], 0, near)), [0.0, -0.08]);
+        // The better of the two comes first; about another value the same shares count.
+        let far = glances(&[(0.4, 1.0), (0.2, 2.0), (0.39, 3.0)]);
+        assert_eq!(values(&with_a_size(&h, &[0.4], 0, far)), [0.4, 0.2]);
+        assert_eq!(values(&with_a_size(&h, &[0.0], 0, glances(&[(0.4, 1.0), (0.0, 2.0)]))), [0.4, 0.0]);
+        // Nothing is added: the only start.
+        assert_eq!(values(&with_a_size(&h, &[0.0], 1, glances(&[(0.4, 1.0)]))), [0.4]);
+    }
+
+    #[test]
+    fn analytic_of_two_numbers_several_sizes_of_the_last_are_begun() {
+        let of = |(one, two, cost): (f64, f64, f64)| Fit {
+            values: vec![one, two],
+            windows: Vec::new(),
+            cost,
+            covariance: None,
+        };
+        let all = [
+            (1.0, 1.0, 1.0),
+            (2.0, 1.0, 2.0),
+            (1.0, 2.0, 3.0),
+            (1.0, 3.0, 3.0),
+            (1.0, 4.0, 4.0),
+            (1.0, 5.0, 5.0),
+        ];
+        let begun = several(all.map(of).to_vec());
+        // The second has the size of the first, and the fourth moves as the third does.
+        let sizes = begun.iter().map(|fit| fit.values[1]).collect::<Vec<_>>();
+        assert_eq!(sizes, [1.0, 2.0, 4.0]);
+    }
 }

@@ -35,7 +35,7 @@ pub static COLUMNS: [Column<Row>; 21] = [
         "over_detectable",
         "",
         "size over the smallest that the diagnosis says it could detect",
-        Read::Number(|r| r.over_detectable),
+        Read::Number(|r| r.first_over_detectable()),
     ),
     Column::result(
         "parameter_error",

@@ -26,8 +26,8 @@ pub struct Row {
     pub named: Vec<String>,
     pub equivalent: Vec<String>,
     pub place: String,
-    /// Deviation of the first effect from doing nothing over the smallest that the diagnosis says it could detect.
-    pub over_detectable: Option<f64>,
+    /// Deviation of each hidden effect from doing nothing over the smallest that the diagnosis says it could detect.
+    pub over_detectable: Vec<Option<f64>>,
     /// |found - true| / deviation of the first effect's number, where it was named rightly.
     pub parameter_error: Option<f64>,
     /// Whether the interval of that number holds the truth.
@@ -70,7 +70,9 @@ impl Row {
             named: texts(diagnosis, "/effects", "kind"),
             equivalent: texts(diagnosis, "/equivalent", "kind"),
             place: place(diagnosis),
-            over_detectable: over_detectable(answer, diagnosis),
+            over_detectable: (0..list(answer, "/effects").len())
+                .map(|index| over_detectable(answer, index, diagnosis))
+                .collect(),
             parameter_error: None,
             covered: None,
             before: held_out(diagnosis, "before"),
@@ -101,7 +103,21 @@ impl Row {
 
     /// Whether the first effect is at least twice the smallest detectable; by its size where that is not told.
     pub fn visible(&self) -> bool {
-        self.over_detectable.map_or(self.size >= 1.0, |ratio| ratio >= 2.0)
+        self.shows(self.first_over_detectable())
+    }
+
+    /// See [`Row::over_detectable`], of the first effect.
+    pub fn first_over_detectable(&self) -> Option<f64> {
+        self.over_detectable.first().copied().flatten()
+    }
+
+    /// Whether all of its effects are.
+    pub fn all_visible(&self) -> bool {
+        self.over_detectable.iter().all(|ratio| self.shows(*ratio))
+    }
+
+    fn shows(&self, over_detectable: Option<f64>) -> bool {
+        over_detectable.map_or(self.size >= 1.0, |ratio| ratio >= 2.0)
     }
 
     /// Whether an effect of the catalogue was hidden.
@@ -165,12 +181,13 @@ fn place(diagnosis: &Value) -> String {
     if own.is_empty() { text(diagnosis, "/effects/0/place") } else { own }
 }
 
-/// How far above the smallest detectable size the first effect is, as the diagnosis itself sees that size.
-fn over_detectable(answer: &Value, diagnosis: &Value) -> Option<f64> {
-    let name = text(answer, "/effects/0/name");
+/// How far above the smallest detectable size an effect is, as the diagnosis itself sees that size.
+fn over_detectable(answer: &Value, index: usize, diagnosis: &Value) -> Option<f64> {
+    let of = |key: &str| format!("/effects/{index}/{key}");
+    let name = text(answer, &of("name"));
     let row = list(diagnosis, "/could_hide").iter().find(|row| text(row, "/name") == name)?;
-    let parameter = text(answer, "/effects/0/parameter");
-    let deviation = number(answer, "/effects/0/deviation")?;
+    let parameter = text(answer, &of("parameter"));
+    let deviation = number(answer, &of("deviation"))?;
     let smallest = number(row, "/smallest_detectable").filter(|_| text(row, "/parameter") == parameter)?;
     Some(deviation / smallest)
 }

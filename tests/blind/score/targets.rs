@@ -46,8 +46,10 @@ pub fn table(rows: &[Row]) -> String {
     add("parameter, median error where named rightly", "≤ 5 %", told);
     let covered = Counted::of(rows.iter().filter_map(|row| row.covered), |covered| *covered);
     add("  90 % interval holds the truth", "85 to 95 %", covered.told());
-    let pairs = rows.iter().filter(|row| row.hidden.len() == 2);
-    add("two effects, both named", "≥ 80 %", Counted::of(pairs, |row| row.exact()).told());
+    let pairs = rows.iter().filter(|row| row.hidden.len() == 2).collect::<Vec<_>>();
+    add("two effects, both named", "≥ 80 %", Counted::of(&pairs, |row| row.exact()).told());
+    let both = pairs.iter().filter(|row| row.all_visible());
+    add("  both visible", "", Counted::of(both, |row| row.exact()).told());
     let named: Vec<&Row> = rows.iter().filter(|row| row.right()).collect();
     let of = |value: fn(&Row) -> Option<f64>| median(named.iter().filter_map(|row| value(row)));
     let told = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
