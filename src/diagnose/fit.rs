@@ -120,17 +120,32 @@ impl Problem<'_> {
         let fit = |(window, x): (&Window, &Vec<f64>)| fit_window(&replay, window, x, steps);
         let windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
         let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
-        // A model that misses most windows is not in the wrong valley of each.
-        if thorough && !found.misses_many() {
-            let search = |(window, fit): (&Window, &mut WindowFit)| {
-                if fit.is_poor() {
-                    *fit = other_valleys(&replay, window, fit, steps);
-                }
-            };
-            self.windows.par_iter().zip(&mut found.windows).for_each(search);
+        if thorough {
+            self.search(&replay, &mut found, steps);
         }
         found.cost = cost(h, &found, Loss::NEAR);
         Some(found)
+    }
+
+    /// Looks for other states of the windows that are followed badly: those measured, for what was fitted under a model far
+    /// from the truth need not be near it; and others, unless the model misses most windows: then it is not in the wrong valley
+    /// of each.
+    fn search(&self, replay: &Replay, found: &mut Fit, steps: usize) {
+        let poor = |look: &(dyn Fn(&Window, &WindowFit) -> WindowFit + Sync), fits: &mut [WindowFit]| {
+            let one = |(window, fit): (&Window, &mut WindowFit)| {
+                if fit.is_poor() {
+                    let other = look(window, fit);
+                    if other.squares < fit.squares {
+                        *fit = other;
+                    }
+                }
+            };
+            self.windows.par_iter().zip(fits).for_each(one);
+        };
+        poor(&|window, _| fit_window(replay, window, &window.measured, steps), &mut found.windows);
+        if !found.misses_many() {
+            poor(&|window, fit| other_valleys(replay, window, fit, steps), &mut found.windows);
+        }
     }
 
     /// Fits numbers and states from given ones, coarsely: under the widest loss, states from where they are.
