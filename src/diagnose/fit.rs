@@ -3,16 +3,17 @@
 //! Multiple shooting: the states are eliminated window by window (an orthogonal projection of residuals and
 //! sensitivities), which leaves normal equations in the few numbers of the hypothesis; after each step the states follow.
 
-use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
-
 use super::hypothesis::{Hypothesis, Unknown};
 use super::linear::{Linear, first_changes, next_changes};
 use super::replay::Replay;
 use super::robust::Loss;
+use super::score::poor_share;
 use super::test_data::TestData;
-use super::window_fit::{WindowFit, fit_window, newton_step, other_valleys, state_jacobian};
+use super::window_fit::{
+    At, From, WindowFit, fit_windows, in_chunks, newton_step, other_valleys, state_jacobians, take_steps,
+};
 use super::windows::Window;
+use nalgebra::{DMatrix, DVector};
 
 /// When to end the steps with one loss.
 #[derive(Debug, Clone, Copy)]
@@ -54,8 +55,7 @@ pub struct Fit {
 impl Fit {
     /// Whether the model, and not the states it was given, is what misses the windows.
     pub fn misses_many(&self) -> bool {
-        let poor = self.windows.iter().filter(|w| w.is_poor()).count();
-        poor as f64 > MOST_POOR * self.windows.len() as f64
+        poor_share(&self.windows) > MOST_POOR
     }
 }
 
@@ -78,28 +78,33 @@ impl Problem<'_> {
     /// such wall.
     pub fn chords(&self, h: &Hypothesis, fit: &Fit) -> Option<Vec<DMatrix<f64>>> {
         let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
-        let chord = |(window, state): (&Window, &WindowFit)| {
-            let r = replay.residual(window, &state.x);
-            state_jacobian(&replay, window, &state.x, &r)
+        let chords = |these: &[From]| {
+            let at = At::all(&replay, owned(these));
+            state_jacobians(&replay, &at.iter().collect::<Vec<_>>())
         };
-        Some(self.windows.par_iter().zip(&fit.windows).map(chord).collect())
+        Some(in_chunks(&self.states_of(fit), chords))
+    }
+
+    /// The windows with the states of a fit.
+    pub(super) fn states_of<'f>(&'f self, fit: &'f Fit) -> Vec<From<'f>> {
+        self.windows.iter().zip(fit.windows.iter().map(|state| &state.x[..])).collect()
     }
 
     /// The states of a fit moved by one step with the chords of another hypothesis nearby, where that helps: a cheap look
     /// at what values would do; none if there is no such wall.
     pub fn glance(&self, h: &Hypothesis, values: &[f64], from: &Fit, chords: &[DMatrix<f64>]) -> Option<Fit> {
         let replay = Replay::new(self.tests, &h.physics(values)?);
-        let look = |((window, state), chord): ((&Window, &WindowFit), &DMatrix<f64>)| {
-            let at = |x: Vec<f64>| {
-                let r = replay.residual(window, &x);
-                (WindowFit { squares: r.norm_squared(), x, freedom: state.freedom }, r)
-            };
-            let (stay, r) = at(state.x.clone());
-            let step = newton_step(chord, &r).filter(|_| chord.ncols() > 0);
-            let moved = step.map(|dx| at(state.x.iter().zip(dx.iter()).map(|(x, d)| x + d).collect()).0);
-            moved.filter(|moved| moved.squares < stay.squares).unwrap_or(stay)
+        let look = |these: &[(From, &DMatrix<f64>)]| {
+            let (states, chords): (Vec<_>, Vec<_>) = these.iter().copied().unzip();
+            let mut all = At::all(&replay, owned(&states));
+            let step =
+                |(at, chord): (&At, &&DMatrix<f64>)| newton_step(chord, &at.r).filter(|_| chord.ncols() > 0);
+            let steps = all.iter().zip(&chords).map(step).collect();
+            take_steps(&replay, &mut all, steps);
+            all.into_iter().map(At::fit).collect()
         };
-        let windows = self.windows.par_iter().zip(&from.windows).zip(chords).map(look).collect();
+        let these = self.states_of(from).into_iter().zip(chords).collect::<Vec<_>>();
+        let windows = in_chunks(&these, look);
         let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
         let loss = Loss::of_starts(from.windows.iter().map(WindowFit::reduced).collect());
         found.cost = cost(h, &found, loss);
@@ -117,8 +122,8 @@ impl Problem<'_> {
         thorough: bool,
     ) -> Option<Fit> {
         let replay = Replay::new(self.tests, &h.physics(values)?);
-        let fit = |(window, x): (&Window, &Vec<f64>)| fit_window(&replay, window, x, steps);
-        let windows = self.windows.par_iter().zip(x).map(fit).collect::<Vec<_>>();
+        let these = self.windows.iter().zip(x.iter().map(|x| &x[..])).collect::<Vec<_>>();
+        let windows = in_chunks(&these, |these| fit_windows(&replay, owned(these), steps));
         let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
         if thorough {
             self.search(&replay, &mut found, steps);
@@ -131,20 +136,28 @@ impl Problem<'_> {
     /// from the truth need not be near it; and others, unless the model misses most windows: then it is not in the wrong valley
     /// of each.
     fn search(&self, replay: &Replay, found: &mut Fit, steps: usize) {
-        let poor = |look: &(dyn Fn(&Window, &WindowFit) -> WindowFit + Sync), fits: &mut [WindowFit]| {
-            let one = |(window, fit): (&Window, &mut WindowFit)| {
-                if fit.is_poor() {
-                    let other = look(window, fit);
-                    if other.squares < fit.squares {
-                        *fit = other;
-                    }
-                }
-            };
-            self.windows.par_iter().zip(fits).for_each(one);
-        };
-        poor(&|window, _| fit_window(replay, window, &window.measured, steps), &mut found.windows);
+        self.retried(found, |poor| {
+            let measured = poor.iter().map(|(window, _)| (*window, window.measured.clone()));
+            fit_windows(replay, measured.collect(), steps)
+        });
         if !found.misses_many() {
-            poor(&|window, fit| other_valleys(replay, window, fit, steps), &mut found.windows);
+            self.retried(found, |poor| other_valleys(replay, poor, steps));
+        }
+    }
+
+    /// Takes what is found for windows that are followed badly, where it is better.
+    fn retried(
+        &self,
+        found: &mut Fit,
+        find: impl Fn(&[(&Window, &WindowFit)]) -> Vec<WindowFit> + Send + Sync,
+    ) {
+        let poor = (0..self.windows.len()).filter(|k| found.windows[*k].is_poor()).collect::<Vec<_>>();
+        let these = poor.iter().map(|k| (&self.windows[*k], &found.windows[*k])).collect::<Vec<_>>();
+        let others = in_chunks(&these, find);
+        for (k, other) in poor.into_iter().zip(others) {
+            if other.squares < found.windows[k].squares {
+                found.windows[k] = other;
+            }
         }
     }
 
@@ -231,49 +244,31 @@ impl Problem<'_> {
         let dp =
             DVector::from_iterator(values.len(), values.iter().zip(&fit.values).map(|(new, old)| new - old));
         let replay = Replay::new(self.tests, &h.physics(&values)?);
-        let follow = |((window, state), linear): ((&Window, &WindowFit), &Linear)| {
-            followed(&replay, window, state, linear, &dp)
-        };
-        let windows = self.windows.par_iter().zip(&fit.windows).zip(linear).map(follow).collect();
+        let follow = |these: &[(From, &Linear)]| followed(&replay, these, &dp);
+        let these = self.states_of(fit).into_iter().zip(linear).collect::<Vec<_>>();
+        let windows = in_chunks(&these, follow);
         let mut next = Fit { values, windows, cost: 0.0, covariance: None };
         next.cost = cost(h, &next, loss);
         Some(next)
     }
 }
 
-/// The state of a window after a step dp of the numbers: as the linear window says, and a step with its old Jacobian.
-fn followed(
-    replay: &Replay,
-    window: &Window,
-    state: &WindowFit,
-    linear: &Linear,
-    dp: &DVector<f64>,
-) -> WindowFit {
-    let freedom = state.freedom;
-    let plus = |x: &[f64], dx: &DVector<f64>| x.iter().zip(dx.iter()).map(|(x, d)| x + d).collect::<Vec<_>>();
-    let at = |x: Vec<f64>| {
-        let r = replay.residual(window, &x);
-        (WindowFit { squares: r.norm_squared(), x, freedom }, r)
-    };
-    let (stay, r_stay) = at(state.x.clone());
-    if linear.jx.ncols() == 0 {
-        return stay;
-    }
-    let mut best = stay;
-    let mut r = r_stay;
-    if let Some(dx) = newton_step(&linear.jx, &(&linear.r + &linear.jp * dp)) {
-        let (moved, r_moved) = at(plus(&state.x, &dx));
-        if moved.squares < best.squares {
-            (best, r) = (moved, r_moved);
-        }
-    }
-    if let Some(dx) = newton_step(&linear.jx, &r) {
-        let (again, _) = at(plus(&best.x, &dx));
-        if again.squares < best.squares {
-            best = again;
-        }
-    }
-    best
+/// The states of windows after a step dp of the numbers: as the linear windows say, and a step with their old Jacobians.
+fn followed(replay: &Replay, these: &[(From, &Linear)], dp: &DVector<f64>) -> Vec<WindowFit> {
+    let (states, linear): (Vec<_>, Vec<_>) = these.iter().copied().unzip();
+    let mut all = At::all(replay, owned(&states));
+    let has_state = |l: &&&Linear| l.jx.ncols() > 0;
+    let said = |l: &&Linear| Some(l).filter(has_state).and_then(|l| newton_step(&l.jx, &(&l.r + &l.jp * dp)));
+    take_steps(replay, &mut all, linear.iter().map(said).collect());
+    let again = |(l, at): (&&Linear, &At)| Some(l).filter(has_state).and_then(|l| newton_step(&l.jx, &at.r));
+    let steps = linear.iter().zip(&all).map(again).collect();
+    take_steps(replay, &mut all, steps);
+    all.into_iter().map(At::fit).collect()
+}
+
+/// Windows with states of their own.
+pub(super) fn owned<'w>(these: &[(&'w Window, &[f64])]) -> Vec<(&'w Window, Vec<f64>)> {
+    these.iter().map(|(window, x)| (*window, x.to_vec())).collect()
 }
 
 fn cost(h: &Hypothesis, fit: &Fit, loss: Loss) -> f64 {

@@ -4,14 +4,11 @@
 //! fit to stay where it is, and a number to be known a hundred times better than it is: it tells nothing here. What it costs
 //! still counts.
 
-use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
-
-use super::fit::{Fit, Problem};
+use super::fit::{Fit, Problem, owned};
 use super::hypothesis::{Hypothesis, Unknown};
 use super::replay::Replay;
-use super::window_fit::{WindowFit, state_jacobian};
-use super::windows::Window;
+use super::window_fit::{At, From, in_chunks, state_jacobians};
+use nalgebra::{DMatrix, DVector};
 
 /// A sensitivity is taken over a change of the residuals of this many standard deviations of the noise ...
 const CHANGE: f64 = 0.3;
@@ -86,9 +83,11 @@ struct Neighbour<'t> {
 }
 
 impl Neighbour<'_> {
-    /// Slope of a window's residuals r.
-    fn slope(&self, window: &Window, state: &WindowFit, r: &DVector<f64>) -> DVector<f64> {
-        (self.replay.residual(window, &state.x) - r) / self.change
+    /// Slopes of the residuals of windows.
+    fn slopes(&self, these: &[At]) -> Vec<DVector<f64>> {
+        let asked = these.iter().map(|at| (at.window, &at.x[..])).collect::<Vec<_>>();
+        let found = self.replay.residuals(&asked);
+        found.into_iter().zip(these).map(|(r, at)| (r - &at.r) / self.change).collect()
     }
 }
 
@@ -115,17 +114,18 @@ impl Problem<'_> {
         let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
         let sides = |(i, change): (usize, &f64)| self.sides(h, fit, i, *change);
         let sides = changes.iter().enumerate().map(sides).collect::<Option<Vec<_>>>()?;
-        let linear = |(window, state): (&Window, &WindowFit)| {
-            let r = replay.residual(window, &state.x);
-            let jx = state_jacobian(&replay, window, &state.x, &r);
-            let slopes = |side: usize| {
-                let columns =
-                    sides.iter().map(|both| both[side].slope(window, state, &r)).collect::<Vec<_>>();
-                DMatrix::from_columns(&columns)
+        let linear = |these: &[From]| {
+            let these = At::all(&replay, owned(these));
+            let jx = state_jacobians(&replay, &these.iter().collect::<Vec<_>>());
+            let slopes =
+                [0, 1].map(|side| sides.iter().map(|both| both[side].slopes(&these)).collect::<Vec<_>>());
+            let columns = |side: usize, k: usize| {
+                DMatrix::from_columns(&slopes[side].iter().map(|of| of[k].column(0)).collect::<Vec<_>>())
             };
-            Linear::new(jx, [slopes(0), slopes(1)], r, changes)
+            let all = these.into_iter().zip(jx).enumerate();
+            all.map(|(k, (at, jx))| Linear::new(jx, [columns(0, k), columns(1, k)], at.r, changes)).collect()
         };
-        Some(self.windows.par_iter().zip(&fit.windows).map(linear).collect())
+        Some(in_chunks(&self.states_of(fit), linear))
     }
 
     /// The wall to either side of a value; at a bound, by the whole and by half of the change.

@@ -14,7 +14,7 @@ use super::replay::Replay;
 use super::score::nats;
 use super::search::Tried;
 use super::test_data::TestData;
-use super::window_fit::{WindowFit, fit_window};
+use super::window_fit::{WindowFit, fit_windows};
 use super::windows::Window;
 use crate::model::Pair;
 
@@ -87,7 +87,8 @@ fn with_free_bodies(
     let spread = [&window.spread[..], &window.spread].concat();
     let free = Window { freedom: Freedom::Both, opened: true, spread, ..window.clone() };
     let starts = [&window.measured, &closed.x].map(|x| openings(&tests[window.test], window.freedom, x));
-    let fits = starts.into_iter().flatten().map(|x| fit_window(replay, &free, &x, STEPS));
+    let starts = starts.into_iter().flatten().map(|x| (&free, x.to_vec())).collect();
+    let fits = fit_windows(replay, starts, STEPS).into_iter();
     let test = &tests[window.test];
     let reads_closed = |x: &[f64]| gap_in_noise(test, window.freedom, x).abs() < READS_CLOSED;
     let fit = fits.filter(|fit| reads_closed(&fit.x)).min_by(|a, b| a.squares.total_cmp(&b.squares))?;
@@ -175,7 +176,8 @@ mod tests {
     fn opened_again(x: &[f64; 4]) -> (WindowFit, (Vec<Window>, usize)) {
         let (test, window, physics) = reads_as_closed(x);
         let tests = [test];
-        let closed = fit_window(&Replay::new(&tests, &physics), &window, &window.measured, STEPS);
+        let start = vec![(&window, window.measured.clone())];
+        let closed = fit_windows(&Replay::new(&tests, &physics), start, STEPS).swap_remove(0);
         let windows = opened(&tests, &physics, std::slice::from_ref(&closed), &[window]);
         (closed, windows)
     }

@@ -7,7 +7,9 @@ use super::memory::SpringMemory;
 use super::test_data::TestData;
 use super::windows::Window;
 use crate::model::{Contact, Pair};
-use crate::simulate::{Accuracy, Observer, Response, Shaking, Simulator, Start};
+use crate::simulate::{
+    Accuracy, Observer, Prepared, Response, Shaking, Simulator, Start, simulate_side_by_side,
+};
 use crate::solver::Quintic;
 
 /// Accuracy of windows: far below any noise, over a second.
@@ -34,38 +36,62 @@ impl<'a> Replay<'a> {
         Self { tests, simulators, springs }
     }
 
-    /// Measured less simulated rotations over the noise, θ_1 and θ_2 of each sample in turn; zero where none was
-    /// measured.
-    pub fn residual(&self, window: &Window, x: &[f64]) -> DVector<f64> {
-        let test = &self.tests[window.test];
-        let simulator = &self.simulators[window.test];
-        let from = window.samples.start;
-        let times = &test.time_s[window.samples.clone()];
-        let mut sampler = Sampler { times, theta: Vec::with_capacity(times.len()) };
-        self.run(window, x, &mut sampler);
-        // A run that failed says nothing of what came after.
-        sampler.theta.resize(times.len(), [f64::NAN; 2]);
-        let reading = simulator.wall().wall().reading();
-        let residual = |i: usize| {
-            let (k, channel) = (i / 2, i % 2);
-            let measured = test.theta_rad[from + k][channel];
-            let simulated = reading.of(sampler.theta[k])[channel];
-            let r = (measured - simulated) / test.noise_rad[channel];
-            if r.is_finite() { r } else { 0.0 }
+    /// Measured less simulated rotations of windows, each from a state, over the noise: θ_1 and θ_2 of each sample in turn; zero
+    /// where none was measured. Simulated side by side, which changes nothing but the time it takes.
+    pub fn residuals(&self, asked: &[(&Window, &[f64])]) -> Vec<DVector<f64>> {
+        let sampler = |(window, _): &(&Window, &[f64])| {
+            let times = &self.tests[window.test].time_s[window.samples.clone()];
+            Sampler { times, theta: Vec::with_capacity(times.len()) }
         };
-        DVector::from_fn(2 * times.len(), |i, _| residual(i))
+        let mut samplers = asked.iter().map(sampler).collect::<Vec<_>>();
+        let mut waiting = asked.iter().zip(&mut samplers);
+        let next = || waiting.next().map(|((window, x), sampler)| ((), self.prepared(window, x, sampler)));
+        simulate_side_by_side(next, |(), _| ());
+        asked.iter().zip(samplers).map(|((window, _), sampler)| self.left(window, sampler)).collect()
+    }
+
+    /// The same of one window.
+    pub fn residual(&self, window: &Window, x: &[f64]) -> DVector<f64> {
+        self.residuals(&[(window, x)]).swap_remove(0)
     }
 
     /// Runs a window from a state to its last sample.
     pub fn run(&self, window: &Window, x: &[f64], observer: &mut impl Observer) -> Response {
+        let (start, end_s) = self.ends(window, x);
+        self.simulators[window.test].run_from(&start, end_s, observer)
+    }
+
+    fn prepared<O: Observer>(&self, window: &Window, x: &[f64], observer: O) -> Prepared<O> {
+        let (start, end_s) = self.ends(window, x);
+        self.simulators[window.test].prepared_from(&start, end_s, observer)
+    }
+
+    /// Where a window starts from a state, and its end, s.
+    fn ends(&self, window: &Window, x: &[f64]) -> (Start, f64) {
         let time_s = &self.tests[window.test].time_s;
         let (state, contact) = window.freedom.state(x);
         let from = window.samples.start;
-        let simulator = &self.simulators[window.test];
-        let plastic_displacement_m =
-            self.springs[window.test].plastic_m(from, simulator.wall(), contact, state.theta);
+        let wall = self.simulators[window.test].wall();
+        let plastic_displacement_m = self.springs[window.test].plastic_m(from, wall, contact, state.theta);
         let start = Start { time_s: time_s[from], state, contact: Some(contact), plastic_displacement_m };
-        simulator.run_from(&start, time_s[window.samples.end - 1], observer)
+        (start, time_s[window.samples.end - 1])
+    }
+
+    /// What a simulated window leaves of the measured one.
+    fn left(&self, window: &Window, sampler: Sampler) -> DVector<f64> {
+        let test = &self.tests[window.test];
+        let reading = self.simulators[window.test].wall().wall().reading();
+        let mut theta = sampler.theta;
+        // A run that failed says nothing of what came after.
+        theta.resize(window.samples.len(), [f64::NAN; 2]);
+        let measured = &test.theta_rad[window.samples.clone()];
+        let of = |(measured, simulated): (&Pair, Pair)| {
+            let simulated = reading.of(simulated);
+            [0, 1]
+                .map(|i| (measured[i] - simulated[i]) / test.noise_rad[i])
+                .map(|r| if r.is_finite() { r } else { 0.0 })
+        };
+        DVector::from_iterator(2 * measured.len(), measured.iter().zip(theta).flat_map(of))
     }
 }
 

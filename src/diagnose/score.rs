@@ -26,6 +26,12 @@ pub fn share_beyond(fits: &[WindowFit], reduced: f64) -> f64 {
     if fits.is_empty() { 0.0 } else { beyond as f64 / fits.len() as f64 }
 }
 
+/// Share of the windows with more error than noise leaves.
+pub fn poor_share(fits: &[WindowFit]) -> f64 {
+    let poor = fits.iter().filter(|fit| fit.is_poor()).count();
+    if fits.is_empty() { 0.0 } else { poor as f64 / fits.len() as f64 }
+}
+
 /// What the windows say against a hypothesis, in natural logarithms of likelihood: half the squared error above that of
 /// noise, bounded for each window, so that no window decides alone.
 pub fn nats(fits: &[WindowFit]) -> f64 {

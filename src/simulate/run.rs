@@ -96,10 +96,9 @@ impl<O: Observer> Run<O> {
         }
     }
 
-    /// The whole run, step by step.
-    pub fn go(mut self, start_s: f64) -> Response {
+    /// The run that was begun, to its end, step by step.
+    pub fn go(mut self) -> Response {
         let mut after = Aftermath::default();
-        self.begin(start_s);
         while self.wants_step() {
             let step = self.asked().take(&mut after);
             self.answer(&step, &after);
@@ -112,6 +111,11 @@ impl<O: Observer> Run<O> {
         self.stopped = self.start(start_s).err();
         (self.k, self.offset_s) = self.ground.place(start_s);
         self.piece = self.ground.piece(self.k);
+    }
+
+    /// Ends the run before it starts.
+    pub fn refuse(&mut self, time_s: f64, reason: String) {
+        self.stopped = Some(Stop::Failed { time_s, reason });
     }
 
     /// Stands as long as nothing moves; whether a step is to be taken then: [`Run::asked`], [`Run::answer`]. If not, the run
@@ -300,7 +304,7 @@ impl<O: Observer> Run<O> {
         }
     }
 
-    pub fn response(mut self, outcome: Outcome) -> Response {
+    fn response(mut self, outcome: Outcome) -> Response {
         let end_time_s = match outcome {
             Outcome::Stood => self.ground.end_s(),
             Outcome::Collapsed { time_s } | Outcome::Failed { time_s, .. } => time_s,

@@ -6,6 +6,7 @@ use std::ops::Mul;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
+use super::history::Observer;
 use super::response::Response;
 use super::run::{Asked, Run};
 use crate::fused::fused_lanes;
@@ -221,26 +222,47 @@ fn steps_apart<S: Simd>(simd: S, asked: &[Asked; LANES]) -> [(Step, Aftermath); 
 /// Runs that are at work at once: enough that there mostly are as many of a kind as there are lanes.
 const AT_ONCE: usize = 6 * LANES;
 
-/// A wall under a shaking, from the start, ready to run beside others.
-pub struct Prepared(Run<()>);
+/// A wall under a shaking, ready to run beside others from a time in seconds on.
+pub struct Prepared<O = ()> {
+    run: Run<O>,
+    start_s: f64,
+    /// Why it cannot start.
+    refused: Option<String>,
+}
 
-impl Prepared {
-    pub(super) fn new(run: Run<()>) -> Self {
-        Self(run)
+impl<O: Observer> Prepared<O> {
+    pub(super) fn new(run: Run<O>, start_s: f64, refused: Option<String>) -> Self {
+        Self { run, start_s, refused }
+    }
+
+    fn begun(mut self) -> Run<O> {
+        match self.refused {
+            None => self.run.begin(self.start_s),
+            Some(reason) => self.run.refuse(self.start_s, reason),
+        }
+        self.run
+    }
+
+    /// Runs it alone.
+    pub(super) fn alone(self) -> Response {
+        self.begun().go()
     }
 }
 
 /// Runs what `next` gives side by side until it gives no more, and tells `done` each response, as they end.
 ///
 /// A response is that of [`super::simulate`] to the bit, whatever runs beside it.
-pub fn simulate_side_by_side<T>(next: impl FnMut() -> Option<(T, Prepared)>, done: impl FnMut(T, Response)) {
+pub fn simulate_side_by_side<T, O: Observer>(
+    next: impl FnMut() -> Option<(T, Prepared<O>)>,
+    done: impl FnMut(T, Response),
+) {
     simulate_side_by_side_at(Level::new(), next, done);
 }
 
 /// The same by given vector instructions, which change nothing but the time it takes.
-pub fn simulate_side_by_side_at<T>(
+pub fn simulate_side_by_side_at<T, O: Observer>(
     level: Level,
-    next: impl FnMut() -> Option<(T, Prepared)>,
+    next: impl FnMut() -> Option<(T, Prepared<O>)>,
     done: impl FnMut(T, Response),
 ) {
     let mut work = Work {
@@ -259,10 +281,10 @@ pub fn simulate_side_by_side_at<T>(
     while work.step() {}
 }
 
-struct Work<T, N, D> {
+struct Work<T, O, N, D> {
     next: N,
     done: D,
-    slots: Vec<Option<(T, Run<()>)>>,
+    slots: Vec<Option<(T, Run<O>)>>,
     /// Slots that ask for a step of a wall that turns as one, and of one whose bodies turn apart.
     as_one: Vec<usize>,
     apart: Vec<usize>,
@@ -270,12 +292,11 @@ struct Work<T, N, D> {
     level: Level,
 }
 
-impl<T, N: FnMut() -> Option<(T, Prepared)>, D: FnMut(T, Response)> Work<T, N, D> {
+impl<T, O: Observer, N: FnMut() -> Option<(T, Prepared<O>)>, D: FnMut(T, Response)> Work<T, O, N, D> {
     #[inline(never)]
-    fn begin_next(&mut self) -> Option<(T, Run<()>)> {
-        let (tag, Prepared(mut run)) = (self.next)()?;
-        run.begin(0.0);
-        Some((tag, run))
+    fn begin_next(&mut self) -> Option<(T, Run<O>)> {
+        let (tag, prepared) = (self.next)()?;
+        Some((tag, prepared.begun()))
     }
 
     /// Brings the run in a slot, or the next one in its place, to where it asks for a step that others may share.

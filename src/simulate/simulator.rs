@@ -2,7 +2,7 @@
 
 use super::ground_path::GroundPath;
 use super::history::Observer;
-use super::response::{Outcome, Response};
+use super::response::Response;
 use super::rest::RestLimits;
 use super::run::Run;
 use super::side_by_side::Prepared;
@@ -107,22 +107,22 @@ impl Simulator {
     ///
     /// A start that is no time from 0 on with finite rotations and velocities gives a run that failed.
     pub fn run_from(&self, start: &Start, end_s: f64, observer: &mut impl Observer) -> Response {
-        let placed = self.placed(start);
-        let run = Run::new(self, &placed, self.ground.until(end_s), observer);
-        let State { theta, omega } = start.state;
-        if theta.iter().chain(&omega).all(|x| x.is_finite())
-            && start.time_s.is_finite()
-            && start.time_s >= 0.0
-        {
-            return run.go(start.time_s);
-        }
-        let reason = format!("no time and state to start from: {start:?}");
-        run.response(Outcome::Failed { time_s: start.time_s, reason })
+        self.prepared_from(start, end_s, observer).alone()
     }
 
     /// The whole run, to be run beside others.
     pub fn prepared(&self) -> Prepared {
-        Prepared::new(Run::new(self, &self.placed(&self.release()), self.ground.clone(), ()))
+        self.prepared_from(&self.release(), self.end_s(), ())
+    }
+
+    /// A window as [`Simulator::run_from`] runs it, to be run beside others.
+    pub fn prepared_from<O: Observer>(&self, start: &Start, end_s: f64, observer: O) -> Prepared<O> {
+        let run = Run::new(self, &self.placed(start), self.ground.until(end_s), observer);
+        let State { theta, omega } = start.state;
+        let finite = theta.iter().chain(&omega).all(|x| x.is_finite());
+        let valid = finite && start.time_s.is_finite() && start.time_s >= 0.0;
+        let refused = (!valid).then(|| format!("no time and state to start from: {start:?}"));
+        Prepared::new(run, start.time_s, refused)
     }
 
     /// Moves a start onto its contact state.
