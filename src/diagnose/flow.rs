@@ -8,10 +8,11 @@ use super::hypothesis::{Addition, Hypothesis, Nuisance};
 use super::other_law::OtherLaw;
 use super::read_again::{gain_misread, opened, reads_better, set_gain};
 use super::search::{Data, Tried, untouched};
+use super::second::worth_two;
 use super::trials::{Alone, Progress, Trials};
 use super::verdict::{
     EQUIVALENT, HELD_OUT, Verdict, WORTH_A_NAME, against, closes, could_show, does_something, is_noise,
-    joint_error, kinds, moved_unknown, name_of_number, names, worth_two,
+    joint_error, kinds, moved_unknown, name_of_number, names,
 };
 use super::windows::{Window, is_readable, windows};
 use crate::error::{InputError, Result};

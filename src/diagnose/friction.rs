@@ -3,15 +3,26 @@
 //! No dry friction acts at once: what the top slides on gives a little first, some micrometres. Where the tests are quiet
 //! enough to tell, the spring of the catalogue that yields follows them better than friction that jumps. It is called by what
 //! it is: friction, of the force at which it yields. Its wall keeps the spring.
+//!
+//! The search for springs begins with those as stiff as the floor and does not come so far by itself: where friction is the
+//! best and leaves more than noise, the spring is fitted from there.
 
+use rayon::prelude::*;
+
+use super::candidates::candidates;
 use super::hypothesis::{Addition, Hypothesis};
+use super::search::{Tried, refit};
+use super::trials::{Progress, Trials};
+use super::verdict::{is_noise, kinds};
 
 /// Kinds of the catalogue.
 const SPRING: &str = "yielding_spring";
 pub const FRICTION: &str = "coulomb_friction";
 /// Share of the largest displacement of the top within which a spring yields that is friction. Chosen: a tie or a nail that
-/// yields gives by tens of percent of it, friction by hundredths.
+/// yields gives by tens of percent of it, friction by hundredths of one.
 const AT_ONCE: f64 = 0.01;
+/// Shares of it over which friction may set in, from which a spring in its place is fitted.
+const ONSETS: [f64; 4] = [3e-4, 1e-3, 3e-3, 1e-2];
 
 /// Friction that is an addition by the name of a spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +49,56 @@ pub fn giving_friction(h: &Hypothesis, values: &[f64], index: usize) -> Option<G
 /// Kind that an addition of a fitted hypothesis goes by in answers; none for what is no answer.
 pub fn kind_of(h: &Hypothesis, values: &[f64], index: usize) -> Option<&'static str> {
     let friction = giving_friction(h, values, index).map(|_| FRICTION);
-    friction.or_else(|| Addition::kind(&h.additions[index]))
+    friction.or_else(|| h.additions[index].kind())
+}
+
+impl<P: Progress> Trials<'_, P> {
+    /// Hypotheses in order, and where friction that jumps is part of the best and leaves a gap, the same with friction that
+    /// gives first.
+    pub(super) fn with_giving(&self, tried: Vec<Tried>) -> Vec<Tried> {
+        let best = tried.iter().find(|t| kinds(t).is_some()).filter(|t| !is_noise(t));
+        let Some((h, from)) = best.and_then(|best| Some((self.giving_instead(best)?, best))) else {
+            return tried;
+        };
+        self.progress.step("friction that gives first", ONSETS.len());
+        let fit = |onset: &f64| {
+            let found = refit(&self.data, h.clone(), from, &giving_values(&h, from, *onset));
+            self.progress.fitted();
+            found
+        };
+        let found = ONSETS.par_iter().filter_map(fit).collect();
+        self.best_of_each([tried, found].concat())
+    }
+
+    /// The hypothesis with a spring that yields in the place of friction; none if it has no friction, or a spring already.
+    fn giving_instead(&self, tried: &Tried) -> Option<Hypothesis> {
+        let mut additions = tried.hypothesis.additions.clone();
+        let has = |kind| additions.iter().position(|a: &Addition| a.kind() == Some(kind));
+        let (friction, None) = (has(FRICTION)?, has(SPRING)) else { return None };
+        let all = candidates(self.experiment.wall.parameters());
+        additions[friction] = *all.iter().find(|a| a.kind() == Some(SPRING))?;
+        Some(self.hypothesis(&self.experiment.nuisances, &additions))
+    }
+}
+
+/// The values of a hypothesis with friction for the one with a spring in its place, which yields at the same force, after a
+/// share of the largest displacement.
+fn giving_values(h: &Hypothesis, from: &Tried, onset: f64) -> Vec<f64> {
+    let mut values = h.values_from(&from.hypothesis, &from.fit.values);
+    let of = |h: &Hypothesis, key: &str, kind: &str| {
+        let index = h.additions.iter().position(|a| a.kind() == Some(kind))?;
+        h.unknowns.iter().position(|u| u.belongs_to(index) && u.key == key)
+    };
+    let numbers = [of(h, "stiffness_n_per_m", SPRING), of(h, "yield_force_n", SPRING)];
+    if let ([Some(stiffness), Some(yields)], Some(force)) =
+        (numbers, of(&from.hypothesis, "force_n", FRICTION))
+    {
+        let force_n = from.fit.values[force];
+        let largest_m = h.unknowns[yields].scale / h.unknowns[stiffness].scale;
+        values[yields] = force_n;
+        values[stiffness] = (force_n / (onset * largest_m)).min(h.unknowns[stiffness].upper);
+    }
+    values
 }
 
 #[cfg(test)]

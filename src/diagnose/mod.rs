@@ -36,6 +36,7 @@ pub mod robust;
 pub mod scale;
 pub mod score;
 pub mod search;
+pub mod second;
 pub mod settle;
 pub mod smooth;
 pub mod tables;

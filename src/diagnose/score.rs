@@ -20,12 +20,6 @@ pub fn windowed_error(fits: &[WindowFit]) -> Option<f64> {
     Some((reduced[..kept].iter().sum::<f64>() / kept as f64).sqrt())
 }
 
-/// Share of the windows with more than `reduced` times the squared noise.
-pub fn share_beyond(fits: &[WindowFit], reduced: f64) -> f64 {
-    let beyond = fits.iter().filter(|fit| fit.reduced() > reduced).count();
-    if fits.is_empty() { 0.0 } else { beyond as f64 / fits.len() as f64 }
-}
-
 /// Share of the windows with more error than noise leaves.
 pub fn poor_share(fits: &[WindowFit]) -> f64 {
     let poor = fits.iter().filter(|fit| fit.is_poor()).count();
@@ -42,4 +36,22 @@ pub fn nats(fits: &[WindowFit]) -> f64 {
 pub fn nats_of(fit: &WindowFit) -> f64 {
     let excess = 0.5 * (fit.squares - fit.freedom);
     if excess > 0.0 { MOST_NATS * (1.0 - (-excess / MOST_NATS).exp()) } else { excess }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_some_windows_far_off_show_in_their_share_and_hardly_in_the_error() {
+        let window = |reduced: f64| WindowFit { x: vec![0.0; 4], squares: 200.0 * reduced, freedom: 200.0 };
+        let fits = [vec![window(1.0); 88], vec![window(4.0); 12]].concat();
+        // Ten of the twelve are left out: √((88 + 2·4)/90).
+        let error = windowed_error(&fits).expect("windows");
+        assert!((error - (96.0_f64 / 90.0).sqrt()).abs() < 1e-15, "{error}");
+        assert_eq!(poor_share(&fits), 0.12);
+        // 1 + 5 √(2/200) is the limit.
+        assert_eq!(poor_share(&[window(1.49), window(1.51)]), 0.5);
+        assert_eq!(poor_share(&[]), 0.0);
+    }
 }

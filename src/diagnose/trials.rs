@@ -21,6 +21,9 @@ const BESIDE: usize = 4;
 /// likelihood.
 const FINISHED: [usize; 2] = [6, 12];
 const NEAR_BEST: f64 = 100.0;
+/// Coarse fits that are finished because they follow the windows best by their error, which a window far off still tells when
+/// its likelihood is at its bound: six factors of impacts, five of them found, left as much by that measure as none.
+const FOLLOWING: usize = 2;
 /// Rivals fitted once more from other starts.
 const POLISHED: usize = 3;
 /// Gain above which that is worth its time.
@@ -64,7 +67,7 @@ pub struct Trials<'a, P> {
 }
 
 impl<P: Progress> Trials<'_, P> {
-    fn hypothesis(&self, nuisances: &[Nuisance], additions: &[Addition]) -> Hypothesis {
+    pub(super) fn hypothesis(&self, nuisances: &[Nuisance], additions: &[Addition]) -> Hypothesis {
         Hypothesis::new(self.experiment.wall.parameters(), &self.experiment.scales, nuisances, additions)
     }
 
@@ -101,14 +104,14 @@ impl<P: Progress> Trials<'_, P> {
         let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, whole));
         if against(&self.data, &recalibrated) - against(&self.data, &better) < WORTH_POLISH {
             let singles = self.polished(nuisances, before, singles, &better);
-            return (better, singles);
+            return (better, self.with_giving(singles));
         }
         // What was tried before had missed the same; the best need not have.
         let starts = [Some(&better), singles.first()].into_iter().flatten().collect::<Vec<_>>();
         let again = self.try_all("single effects again", nuisances, &starts, &sets);
         let best = self.best_of_each([singles, again].concat());
         let singles = self.polished(nuisances, before, best, &better);
-        (better, singles)
+        (better, self.with_giving(singles))
     }
 
     /// Where single effects start: from the wall as given, and where one of its numbers was not known, with that fitted.
@@ -139,7 +142,13 @@ impl<P: Progress> Trials<'_, P> {
         let Some(best) = coarse.first() else { return coarse };
         let limit = against(&self.data, best) + NEAR_BEST;
         let near = coarse.iter().filter(|t| against(&self.data, t) < limit).count();
-        let count = near.clamp(FINISHED[0], FINISHED[1]).min(coarse.len());
+        let near = near.clamp(FINISHED[0], FINISHED[1]).min(coarse.len());
+        let error = |tried: &Tried| tried.errors()[0].unwrap_or(f64::INFINITY);
+        let mut errors = coarse.iter().map(error).collect::<Vec<_>>();
+        errors.sort_by(f64::total_cmp);
+        coarse[near..].sort_by(|a, b| error(a).total_cmp(&error(b)));
+        let follows = |tried: &&Tried| errors.iter().take(FOLLOWING).any(|least| error(tried) <= *least);
+        let count = near + coarse[near..].iter().take_while(follows).count();
         self.progress.step("the best in full", count);
         let finish_one = |tried: &Tried| {
             let finished = finish(&self.data, tried);
@@ -160,7 +169,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// The best of hypotheses with the same additions, in order.
-    fn best_of_each(&self, tried: Vec<Tried>) -> Vec<Tried> {
+    pub(super) fn best_of_each(&self, tried: Vec<Tried>) -> Vec<Tried> {
         let mut best: Vec<Tried> = Vec::new();
         for t in self.ordered(tried) {
             if !best.iter().any(|b| b.hypothesis.additions == t.hypothesis.additions) {
@@ -252,7 +261,7 @@ impl<P: Progress> Trials<'_, P> {
         let nearest = self.beside(answers.first().copied().unwrap_or(single));
         let tried = self.best_of_each([tried, nearest].concat());
         let tried = self.polished(&self.experiment.nuisances, before, tried, single);
-        self.with_imitations(tried, gap)
+        self.with_imitations(self.with_giving(tried), gap)
     }
 
     /// The best single effect with those that take away most beside it, as far as a linear look tells.

@@ -49,6 +49,7 @@ pub struct StoredEffect {
     /// The effect in the wall file that it is, where that goes by another name.
     #[serde(default)]
     pub written_as: Option<String>,
+    /// Displacement over which friction sets in, m, where it does not jump.
     #[serde(default)]
     pub sets_in_over_m: Option<f64>,
 }
