@@ -8,6 +8,8 @@ mod histories;
 mod jumps;
 mod next;
 mod parting;
+mod place;
+mod shape;
 mod stored;
 mod words;
 
@@ -40,8 +42,8 @@ pub fn page(folder: &Path) -> Result<Page> {
     let sections = vec![
         histories::measured_section(&histories, &stored)?,
         parting_section(folder, &windows, &stored)?,
-        force::place_section(&force, &histories, &stored)?,
-        force::shape_section(&force, &stored)?,
+        place::place_section(&force, &histories, &stored)?,
+        shape::shape_section(&force, &stored)?,
         candidates::section(&stored)?,
         candidates::rivals_section(&stored)?,
         histories::held_out_section(&histories, &stored)?,

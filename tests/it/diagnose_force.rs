@@ -10,7 +10,7 @@ use mrbd::model::{Effect, ImpactLaw, Wall};
 use mrbd::simulate::{Accuracy, History, Shaking, simulate_observed};
 use rand_distr::{Distribution, Normal};
 
-use crate::diagnose::record;
+use crate::diagnose_twin::record;
 use crate::walls::{rng, table_wall};
 
 const STEP_S: f64 = 0.005;

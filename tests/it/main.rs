@@ -17,6 +17,7 @@ mod cli_simulate;
 mod convergence;
 mod diagnose;
 mod diagnose_force;
+mod diagnose_twin;
 mod drawn;
 mod drawn_cli;
 mod drawn_support;
@@ -28,6 +29,8 @@ mod effects_same;
 mod energy;
 mod first_steps;
 mod fragility;
+mod fragility_coverage;
+mod fragility_tables;
 #[cfg(target_os = "linux")]
 mod full_disk;
 mod grazing_contact;

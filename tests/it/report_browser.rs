@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-use crate::diagnose::damped_twin;
+use crate::diagnose_twin::damped_twin;
 use crate::report_kinds::{
     STRIPES, calibration_page, comparison_page, drawn_page, history_page, overturning_page,
 };
