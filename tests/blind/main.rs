@@ -37,6 +37,9 @@ struct Options {
     /// Only cases whose kind contains this.
     #[arg(long)]
     only: Option<String>,
+    /// Cases of the set that were scored before: they count, and are not diagnosed again.
+    #[arg(long)]
+    recorded: Option<PathBuf>,
     /// Folder of the set [default: outputs/blind/SET].
     #[arg(long)]
     out: Option<PathBuf>,
@@ -69,7 +72,11 @@ fn go(options: &Options) -> Result<(), String> {
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("outputs/blind").join(&options.set));
     let drawn = (options.first..options.first + options.cases).map(|n| cases::draw::draw(&options.set, n));
     let only = |kind: &cases::kind::Kind| options.only.as_ref().is_none_or(|part| kind.name().contains(part));
-    let chosen: Vec<cases::draw::Case> = drawn.filter(|case| only(&case.kind)).collect();
+    let recorded =
+        options.recorded.as_ref().map(|path| score::recorded::load(path, &options.set)).transpose()?;
+    let recorded = recorded.unwrap_or_default();
+    let is_new = |case: &cases::draw::Case| recorded.iter().all(|row| row.number != case.number);
+    let chosen: Vec<cases::draw::Case> = drawn.filter(|case| only(&case.kind) && is_new(case)).collect();
     let folder = |case: &cases::draw::Case| out.join(format!("case_{:04}", case.number));
     if !options.score_only {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(options.jobs).build();
@@ -84,7 +91,8 @@ fn go(options: &Options) -> Result<(), String> {
                 bar.inc(1);
                 done.map_err(|e| format!("case {}, {}: {e}", case.number, case.kind.name()))
             };
-            chosen.par_iter().map(one).collect()
+            // In the order of their numbers: a run that is stopped leaves the beginning of the set.
+            chosen.iter().par_bridge().map(one).collect()
         });
         bar.finish();
         done.into_iter().filter_map(Result::err).for_each(|e| eprintln!("blind: {e}"));
@@ -93,7 +101,7 @@ fn go(options: &Options) -> Result<(), String> {
         return Ok(());
     }
     let folders: Vec<PathBuf> = chosen.iter().map(folder).collect();
-    score::report(&folders, &out)
+    score::report(&folders, recorded, &out)
 }
 
 /// Makes a case unless it is there, and diagnoses it if there is a program to.

@@ -6,6 +6,12 @@ mod cases;
 #[allow(dead_code)]
 #[path = "../blind/compliant/mod.rs"]
 mod compliant;
+#[allow(dead_code)]
+#[path = "../blind/diagnose.rs"]
+mod diagnose;
+#[allow(dead_code)]
+#[path = "../blind/score/mod.rs"]
+mod score;
 
 use std::path::Path;
 
@@ -192,4 +198,32 @@ fn analytic_a_set_holds_the_promised_shares() {
         let count = kinds.iter().filter(|kind| **kind == Kind::One(effect)).count();
         assert!(count >= 30, "{effect} in {count} cases");
     }
+}
+
+/// Cases of a frozen program that were scored before: `make blind SET=fresh11` goes on from there.
+fn recorded() -> Vec<score::Row> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
+    score::recorded::load(&path, "fresh11").expect("the recorded cases")
+}
+
+#[test]
+fn regress_recorded_cases_are_what_is_drawn_under_their_numbers() {
+    for row in recorded() {
+        let case = cases::draw::draw(&row.set, row.number);
+        let told = case.hidden.iter().map(Hidden::told).collect::<Vec<_>>();
+        let all = |key: &str| told.iter().map(|hidden| hidden[key].clone()).collect::<Vec<_>>();
+        let [kind, simulator, prior] = [&case.kind.name(), case.simulator.name(), case.prior.name()];
+        assert_eq!([&row.kind, &row.simulator, &row.prior], [kind, simulator, prior], "{row:?}");
+        assert_eq!([row.noise_rad, row.size], [case.noise_rad, case.size], "{row:?}");
+        assert_eq!(row.hidden, all("kind"), "{row:?}");
+        assert_eq!(row.hidden_places, all("place"), "{row:?}");
+    }
+}
+
+#[test]
+fn regress_the_documentation_has_the_table_of_the_recorded_cases() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/diagnosis.md");
+    let text = std::fs::read_to_string(path).expect("the documentation");
+    let table = score::targets::table(&recorded());
+    assert!(text.contains(&table), "docs/diagnosis.md lacks the table of tests/blind/recorded:\n\n{table}");
 }

@@ -1,8 +1,12 @@
 //! Walls side by side in the lanes of vector registers move as each does alone.
 
 use fearless_simd::{Level, Simd};
+use mrbd::model::State;
 use mrbd::model::Wall;
-use mrbd::simulate::{Accuracy, Response, Shaking, Simulator, simulate, simulate_side_by_side_at};
+use mrbd::simulate::{
+    Accuracy, History, Outcome, Response, Shaking, Simulator, Start, simulate, simulate_side_by_side,
+    simulate_side_by_side_at,
+};
 use rand::RngExt;
 
 use crate::walls::{any_effects, any_restitution, any_shaking, any_wall, made, rng};
@@ -74,4 +78,40 @@ fn levels() -> Vec<Level> {
     #[cfg(not(target_arch = "x86_64"))]
     let older = [Some(Level::baseline())];
     older.into_iter().flatten().chain([best]).collect()
+}
+
+#[test]
+fn analytic_windows_side_by_side_are_seen_as_alone_to_the_bit() {
+    let simulators: Vec<Simulator> =
+        anything(60).iter().map(|(wall, shaking, of)| Simulator::new(wall, shaking, *of)).collect();
+    let start = |index: usize| {
+        let mut rng = rng(84, index as u64);
+        let [mut theta, omega] = [0.02, 0.1].map(|reach| [0; 2].map(|_| reach * rng.random_range(-1.0..1.0)));
+        if index == 7 {
+            theta[1] = f64::NAN;
+        }
+        Start { time_s: 0.5, state: State { theta, omega }, ..Start::default() }
+    };
+    let seen_alone = |(index, simulator): (usize, &Simulator)| {
+        let mut history = History::starting(0.5, 0.01);
+        let response = simulator.run_from(&start(index), 1.5, &mut history);
+        (response, history.rows)
+    };
+    let alone = simulators.iter().enumerate().map(seen_alone).collect::<Vec<_>>();
+    let mut histories = vec![History::starting(0.5, 0.01); simulators.len()];
+    let mut responses = vec![None; simulators.len()];
+    let mut waiting = simulators.iter().zip(&mut histories).enumerate();
+    let next = || {
+        let (index, (simulator, history)) = waiting.next()?;
+        Some((index, simulator.prepared_from(&start(index), 1.5, history)))
+    };
+    simulate_side_by_side(next, |index, response| responses[index] = Some(response));
+    let told = responses.into_iter().map(|response| response.expect("told once"));
+    for (index, (found, alone)) in told.zip(histories.into_iter().map(|h| h.rows)).zip(alone).enumerate() {
+        if index == 7 {
+            assert!(matches!(found.0.outcome, Outcome::Failed { .. }), "{:?}", found.0.outcome);
+        } else {
+            assert!(found == alone, "window {index}: {:?}, alone {:?}", found.0, alone.0);
+        }
+    }
 }

@@ -2,14 +2,17 @@
 
 use std::path::Path;
 
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::super::diagnose::Outcome;
 use super::reading::{json, list, median, number, text, texts};
-use crate::diagnose::Outcome;
 
 /// A diagnosed case.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
+    /// Name of the set.
+    pub set: String,
     pub number: u64,
     pub kind: String,
     pub simulator: String,
@@ -57,6 +60,7 @@ impl Row {
     fn new(answer: &Value, diagnosis: &Value, outcome: &Outcome) -> Self {
         let verdict = text(diagnosis, "/verdict");
         let mut row = Self {
+            set: text(answer, "/case/set"),
             number: answer.pointer("/case/number").and_then(Value::as_u64).unwrap_or_default(),
             kind: text(answer, "/case/kind"),
             simulator: text(answer, "/case/simulator"),

@@ -1,7 +1,6 @@
 //! The targets of the diagnosis and what was reached.
 
-use std::fmt::Write as _;
-
+use super::super::cases::draw::NOISES_RAD;
 use super::counted::Counted;
 use super::reading::median;
 use super::row::Row;
@@ -9,7 +8,11 @@ use super::row::Row;
 /// Up to this an effect is to be named nearly always, rad.
 const LOW_NOISE_RAD: f64 = 1.001e-4;
 
-/// A table: figure, target, reached with its interval, cases.
+/// What a word of the table means.
+pub const NOTE: &str = "visible: at least twice the smallest size that the diagnosis says it could detect; \
+                        of nominal size or more where it does not say";
+
+/// A table in Markdown: figure, target, reached with its interval, cases.
 pub fn table(rows: &[Row]) -> String {
     let mut lines = Vec::new();
     let mut add = |figure: &str, target: &str, reached: String| {
@@ -17,9 +20,9 @@ pub fn table(rows: &[Row]) -> String {
     };
     let nothing: Vec<&Row> = rows.iter().filter(|row| row.hidden.is_empty()).collect();
     add("a name where nothing is hidden", "≤ 5 %", Counted::of(&nothing, |row| row.claims()).told());
-    for noise in crate::cases::draw::NOISES_RAD {
+    for noise in NOISES_RAD {
         let at = nothing.iter().filter(|row| row.noise_rad == noise);
-        add(&format!("  at {noise:.0e} rad"), "≤ 5 %", Counted::of(at, |row| row.claims()).told());
+        add(&format!("– at {noise:.0e} rad"), "≤ 5 %", Counted::of(at, |row| row.claims()).told());
     }
     let one: Vec<&Row> = rows.iter().filter(|row| row.hides_effect() && row.hidden.len() == 1).collect();
     let visible = |row: &&&Row| row.visible() && row.prior.starts_with("k_d to 2 %");
@@ -30,26 +33,26 @@ pub fn table(rows: &[Row]) -> String {
         "≥ 95 %",
         Counted::of(&low, |r| r.right()).told(),
     );
-    add("  exact name", "≥ 90 %", Counted::of(&low, |row| row.exact()).told());
-    add("  wrong name", "", Counted::of(&low, |row| row.wrong()).told());
+    add("– exact name", "≥ 90 %", Counted::of(&low, |row| row.exact()).told());
+    add("– wrong name", "", Counted::of(&low, |row| row.wrong()).told());
     add("the same at 3e-4 rad", "≥ 75 %", Counted::of(&high, |row| row.right()).told());
-    add("  wrong name", "≤ 5 %", Counted::of(&high, |row| row.wrong()).told());
+    add("– wrong name", "≤ 5 %", Counted::of(&high, |row| row.wrong()).told());
     let placed = rows.iter().filter(|row| !row.hidden.is_empty() && row.visible());
     add("right place, named or not, visible", "≥ 95 %", Counted::of(placed, |row| row.place_right()).told());
     let outside: Vec<&Row> = rows.iter().filter(|row| row.hides_other_law()).collect();
     let honest = |row: &&&Row| matches!(row.verdict.as_str(), "place_only" | "unknown");
     add("another law: place_only or unknown", "≥ 80 %", Counted::of(&outside, honest).told());
-    add("  wrong name", "≤ 10 %", Counted::of(&outside, |row| row.claims()).told());
+    add("– wrong name", "≤ 10 %", Counted::of(&outside, |row| row.claims()).told());
     let errors: Vec<f64> = rows.iter().filter_map(|row| row.parameter_error).collect();
     let error = median(errors.iter().copied());
     let told = error.map_or("no cases".into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));
     add("parameter, median error where named rightly", "≤ 5 %", told);
     let covered = Counted::of(rows.iter().filter_map(|row| row.covered), |covered| *covered);
-    add("  90 % interval holds the truth", "85 to 95 %", covered.told());
+    add("– 90 % interval holds the truth", "85 to 95 %", covered.told());
     let pairs = rows.iter().filter(|row| row.hidden.len() == 2).collect::<Vec<_>>();
     add("two effects, both named", "≥ 80 %", Counted::of(&pairs, |row| row.exact()).told());
     let both = pairs.iter().filter(|row| row.all_visible());
-    add("  both visible", "", Counted::of(both, |row| row.exact()).told());
+    add("– both visible", "", Counted::of(both, |row| row.exact()).told());
     let named: Vec<&Row> = rows.iter().filter(|row| row.right()).collect();
     let of = |value: fn(&Row) -> Option<f64>| median(named.iter().filter_map(|row| value(row)));
     let told = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
@@ -58,19 +61,17 @@ pub fn table(rows: &[Row]) -> String {
     let slowest = rows.iter().map(|row| row.seconds).fold(0.0, f64::max);
     let typical = median(rows.iter().map(|row| row.seconds)).unwrap_or(0.0);
     add("time of a case on one thread", "", format!("median {typical:.0} s, longest {slowest:.0} s"));
-    let note = "visible: at least twice the smallest size that the diagnosis says it could detect; \
-                of nominal size or more where it does not say\n";
-    printed(&lines) + note
+    printed(&lines)
 }
 
 fn printed(lines: &[[String; 3]]) -> String {
-    let mut text = String::new();
-    let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max().unwrap_or(0);
-    let (figure, target) = (width(0).max(6), width(1).max(6));
-    // Writing to a string cannot fail.
-    let _ = writeln!(text, "{:figure$}  {:target$}  reached (95 % interval), cases", "figure", "target");
-    for [a, b, c] in lines {
-        let _ = writeln!(text, "{a:figure$}  {b:target$}  {c}");
-    }
-    text
+    let head = ["figure", "target", "reached (95 % interval), cases"].map(str::to_owned);
+    let width = |k: usize| lines.iter().chain([&head]).map(|line| line[k].chars().count()).max().unwrap_or(0);
+    let widths = [0, 1, 2].map(width);
+    let rule = widths.map(|width| "-".repeat(width));
+    let row = |cells: &[String; 3]| {
+        let [a, b, c] = cells;
+        format!("| {a:0$} | {b:1$} | {c:2$} |\n", widths[0], widths[1], widths[2])
+    };
+    [&head, &rule].into_iter().chain(lines).map(row).collect()
 }
