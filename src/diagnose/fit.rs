@@ -3,6 +3,8 @@
 //! Multiple shooting: the states are eliminated window by window (an orthogonal projection of residuals and
 //! sensitivities), which leaves normal equations in the few numbers of the hypothesis; after each step the states follow.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::hypothesis::{Hypothesis, Unknown};
 use super::linear::{Linear, first_changes, next_changes};
 use super::replay::Replay;
@@ -10,10 +12,10 @@ use super::robust::Loss;
 use super::score::poor_share;
 use super::test_data::TestData;
 use super::window_fit::{
-    At, From, WindowFit, fit_windows, in_chunks, newton_step, other_valleys, state_jacobians, take_steps,
+    At, InState, WindowFit, fit_windows, in_chunks, newton_step, other_valleys, owned, state_jacobians,
+    take_steps,
 };
 use super::windows::Window;
-use nalgebra::{DMatrix, DVector};
 
 /// When to end the steps with one loss.
 #[derive(Debug, Clone, Copy)]
@@ -78,7 +80,7 @@ impl Problem<'_> {
     /// such wall.
     pub fn chords(&self, h: &Hypothesis, fit: &Fit) -> Option<Vec<DMatrix<f64>>> {
         let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
-        let chords = |these: &[From]| {
+        let chords = |these: &[InState]| {
             let at = At::all(&replay, owned(these));
             state_jacobians(&replay, &at.iter().collect::<Vec<_>>())
         };
@@ -86,7 +88,7 @@ impl Problem<'_> {
     }
 
     /// The windows with the states of a fit.
-    pub(super) fn states_of<'f>(&'f self, fit: &'f Fit) -> Vec<From<'f>> {
+    pub(super) fn states_of<'f>(&'f self, fit: &'f Fit) -> Vec<InState<'f>> {
         self.windows.iter().zip(fit.windows.iter().map(|state| &state.x[..])).collect()
     }
 
@@ -94,7 +96,7 @@ impl Problem<'_> {
     /// at what values would do; none if there is no such wall.
     pub fn glance(&self, h: &Hypothesis, values: &[f64], from: &Fit, chords: &[DMatrix<f64>]) -> Option<Fit> {
         let replay = Replay::new(self.tests, &h.physics(values)?);
-        let look = |these: &[(From, &DMatrix<f64>)]| {
+        let look = |these: &[(InState, &DMatrix<f64>)]| {
             let (states, chords): (Vec<_>, Vec<_>) = these.iter().copied().unzip();
             let mut all = At::all(&replay, owned(&states));
             let step =
@@ -244,7 +246,7 @@ impl Problem<'_> {
         let dp =
             DVector::from_iterator(values.len(), values.iter().zip(&fit.values).map(|(new, old)| new - old));
         let replay = Replay::new(self.tests, &h.physics(&values)?);
-        let follow = |these: &[(From, &Linear)]| followed(&replay, these, &dp);
+        let follow = |these: &[(InState, &Linear)]| followed(&replay, these, &dp);
         let these = self.states_of(fit).into_iter().zip(linear).collect::<Vec<_>>();
         let windows = in_chunks(&these, follow);
         let mut next = Fit { values, windows, cost: 0.0, covariance: None };
@@ -254,7 +256,7 @@ impl Problem<'_> {
 }
 
 /// The states of windows after a step dp of the numbers: as the linear windows say, and a step with their old Jacobians.
-fn followed(replay: &Replay, these: &[(From, &Linear)], dp: &DVector<f64>) -> Vec<WindowFit> {
+fn followed(replay: &Replay, these: &[(InState, &Linear)], dp: &DVector<f64>) -> Vec<WindowFit> {
     let (states, linear): (Vec<_>, Vec<_>) = these.iter().copied().unzip();
     let mut all = At::all(replay, owned(&states));
     let has_state = |l: &&&Linear| l.jx.ncols() > 0;
@@ -264,11 +266,6 @@ fn followed(replay: &Replay, these: &[(From, &Linear)], dp: &DVector<f64>) -> Ve
     let steps = linear.iter().zip(&all).map(again).collect();
     take_steps(replay, &mut all, steps);
     all.into_iter().map(At::fit).collect()
-}
-
-/// Windows with states of their own.
-pub(super) fn owned<'w>(these: &[(&'w Window, &[f64])]) -> Vec<(&'w Window, Vec<f64>)> {
-    these.iter().map(|(window, x)| (*window, x.to_vec())).collect()
 }
 
 fn cost(h: &Hypothesis, fit: &Fit, loss: Loss) -> f64 {

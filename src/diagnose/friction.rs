@@ -38,12 +38,21 @@ pub fn giving_friction(h: &Hypothesis, values: &[f64], index: usize) -> Option<G
     if h.additions[index].kind() != Some(SPRING) {
         return None;
     }
-    let number = |key: &str| h.unknowns.iter().position(|u| u.belongs_to(index) && u.key == key);
-    let (stiffness, force) = (number("stiffness_n_per_m")?, number("yield_force_n")?);
+    let (stiffness, force) = (number(h, index, "stiffness_n_per_m")?, number(h, index, "yield_force_n")?);
     let onset_m = values[force] / values[stiffness];
     // The size of a force that matters over that of a stiffness is the largest displacement.
     let largest_m = h.unknowns[force].scale / h.unknowns[stiffness].scale;
     (onset_m > 0.0 && onset_m < AT_ONCE * largest_m).then_some(GivingFriction { force, onset_m })
+}
+
+/// Which of the numbers of a hypothesis an addition has by this key.
+fn number(h: &Hypothesis, index: usize, key: &str) -> Option<usize> {
+    h.unknowns.iter().position(|u| u.belongs_to(index) && u.key == key)
+}
+
+/// Which addition of a hypothesis is of a kind.
+fn position(additions: &[Addition], kind: &str) -> Option<usize> {
+    additions.iter().position(|a| a.kind() == Some(kind))
 }
 
 /// Kind that an addition of a fitted hypothesis goes by in answers; none for what is no answer.
@@ -62,7 +71,8 @@ impl<P: Progress> Trials<'_, P> {
         };
         self.progress.step("friction that gives first", ONSETS.len());
         let fit = |onset: &f64| {
-            let found = refit(&self.data, h.clone(), from, &giving_values(&h, from, *onset));
+            let found = giving_values(&h, from, *onset)
+                .and_then(|values| refit(&self.data, h.clone(), from, &values));
             self.progress.fitted();
             found
         };
@@ -73,8 +83,9 @@ impl<P: Progress> Trials<'_, P> {
     /// The hypothesis with a spring that yields in the place of friction; none if it has no friction, or a spring already.
     fn giving_instead(&self, tried: &Tried) -> Option<Hypothesis> {
         let mut additions = tried.hypothesis.additions.clone();
-        let has = |kind| additions.iter().position(|a: &Addition| a.kind() == Some(kind));
-        let (friction, None) = (has(FRICTION)?, has(SPRING)) else { return None };
+        let (friction, None) = (position(&additions, FRICTION)?, position(&additions, SPRING)) else {
+            return None;
+        };
         let all = candidates(self.experiment.wall.parameters());
         additions[friction] = *all.iter().find(|a| a.kind() == Some(SPRING))?;
         Some(self.hypothesis(&self.experiment.nuisances, &additions))
@@ -82,23 +93,17 @@ impl<P: Progress> Trials<'_, P> {
 }
 
 /// The values of a hypothesis with friction for the one with a spring in its place, which yields at the same force, after a
-/// share of the largest displacement.
-fn giving_values(h: &Hypothesis, from: &Tried, onset: f64) -> Vec<f64> {
+/// share of the largest displacement; none if either is missing.
+fn giving_values(h: &Hypothesis, from: &Tried, onset: f64) -> Option<Vec<f64>> {
+    let number_of = |h: &Hypothesis, kind, key| number(h, position(&h.additions, kind)?, key);
+    let stiffness = number_of(h, SPRING, "stiffness_n_per_m")?;
+    let yields = number_of(h, SPRING, "yield_force_n")?;
+    let force_n = from.fit.values[number_of(&from.hypothesis, FRICTION, "force_n")?];
+    let largest_m = h.unknowns[yields].scale / h.unknowns[stiffness].scale;
     let mut values = h.values_from(&from.hypothesis, &from.fit.values);
-    let of = |h: &Hypothesis, key: &str, kind: &str| {
-        let index = h.additions.iter().position(|a| a.kind() == Some(kind))?;
-        h.unknowns.iter().position(|u| u.belongs_to(index) && u.key == key)
-    };
-    let numbers = [of(h, "stiffness_n_per_m", SPRING), of(h, "yield_force_n", SPRING)];
-    if let ([Some(stiffness), Some(yields)], Some(force)) =
-        (numbers, of(&from.hypothesis, "force_n", FRICTION))
-    {
-        let force_n = from.fit.values[force];
-        let largest_m = h.unknowns[yields].scale / h.unknowns[stiffness].scale;
-        values[yields] = force_n;
-        values[stiffness] = (force_n / (onset * largest_m)).min(h.unknowns[stiffness].upper);
-    }
-    values
+    values[yields] = force_n;
+    values[stiffness] = (force_n / (onset * largest_m)).min(h.unknowns[stiffness].upper);
+    Some(values)
 }
 
 #[cfg(test)]

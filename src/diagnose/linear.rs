@@ -4,11 +4,12 @@
 //! fit to stay where it is, and a number to be known a hundred times better than it is: it tells nothing here. What it costs
 //! still counts.
 
-use super::fit::{Fit, Problem, owned};
+use nalgebra::{DMatrix, DVector};
+
+use super::fit::{Fit, Problem};
 use super::hypothesis::{Hypothesis, Unknown};
 use super::replay::Replay;
-use super::window_fit::{At, From, in_chunks, state_jacobians};
-use nalgebra::{DMatrix, DVector};
+use super::window_fit::{At, InState, in_chunks, owned, state_jacobians};
 
 /// A sensitivity is taken over a change of the residuals of this many standard deviations of the noise ...
 const CHANGE: f64 = 0.3;
@@ -114,7 +115,7 @@ impl Problem<'_> {
         let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
         let sides = |(i, change): (usize, &f64)| self.sides(h, fit, i, *change);
         let sides = changes.iter().enumerate().map(sides).collect::<Option<Vec<_>>>()?;
-        let linear = |these: &[From]| {
+        let linear = |these: &[InState]| {
             let these = At::all(&replay, owned(these));
             let jx = state_jacobians(&replay, &these.iter().collect::<Vec<_>>());
             let slopes =

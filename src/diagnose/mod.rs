@@ -14,6 +14,7 @@ pub mod check_data;
 pub mod confused;
 pub mod ensemble;
 pub mod experiment;
+mod finishing;
 pub mod fit;
 pub mod flow;
 pub mod force;

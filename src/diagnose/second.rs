@@ -63,3 +63,62 @@ fn traces_held_out(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
     };
     Some((0..h.additions.len()).map(trace).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::super::candidates::candidates;
+    use super::super::fit::Problem;
+    use super::super::hypothesis::Hypothesis;
+    use super::super::scale::Scales;
+    use super::super::window_fit::WindowFit;
+    use super::*;
+    use crate::input::parse_wall;
+
+    const SCALES: Scales = Scales {
+        displacement_m: 0.05,
+        rotation_rad: 0.02,
+        frequency_rad_s: 5.0,
+        force_n: 1000.0,
+        moment_n_m: 2000.0,
+        width_m: 0.3,
+    };
+    /// No windows to price a number by, and none held out.
+    const DATA: Data<'static> = Data { fit: NOTHING, held_out: NOTHING };
+    const NOTHING: Problem<'static> = Problem { tests: &[], windows: &[] };
+    const WINDOWS: usize = 20;
+    const FREEDOM: f64 = 200.0;
+
+    /// The starter's wall with these effects, followed so that all windows together speak against it by `nats` and each by
+    /// as much.
+    fn tried(names: &[&str], nats: f64) -> Tried {
+        let wall = parse_wall(Path::new("wall.toml"), include_str!("../starter/wall.toml"))
+            .expect("the starter's wall");
+        let all = candidates(wall.parameters());
+        let named = |name: &&str| *all.iter().find(|a| a.name() == *name).expect("in the catalogue");
+        let additions = names.iter().map(named).collect::<Vec<_>>();
+        let hypothesis = Hypothesis::new(wall.parameters(), &SCALES, &[], &additions);
+        // The bounded loss of a window, turned about: 40 (1 − exp(−excess/40)) at most.
+        let excess = -40.0 * (1.0 - nats / WINDOWS as f64 / 40.0).ln();
+        let window = WindowFit { x: vec![0.0; 4], squares: FREEDOM + 2.0 * excess, freedom: FREEDOM };
+        let of = |windows| Fit { values: vec![0.0; names.len()], windows, cost: 0.0, covariance: None };
+        Tried { hypothesis, fit: of(vec![window; WINDOWS]), held_out: of(Vec::new()) }
+    }
+
+    #[test]
+    fn analytic_a_second_effect_must_gain_more_where_both_leave_more_than_noise() {
+        let gains = |of_one: f64, of_two: f64| {
+            worth_two(
+                &DATA,
+                &tried(&["carriage_mass"], of_one),
+                &tried(&["carriage_mass", "record_gain"], of_two),
+            )
+        };
+        // Noise leaves √(½ · 20 · 200) = 45 nats.
+        assert!(gains(226.0, 0.0) && gains(270.0, 44.0), "a gain of 226, to noise");
+        assert!(!gains(149.0, 0.0), "a gain of 149, to noise");
+        assert!(!gains(286.0, 60.0) && !gains(359.0, 60.0), "gains of 226 and 299, with 60 left");
+        assert!(gains(361.0, 60.0), "a gain of 301, with 60 left");
+    }
+}

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::candidates::candidates;
 use super::experiment::Experiment;
+use super::finishing::{Coarse, NEAR_BEST, worth_finishing};
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
 use super::imitate::{Imitation, imitations, seconds};
 use super::search::{
@@ -17,13 +18,6 @@ const IMITATIONS: usize = 8;
 const SINGLE_IMITATIONS: usize = 4;
 /// Effects fitted beside the best single one because a linear look says that they take away most.
 const BESIDE: usize = 4;
-/// Coarse fits that are always finished, and at most; between them those this near the best, in natural logarithms of
-/// likelihood.
-const FINISHED: [usize; 2] = [6, 12];
-const NEAR_BEST: f64 = 100.0;
-/// Coarse fits that are finished because they follow the windows best by their error, which a window far off still tells when
-/// its likelihood is at its bound: six factors of impacts, five of them found, left as much by that measure as none.
-const FOLLOWING: usize = 2;
 /// Rivals fitted once more from other starts.
 const POLISHED: usize = 3;
 /// Gain above which that is worth its time.
@@ -139,26 +133,25 @@ impl<P: Progress> Trials<'_, P> {
 
     /// Finishes the best of coarse fits in order; the others are so far behind that they cannot be the answer.
     fn finished(&self, mut coarse: Vec<Tried>) -> Vec<Tried> {
-        let Some(best) = coarse.first() else { return coarse };
-        let limit = against(&self.data, best) + NEAR_BEST;
-        let near = coarse.iter().filter(|t| against(&self.data, t) < limit).count();
-        let near = near.clamp(FINISHED[0], FINISHED[1]).min(coarse.len());
-        let error = |tried: &Tried| tried.errors()[0].unwrap_or(f64::INFINITY);
-        let mut errors = coarse.iter().map(error).collect::<Vec<_>>();
-        errors.sort_by(f64::total_cmp);
-        coarse[near..].sort_by(|a, b| error(a).total_cmp(&error(b)));
-        let follows = |tried: &&Tried| errors.iter().take(FOLLOWING).any(|least| error(tried) <= *least);
-        let count = near + coarse[near..].iter().take_while(follows).count();
-        self.progress.step("the best in full", count);
-        let finish_one = |tried: &Tried| {
-            let finished = finish(&self.data, tried);
-            self.progress.fitted();
-            finished
-                .filter(|new| against(&self.data, new) < against(&self.data, tried))
-                .unwrap_or_else(|| tried.clone())
+        let against = |tried: &Tried| against(&self.data, tried);
+        let judge = |tried: &Tried| Coarse {
+            against: against(tried),
+            error: tried.errors()[0].unwrap_or(f64::INFINITY),
         };
-        let finished = coarse[..count].par_iter().map(finish_one).collect::<Vec<_>>();
-        coarse.splice(..count, finished);
+        let judged = coarse.iter().map(judge).collect::<Vec<_>>();
+        let chosen = worth_finishing(&judged);
+        self.progress.step("the best in full", chosen.len());
+        let finish_one = |i: &usize| {
+            let finished = finish(&self.data, &coarse[*i]);
+            self.progress.fitted();
+            finished.filter(|new| against(new) < judged[*i].against)
+        };
+        let finished = chosen.par_iter().map(finish_one).collect::<Vec<_>>();
+        for (i, finished) in chosen.into_iter().zip(finished) {
+            if let Some(finished) = finished {
+                coarse[i] = finished;
+            }
+        }
         self.ordered(coarse)
     }
 

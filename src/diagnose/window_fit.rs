@@ -25,7 +25,12 @@ const REFINED: usize = 3;
 const LEAST_CHUNK: usize = 24;
 
 /// A window, and a state to start it from.
-pub(super) type From<'a> = (&'a Window, &'a [f64]);
+pub(super) type InState<'a> = (&'a Window, &'a [f64]);
+
+/// Windows with states of their own.
+pub(super) fn owned<'w>(these: &[InState<'w>]) -> Vec<(&'w Window, Vec<f64>)> {
+    these.iter().map(|(window, x)| (*window, x.to_vec())).collect()
+}
 
 /// A window with its state fitted.
 #[derive(Debug, Clone, PartialEq)]

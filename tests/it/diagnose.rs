@@ -98,7 +98,7 @@ fn analytic_twin_with_friction_that_gives_a_little_first_is_named_friction() {
 }
 
 #[test]
-fn analytic_twin_whose_impacts_keep_less_is_named_though_most_windows_are_far_off() {
+fn analytic_twin_whose_impacts_keep_less_is_named_with_what_they_keep() {
     let factors = [0.966, 0.927, 0.931, 0.963, 0.964, 0.938, 0.933, 0.94];
     let named = named_in_a_twin(&[("impact_dissipation", &factors)], |theta| theta);
     let [(name, first)] = &named[..] else { panic!("{named:?}") };
