@@ -41,8 +41,11 @@ struct Bar(ProgressBar);
 
 impl Progress for Bar {
     fn step(&self, what: &str, hypotheses: usize) {
-        self.0.set_length(hypotheses as u64);
-        self.0.set_position(0);
+        // Both at once: a bar drawn between them would show the count of one step beside the length of another.
+        self.0.update(|state| {
+            state.set_pos(0);
+            state.set_len(hypotheses as u64);
+        });
         self.0.reset_eta();
         self.0.set_message(what.to_owned());
     }

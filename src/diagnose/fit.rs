@@ -55,6 +55,11 @@ pub struct Fit {
 }
 
 impl Fit {
+    /// Whether many windows lie beyond what is felt by the losses that a fit is finished with.
+    pub fn is_far(&self) -> bool {
+        Loss::let_go_of_many(self.windows.iter().map(WindowFit::reduced).collect())
+    }
+
     /// Whether the model, and not the states it was given, is what misses the windows.
     pub fn misses_many(&self) -> bool {
         poor_share(&self.windows) > MOST_POOR

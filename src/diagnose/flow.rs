@@ -6,6 +6,7 @@ use super::fit::{Fit, Problem};
 use super::force::{acts_at_top, force_points};
 use super::hypothesis::{Addition, Hypothesis, Nuisance};
 use super::other_law::OtherLaw;
+use super::place::place;
 use super::read_again::{gain_misread, opened, reads_better, set_gain};
 use super::search::{Data, Tried, untouched};
 use super::second::worth_two;
@@ -24,8 +25,6 @@ const WITHOUT_A_NAME: [usize; 2] = [2, 14];
 const BESIDE_A_NAME: [usize; 2] = [1, 4];
 /// Gain of the best single addition below which pairs are not tried.
 const WORTH_PAIRS: f64 = 60.0;
-/// Share of what speaks against the wall that a place must take away to be told.
-const PLACE_SHARE: f64 = 0.3;
 /// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
 const KNOWN: f64 = 0.02;
 /// Windows that start with a joint open by less than the noise, for which everything is fitted again.
@@ -213,7 +212,7 @@ impl<P: Progress> Trials<'_, P> {
                 return self.recalibrated(found, &before, &recalibrated, singles, gap);
             }
         }
-        let singles = self.with_imitations(singles, gap);
+        let singles = self.with_imitations(self.with_far_settled(singles), gap);
         let mut one = self.named(&singles, gap, &recalibrated);
         let mut tried = singles;
         let mut other_law = None;
@@ -248,7 +247,7 @@ impl<P: Progress> Trials<'_, P> {
             let physics = before.hypothesis.physics(&before.fit.values)?;
             acts_at_top(&force_points(&self.experiment.tests, &physics)).then_some("top")
         };
-        let place = measured().or_else(|| self.place(&recalibrated, &tried));
+        let place = measured().or_else(|| place(data, &recalibrated, &tried));
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
         Found { other_law, ..found(verdict, recalibrated.clone(), Vec::new(), place, self.ordered(tried)) }
     }
@@ -320,14 +319,6 @@ impl<P: Progress> Trials<'_, P> {
         }));
         equivalent.dedup();
         found(Verdict::Class, after, equivalent, None, instead)
-    }
-
-    /// The place whose effects take away a good part of what speaks against the wall, if there is one.
-    fn place(&self, recalibrated: &Tried, tried: &[Tried]) -> Option<&'static str> {
-        let whole = against(&self.data, recalibrated);
-        let best = tried.iter().find(|t| kinds(t).is_some())?;
-        let share = (whole - against(&self.data, best)) / whole;
-        (share > PLACE_SHARE).then(|| best.hypothesis.additions[0].place())
     }
 }
 

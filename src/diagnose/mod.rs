@@ -31,6 +31,7 @@ pub mod offset;
 pub mod other_law;
 pub mod output;
 pub mod pattern;
+mod place;
 pub mod read_again;
 pub mod replay;
 pub mod robust;

@@ -43,6 +43,11 @@ impl Loss {
         Loss::Noise((3.0 * two_thirds(reduced)).max(NEAR_BOUND))
     }
 
+    /// Whether the losses that follow the widest let go of more than a third of windows with these.
+    pub fn let_go_of_many(reduced: Vec<f64>) -> bool {
+        two_thirds(reduced) > MIDDLE_BOUND
+    }
+
     /// The loss of a window; its squares where they are those of noise.
     pub fn of(self, fit: &WindowFit) -> f64 {
         match self {
@@ -67,4 +72,17 @@ impl Loss {
 fn two_thirds(mut reduced: Vec<f64>) -> f64 {
     reduced.sort_by(f64::total_cmp);
     reduced.get(reduced.len() * 2 / 3).copied().unwrap_or(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_losses_let_go_of_many_where_more_than_a_third_lie_beyond_them() {
+        let windows = |far: usize| [vec![1.0; 30 - far], vec![50.0; far]].concat();
+        assert!(!Loss::let_go_of_many(windows(9)));
+        assert!(Loss::let_go_of_many(windows(11)));
+        assert!(!Loss::let_go_of_many(vec![7.9; 30]) && !Loss::let_go_of_many(Vec::new()));
+    }
 }

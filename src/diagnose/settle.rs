@@ -1,4 +1,4 @@
-//! An answer, fitted once more from about where it was found.
+//! An answer, or what comes nearest to one, fitted once more from about where it was found.
 //!
 //! Windows near an impact that the noise decides have several valleys, and which of them a window lies in holds the numbers
 //! of a hypothesis where they are. Fits that set out from other numbers find other valleys; the best of all of them is the
@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use super::search::{Tried, refit, shared_states};
 use super::trials::{Progress, Trials};
-use super::verdict::against;
+use super::verdict::{against, kinds};
 
 /// Shares of what an added number does from which the fits set out.
 const SHARES: [f64; 6] = [0.7, 0.87, 0.96, 1.04, 1.15, 1.4];
@@ -17,6 +17,17 @@ const ROUNDS: usize = 3;
 const WORTH_A_ROUND: f64 = 1.0;
 
 impl<P: Progress> Trials<'_, P> {
+    /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one
+    /// settled: what such windows say is at its bound, and a fit ends before the numbers of the right law.
+    pub fn with_far_settled(&self, tried: Vec<Tried>) -> Vec<Tried> {
+        let error = |t: &Tried| t.errors()[0].unwrap_or(f64::INFINITY);
+        let answers = tried.iter().filter(|t| kinds(t).is_some());
+        let follows = answers.min_by(|a, b| error(a).total_cmp(&error(b)));
+        let Some(far) = follows.filter(|t| t.fit.is_far()).cloned() else { return tried };
+        let settled = self.settled(far);
+        self.best_of_each([tried, vec![settled]].concat())
+    }
+
     /// The same additions with the numbers and states that speak least against them.
     pub fn settled(&self, answer: Tried) -> Tried {
         let mut best = answer;

@@ -88,6 +88,25 @@ fn analytic_twin_of_two_effects_is_named_by_both() {
 }
 
 #[test]
+fn analytic_twin_that_falls_in_a_test_is_named_by_what_acts_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let described = table_wall(ImpactLaw::Contact);
+    let effect = Effect::with_parameters("yielding_spring", &[20_000.0, 500.0]).expect("an effect");
+    let sprung = WallParameters { effects: vec![effect], ..described.clone() };
+    let experiment = write_twins(folder.path(), &described, [&sprung; 3], [1.2; 3], |theta| theta);
+    let fallen = std::fs::read_to_string(folder.path().join("measured_1.csv")).expect("a measurement");
+    let last_rad = fallen.lines().last().and_then(|row| row.split(',').nth(1)?.parse::<f64>().ok());
+    // Beyond its slenderness, 0.12 rad, and ten times what it rocks by before.
+    assert!(last_rad.is_some_and(|theta| theta.abs() > 0.2), "{last_rad:?}");
+    let found = diagnosed(&experiment, &folder.path().join("out"));
+    assert_eq!(found["verdict"], "named", "{found:#}");
+    assert_eq!(found["effects"][0]["kind"], "yielding_spring");
+    let force_n = found["effects"][0]["parameters"]["yield_force_n"].as_f64().expect("a number");
+    // The target for the median of such errors is 5 %.
+    assert!((force_n / 500.0 - 1.0).abs() < 0.05, "{force_n}");
+}
+
+#[test]
 fn analytic_twin_with_friction_that_gives_a_little_first_is_named_friction() {
     // 250 N after 0.2 mm: a few times what the noise moves the top by, so that friction that jumps does not follow the tests.
     let named = named_in_a_twin(&[("yielding_spring", &[1.25e6, 250.0])], |theta| theta);
