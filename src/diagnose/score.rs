@@ -26,6 +26,19 @@ pub fn poor_share(fits: &[WindowFit]) -> f64 {
     if fits.is_empty() { 0.0 } else { poor as f64 / fits.len() as f64 }
 }
 
+/// Standard deviations by which more of the windows held out have more error than noise leaves than of those that were fitted:
+/// two shares of one population, with one window more of either sort, for none of few is no certainty. Nothing is more where
+/// there are none.
+pub fn more_poor_held_out_sd(fitted: &[WindowFit], held_out: &[WindowFit]) -> f64 {
+    if fitted.is_empty() || held_out.is_empty() {
+        return 0.0;
+    }
+    let [n, m] = [fitted, held_out].map(|fits| fits.len() as f64);
+    let [p, q] = [fitted, held_out].map(poor_share);
+    let all = (p * n + q * m + 1.0) / (n + m + 2.0);
+    (q - p) / (all * (1.0 - all) * (1.0 / n + 1.0 / m)).sqrt()
+}
+
 /// What the windows say against a hypothesis, in natural logarithms of likelihood: half the squared error above that of
 /// noise, bounded for each window, so that no window decides alone.
 pub fn nats(fits: &[WindowFit]) -> f64 {
@@ -53,5 +66,18 @@ mod tests {
         // 1 + 5 √(2/200) is the limit.
         assert_eq!(poor_share(&[window(1.49), window(1.51)]), 0.5);
         assert_eq!(poor_share(&[]), 0.0);
+    }
+
+    #[test]
+    fn analytic_windows_missed_among_those_held_out_alone_are_no_chance() {
+        let window = |reduced: f64| WindowFit { x: vec![0.0; 4], squares: 200.0 * reduced, freedom: 200.0 };
+        let windows =
+            |poor: usize, of: usize| [vec![window(4.0); poor], vec![window(1.0); of - poor]].concat();
+        let sd = |fitted: Vec<_>, held_out: Vec<_>| more_poor_held_out_sd(&fitted, &held_out);
+        // 8 of 67 and 0 of 120: p = 9/189, 0.1194/√(p (1 − p)(1/67 + 1/120)).
+        assert!((sd(windows(0, 120), windows(8, 67)) - 3.6764).abs() < 1e-4);
+        assert!(sd(windows(8, 120), windows(1, 67)) < 0.0);
+        assert_eq!(sd(windows(0, 120), Vec::new()), 0.0);
+        assert_eq!(sd(windows(0, 120), windows(0, 67)), 0.0);
     }
 }
