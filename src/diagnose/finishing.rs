@@ -1,8 +1,8 @@
 //! Which coarse fits are worth fitting to the end.
 
-/// Coarse fits that are always finished, and at most; between them those this near the best, in natural logarithms of
-/// likelihood.
+/// Coarse fits that are always finished, and at most; between them those near the best.
 const FINISHED: [usize; 2] = [6, 12];
+/// What is near the best, in natural logarithms of likelihood.
 pub const NEAR_BEST: f64 = 100.0;
 /// Coarse fits that are finished because they follow the windows best by their error, which a window far off still tells when
 /// its likelihood is at its bound. Chosen.

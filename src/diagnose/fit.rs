@@ -55,9 +55,14 @@ pub struct Fit {
 }
 
 impl Fit {
+    /// Squared error over squared noise of every window.
+    fn reduced(&self) -> Vec<f64> {
+        self.windows.iter().map(WindowFit::reduced).collect()
+    }
+
     /// Whether many windows lie beyond what is felt by the losses that a fit is finished with.
     pub fn is_far(&self) -> bool {
-        Loss::let_go_of_many(self.windows.iter().map(WindowFit::reduced).collect())
+        Loss::let_go_of_many(self.reduced())
     }
 
     /// Whether the model, and not the states it was given, is what misses the windows.
@@ -113,7 +118,7 @@ impl Problem<'_> {
         let these = self.states_of(from).into_iter().zip(chords).collect::<Vec<_>>();
         let windows = in_chunks(&these, look);
         let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
-        let loss = Loss::of_starts(from.windows.iter().map(WindowFit::reduced).collect());
+        let loss = Loss::of_starts(from.reduced());
         found.cost = cost(h, &found, loss);
         Some(found)
     }
@@ -172,7 +177,7 @@ impl Problem<'_> {
     ///
     /// Enough to tell what is far from the truth.
     pub fn fit_coarsely(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
-        let widest = Loss::widest(start.windows.iter().map(WindowFit::reduced).collect());
+        let widest = Loss::widest(start.reduced());
         let fit = self.descend(h, start, widest, COARSE);
         let mut fit = self.again(h, fit, false)?;
         fit.cost = cost(h, &fit, Loss::Likelihood);

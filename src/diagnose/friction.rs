@@ -108,31 +108,12 @@ fn giving_values(h: &Hypothesis, from: &Tried, onset: f64) -> Option<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
     use super::*;
-    use crate::diagnose::candidates::candidates;
-    use crate::diagnose::scale::Scales;
-    use crate::input::parse_wall;
+    use crate::diagnose::example::starter_with;
 
-    const SCALES: Scales = Scales {
-        displacement_m: 0.05,
-        rotation_rad: 0.02,
-        frequency_rad_s: 5.0,
-        force_n: 1000.0,
-        moment_n_m: 2000.0,
-        width_m: 0.3,
-    };
-
-    /// The starter's wall with an effect of this name among others.
+    /// An effect of this name among others.
     fn with(name: &str) -> Hypothesis {
-        let wall = parse_wall(Path::new("wall.toml"), include_str!("../starter/wall.toml"))
-            .expect("the starter's wall");
-        let all = candidates(wall.parameters());
-        let additions = ["viscous_damping", name].map(|name| {
-            *all.iter().find(|a| a.name() == name).unwrap_or_else(|| panic!("{name} in the catalogue"))
-        });
-        Hypothesis::new(wall.parameters(), &SCALES, &[], &additions)
+        starter_with(&["viscous_damping", name])
     }
 
     #[test]

@@ -13,6 +13,8 @@ pub mod candidates;
 pub mod check_data;
 pub mod confused;
 pub mod ensemble;
+#[cfg(test)]
+mod example;
 pub mod experiment;
 mod finishing;
 pub mod fit;

@@ -48,6 +48,11 @@ impl Tried {
         [windowed_error(&self.fit.windows), windowed_error(&self.held_out.windows)]
     }
 
+    /// Windowed error of the tests to fit; infinite where there are none.
+    pub fn fit_error(&self) -> f64 {
+        self.errors()[0].unwrap_or(f64::INFINITY)
+    }
+
     /// What speaks against it, in natural logarithms of likelihood: windows that were fitted with the prior and half the
     /// logarithm of their number for each added one (Schwarz), and windows that were held out.
     pub fn against(&self, data: &Data) -> [f64; 2] {
@@ -264,16 +269,7 @@ mod tests {
 
     /// A wall with vertical motion, whose ratio of 1 matters.
     fn shaken_upwards() -> Hypothesis {
-        use crate::diagnose::candidates::candidates;
-        use crate::diagnose::scale::Scales;
-
-        let text = include_str!("../starter/wall.toml");
-        let wall =
-            crate::input::parse_wall(std::path::Path::new("wall.toml"), text).expect("the starter's wall");
-        let all = candidates(wall.parameters());
-        let vertical = *all.iter().find(|a| a.name() == "vertical_ground_motion").expect("in the catalogue");
-        let scales = Scales::of(&wall, &[]);
-        Hypothesis::new(wall.parameters(), &scales, &[], &[vertical])
+        crate::diagnose::example::starter_with(&["vertical_ground_motion"])
     }
 
     #[test]

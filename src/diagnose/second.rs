@@ -66,24 +66,11 @@ fn traces_held_out(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
-    use super::super::candidates::candidates;
-    use super::super::fit::Problem;
-    use super::super::hypothesis::Hypothesis;
-    use super::super::scale::Scales;
-    use super::super::window_fit::WindowFit;
     use super::*;
-    use crate::input::parse_wall;
+    use crate::diagnose::example::starter_with;
+    use crate::diagnose::fit::Problem;
+    use crate::diagnose::window_fit::WindowFit;
 
-    const SCALES: Scales = Scales {
-        displacement_m: 0.05,
-        rotation_rad: 0.02,
-        frequency_rad_s: 5.0,
-        force_n: 1000.0,
-        moment_n_m: 2000.0,
-        width_m: 0.3,
-    };
     /// No windows to price a number by, and none held out.
     const DATA: Data<'static> = Data { fit: NOTHING, held_out: NOTHING };
     const NOTHING: Problem<'static> = Problem { tests: &[], windows: &[] };
@@ -93,17 +80,11 @@ mod tests {
     /// The starter's wall with these effects, followed so that all windows together speak against it by `nats` and each by
     /// as much.
     fn tried(names: &[&str], nats: f64) -> Tried {
-        let wall = parse_wall(Path::new("wall.toml"), include_str!("../starter/wall.toml"))
-            .expect("the starter's wall");
-        let all = candidates(wall.parameters());
-        let named = |name: &&str| *all.iter().find(|a| a.name() == *name).expect("in the catalogue");
-        let additions = names.iter().map(named).collect::<Vec<_>>();
-        let hypothesis = Hypothesis::new(wall.parameters(), &SCALES, &[], &additions);
         // The bounded loss of a window, turned about: 40 (1 − exp(−excess/40)) at most.
         let excess = -40.0 * (1.0 - nats / WINDOWS as f64 / 40.0).ln();
         let window = WindowFit { x: vec![0.0; 4], squares: FREEDOM + 2.0 * excess, freedom: FREEDOM };
         let of = |windows| Fit { values: vec![0.0; names.len()], windows, cost: 0.0, covariance: None };
-        Tried { hypothesis, fit: of(vec![window; WINDOWS]), held_out: of(Vec::new()) }
+        Tried { hypothesis: starter_with(names), fit: of(vec![window; WINDOWS]), held_out: of(Vec::new()) }
     }
 
     #[test]

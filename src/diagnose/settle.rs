@@ -20,9 +20,8 @@ impl<P: Progress> Trials<'_, P> {
     /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one
     /// settled: what such windows say is at its bound, and a fit ends before the numbers of the right law.
     pub fn with_far_settled(&self, tried: Vec<Tried>) -> Vec<Tried> {
-        let error = |t: &Tried| t.errors()[0].unwrap_or(f64::INFINITY);
         let answers = tried.iter().filter(|t| kinds(t).is_some());
-        let follows = answers.min_by(|a, b| error(a).total_cmp(&error(b)));
+        let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
         let Some(far) = follows.filter(|t| t.fit.is_far()).cloned() else { return tried };
         let settled = self.settled(far);
         self.best_of_each([tried, vec![settled]].concat())

@@ -134,10 +134,7 @@ impl<P: Progress> Trials<'_, P> {
     /// Finishes the best of coarse fits in order; the others are so far behind that they cannot be the answer.
     fn finished(&self, mut coarse: Vec<Tried>) -> Vec<Tried> {
         let against = |tried: &Tried| against(&self.data, tried);
-        let judge = |tried: &Tried| Coarse {
-            against: against(tried),
-            error: tried.errors()[0].unwrap_or(f64::INFINITY),
-        };
+        let judge = |tried: &Tried| Coarse { against: against(tried), error: tried.fit_error() };
         let judged = coarse.iter().map(judge).collect::<Vec<_>>();
         let chosen = worth_finishing(&judged);
         self.progress.step("the best in full", chosen.len());
