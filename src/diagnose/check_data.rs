@@ -1,13 +1,10 @@
 //! Step 1: what laboratories get wrong in files, found before anything is fitted. Degrees are found on reading.
 
-use super::experiment::Experiment;
-use super::fit::Problem;
-use super::hypothesis::Hypothesis;
-use super::offset::rest_offset_rad;
-use super::score::{nats, windowed_error};
-use super::search::{Data, untouched};
-use super::test_data::TestData;
-use super::windows::windows;
+use crate::diagnose::experiment::Experiment;
+use crate::diagnose::fit::{Problem, nats, windowed_error};
+use crate::diagnose::hypothesis::Hypothesis;
+use crate::diagnose::measured::{TestData, rest_offset_rad, windows};
+use crate::diagnose::trials::{Data, untouched};
 use crate::error::{InputError, Result};
 
 /// By how much another reading of the same file must do better before it is told: half the error, and a gain in natural

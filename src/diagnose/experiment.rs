@@ -2,11 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::hypothesis::{ACTING, Nuisance};
-use super::scale::Scales;
-use super::test_data::TestData;
-use super::wall_number::{WALL_NUMBERS, wall_number};
 use crate::calibrate::{Test, experiment_files};
+use crate::diagnose::hypothesis::{ACTING, Nuisance, Scales, WALL_NUMBERS, wall_number};
+use crate::diagnose::measured::TestData;
 use crate::error::{InputError, Result};
 use crate::input::experiment::{ExperimentFile, TestTable};
 use crate::input::load_wall;

@@ -4,7 +4,7 @@ use mrbd::diagnose::force::{
     Against, ForcePoint, acts_at_top, explained_by, force_points, jumps, median_share_off_top,
 };
 use mrbd::diagnose::hypothesis::Physics;
-use mrbd::diagnose::test_data::TestData;
+use mrbd::diagnose::measured::TestData;
 use mrbd::input::experiment::Purpose;
 use mrbd::model::{Effect, ImpactLaw, Wall};
 use mrbd::simulate::{Accuracy, History, Shaking, simulate_observed};

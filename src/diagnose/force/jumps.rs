@@ -2,11 +2,10 @@
 
 use rayon::prelude::*;
 
-use super::super::hypothesis::Physics;
-use super::super::memory::SpringMemory;
-use super::super::replay::shaken;
-use super::super::test_data::TestData;
 use super::stretch::{Stretch, stretches};
+use crate::diagnose::fit::{SpringMemory, shaken};
+use crate::diagnose::hypothesis::Physics;
+use crate::diagnose::measured::TestData;
 use crate::model::{Contact, Pair, RockingWall, State};
 use crate::simulate::{Accuracy, Impacts, Observer, Simulator, Start};
 use crate::solver::Quintic;

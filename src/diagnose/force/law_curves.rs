@@ -1,7 +1,7 @@
 //! The laws of hypotheses as forces at the top, to be drawn through the measured points.
 
-use super::super::search::Tried;
 use super::points::ForcePoint;
+use crate::diagnose::trials::Tried;
 use crate::model::{RockingWall, Wall, WallParameters};
 
 /// Points of a curve.

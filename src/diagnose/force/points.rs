@@ -2,14 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::super::hypothesis::Physics;
-use super::super::memory::SpringMemory;
-use super::super::offset::rest_offset_rad;
-use super::super::pattern::Freedom;
-use super::super::replay::shaken;
-use super::super::test_data::TestData;
 use super::kernel::Kernel;
 use super::stretch::{Stretch, stretches};
+use crate::diagnose::fit::{SpringMemory, shaken};
+use crate::diagnose::hypothesis::Physics;
+use crate::diagnose::measured::{Freedom, TestData, rest_offset_rad};
 use crate::model::{Contact, Pair, RockingWall, State, Vector};
 use crate::simulate::{Accuracy, Simulator};
 

@@ -1,7 +1,6 @@
 //! Stretches of a test in one contact state, their states smoothed sample by sample, clear of impacts.
 
-use super::super::pattern::{Freedom, measured_state};
-use super::super::test_data::TestData;
+use crate::diagnose::measured::{Freedom, TestData, measured_state};
 use crate::model::{Contact, State};
 
 /// Samples in a row whose contact state is beyond doubt and the same.

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::super::force::ForcePoint;
 use super::Tables;
+use crate::diagnose::force::ForcePoint;
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
 

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use super::super::force::stretches;
-use super::super::replay::{Replay, shaken};
-use super::super::search::Tried;
-use super::super::test_data::TestData;
-use super::super::windows::Window;
 use super::sampled::Sampled;
 use super::{Tables, kept};
+use crate::diagnose::fit::{Replay, shaken};
+use crate::diagnose::force::stretches;
+use crate::diagnose::measured::{TestData, Window};
+use crate::diagnose::trials::Tried;
 use crate::error::Result;
 use crate::model::{Contact, Pair};
 use crate::simulate::{Accuracy, Simulator};

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::super::force::Jump;
 use super::Tables;
+use crate::diagnose::force::Jump;
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
 

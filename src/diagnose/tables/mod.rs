@@ -22,14 +22,14 @@ use std::path::Path;
 
 pub(super) use sampled::Sampled;
 
-use super::experiment::Experiment;
-use super::flow::Diagnosis;
-use super::force::{
+use crate::diagnose::experiment::Experiment;
+use crate::diagnose::flow::Diagnosis;
+use crate::diagnose::force::{
     Against, ForcePoint, LawCurve, explained_by, force_points, jumps, law_curves, median_share_off_top,
 };
-use super::hypothesis::Physics;
-use super::search::Tried;
-use super::verdict::Verdict;
+use crate::diagnose::hypothesis::Physics;
+use crate::diagnose::trials::Tried;
+use crate::diagnose::verdict::Verdict;
 use crate::error::Result;
 use crate::model::{Contact, Pivot, RockingWall};
 use serde_json::{Value, json};
@@ -116,7 +116,7 @@ impl<'a> Tables<'a> {
         &self.experiment.tests[index].name
     }
 
-    fn jumps_of(&self, which: usize) -> Vec<super::force::Jump> {
+    fn jumps_of(&self, which: usize) -> Vec<crate::diagnose::force::Jump> {
         jumps(&self.experiment.tests, &self.physics[which])
     }
 }

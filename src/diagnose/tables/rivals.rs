@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use super::super::search::Tried;
-use super::super::verdict::{against, kinds};
 use super::Tables;
+use crate::diagnose::trials::{Tried, against, kinds};
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
 

@@ -2,10 +2,9 @@
 
 use std::path::Path;
 
-use super::super::replay::Replay;
-use super::super::search::Tried;
-use super::super::window_fit::WindowFit;
 use super::{Tables, kept};
+use crate::diagnose::fit::{Replay, WindowFit};
+use crate::diagnose::trials::Tried;
 use crate::error::Result;
 use crate::simulate::Impacts;
 use crate::store::{Column, Read, write_table};
@@ -64,7 +63,7 @@ impl Tables<'_> {
         let replay = Replay::new(&self.experiment.tests, &self.physics[1]);
         let after = kept(self.diagnosis);
         let fits = [&self.diagnosis.before, &self.diagnosis.recalibrated, after].map(fits_of);
-        let row = |(i, (window, x)): (usize, (&super::super::windows::Window, &[f64]))| {
+        let row = |(i, (window, x)): (usize, (&crate::diagnose::measured::Window, &[f64]))| {
             let test = &self.experiment.tests[window.test];
             Row {
                 test: test.name.clone(),

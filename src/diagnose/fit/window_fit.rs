@@ -1,0 +1,212 @@
+//! The state at the start of a window that lets the simulation follow the measurement best.
+
+use nalgebra::{DMatrix, DVector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+
+use super::replay::Replay;
+use crate::diagnose::measured::Window;
+
+/// Steps of Gauss and Newton tried at shrinking lengths before giving up.
+const SHORTER: [f64; 4] = [1.0, 0.4, 0.16, 0.06];
+/// Gain in the sum of squares, in squared noise, that is not worth another step.
+const LITTLE: f64 = 0.5;
+/// Standard deviations of what noise leaves by which a window is followed badly: other starts are tried, for an impact just
+/// missed or just met has valleys of its own.
+const POOR_SD: f64 = 5.0;
+/// Share of the spread of a smoothed state over which sensitivities to it are taken.
+const CHANGE_SHARE: f64 = 0.1;
+/// Other starts drawn about the smoothed state, and how many of the best are refined.
+const DRAWS: usize = 32;
+const REFINED: usize = 3;
+
+/// Fewest windows that are worth a thread: what goes side by side ends one by one.
+const LEAST_CHUNK: usize = 24;
+
+/// A window, and a state to start it from.
+pub(super) type InState<'a> = (&'a Window, &'a [f64]);
+
+/// Windows with states of their own.
+pub(super) fn owned<'w>(these: &[InState<'w>]) -> Vec<(&'w Window, Vec<f64>)> {
+    these.iter().map(|(window, x)| (*window, x.to_vec())).collect()
+}
+
+/// A window with its state fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WindowFit {
+    /// (θ, θ') of the free bodies at the start, rad and rad/s.
+    pub x: Vec<f64>,
+    /// Sum of the squared residuals over the noise.
+    pub squares: f64,
+    /// Measured numbers less fitted ones.
+    pub freedom: f64,
+}
+
+impl WindowFit {
+    /// Squared error over squared noise: 1 for a perfect model.
+    pub fn reduced(&self) -> f64 {
+        self.squares / self.freedom
+    }
+
+    /// Whether noise alone does not leave so much: the squared error of noise has twice its freedom as variance.
+    pub fn is_poor(&self) -> bool {
+        self.reduced() > 1.0 + POOR_SD * (2.0 / self.freedom).sqrt()
+    }
+}
+
+/// Works on windows side by side, in as many chunks as there are threads.
+pub(super) fn in_chunks<T: Sync, R: Send>(of: &[T], work: impl Fn(&[T]) -> Vec<R> + Send + Sync) -> Vec<R> {
+    let size = of.len().div_ceil(rayon::current_num_threads()).max(LEAST_CHUNK);
+    of.par_chunks(size).flat_map_iter(work).collect()
+}
+
+/// A window and a state at its start, with the residuals it leaves.
+#[derive(Debug)]
+pub(super) struct At<'w> {
+    pub window: &'w Window,
+    pub x: Vec<f64>,
+    pub r: DVector<f64>,
+}
+
+impl<'w> At<'w> {
+    /// Windows in states.
+    pub fn all(replay: &Replay, asked: Vec<(&'w Window, Vec<f64>)>) -> Vec<Self> {
+        let found = replay.residuals(&asked.iter().map(|(window, x)| (*window, &x[..])).collect::<Vec<_>>());
+        asked.into_iter().zip(found).map(|((window, x), r)| Self { window, x, r }).collect()
+    }
+
+    /// The same windows in other states.
+    pub fn moved(replay: &Replay, these: &[&Self], steps: &[DVector<f64>], share: f64) -> Vec<Self> {
+        let plus = |(at, step): (&&Self, &DVector<f64>)| {
+            let y = at.x.iter().zip(step.iter()).map(|(x, dx)| x + share * dx);
+            (at.window, y.collect())
+        };
+        Self::all(replay, these.iter().zip(steps).map(plus).collect())
+    }
+
+    /// The fitted window it is.
+    pub fn fit(self) -> WindowFit {
+        let freedom = (self.r.len() - self.x.len()) as f64;
+        WindowFit { squares: self.r.norm_squared(), freedom, x: self.x }
+    }
+}
+
+/// Sensitivities of the residuals of windows to their states, over a share of the spread of the smoothed state: so far inside
+/// the noise that one-sided differences do.
+pub(super) fn state_jacobians(replay: &Replay, these: &[&At]) -> Vec<DMatrix<f64>> {
+    let changed = |at: &&At| {
+        let one = |(i, h): (usize, &f64)| {
+            let mut y = at.x.clone();
+            y[i] += CHANGE_SHARE * h;
+            y
+        };
+        at.window.spread.iter().enumerate().map(one).collect::<Vec<_>>()
+    };
+    let changed = these.iter().map(changed).collect::<Vec<_>>();
+    let asked = these.iter().zip(&changed).flat_map(|(at, all)| all.iter().map(|y| (at.window, &y[..])));
+    let mut found = replay.residuals(&asked.collect::<Vec<_>>()).into_iter();
+    let jacobian = |at: &&At| {
+        let mut jacobian = DMatrix::zeros(at.r.len(), at.x.len());
+        for ((i, h), r) in at.window.spread.iter().enumerate().zip(&mut found) {
+            jacobian.set_column(i, &((r - &at.r) / (CHANGE_SHARE * h)));
+        }
+        jacobian
+    };
+    these.iter().map(jacobian).collect()
+}
+
+/// Takes a step in each window that has one and is followed better after it.
+pub(super) fn take_steps(replay: &Replay, all: &mut [At], steps: Vec<Option<DVector<f64>>>) {
+    let of = |(i, step): (usize, Option<DVector<f64>>)| step.map(|step| (i, step));
+    let (stepping, steps): (Vec<_>, Vec<_>) = steps.into_iter().enumerate().filter_map(of).unzip();
+    let these = stepping.iter().map(|i| &all[*i]).collect::<Vec<_>>();
+    let moved = At::moved(replay, &these, &steps, 1.0);
+    for (i, moved) in stepping.into_iter().zip(moved) {
+        if moved.r.norm_squared() < all[i].r.norm_squared() {
+            all[i] = moved;
+        }
+    }
+}
+
+/// Fits of windows, or better ones from other starts.
+pub(super) fn other_valleys(replay: &Replay, fits: &[(&Window, &WindowFit)], steps: usize) -> Vec<WindowFit> {
+    let starts = other_starts(replay, &fits.iter().map(|(window, _)| *window).collect::<Vec<_>>());
+    let asked =
+        fits.iter().zip(&starts).flat_map(|((window, _), all)| all.iter().map(|y| (*window, y.clone())));
+    let mut found = fit_windows(replay, asked.collect(), steps).into_iter();
+    let best = |((_, fit), starts): (&(&Window, &WindowFit), &Vec<Vec<f64>>)| {
+        let better =
+            |best: WindowFit, other: WindowFit| if other.squares < best.squares { other } else { best };
+        found.by_ref().take(starts.len()).fold((*fit).clone(), better)
+    };
+    fits.iter().zip(&starts).map(best).collect()
+}
+
+/// Fits the states of windows, from given ones, each by at most `steps` steps of Gauss and Newton.
+pub fn fit_windows(replay: &Replay, from: Vec<(&Window, Vec<f64>)>, steps: usize) -> Vec<WindowFit> {
+    let mut all = At::all(replay, from);
+    let mut active = (0..all.len()).filter(|i| !all[*i].x.is_empty()).collect::<Vec<_>>();
+    for _ in 0..steps {
+        active = improved(replay, &mut all, &active);
+    }
+    all.into_iter().map(At::fit).collect()
+}
+
+/// One step of those of the windows that are `active`; gives those for which it was worth another.
+fn improved(replay: &Replay, all: &mut [At], active: &[usize]) -> Vec<usize> {
+    let these = active.iter().map(|i| &all[*i]).collect::<Vec<_>>();
+    let jacobians = state_jacobians(replay, &these);
+    let step = |(i, jacobian): (&usize, DMatrix<f64>)| Some((*i, newton_step(&jacobian, &all[*i].r)?));
+    let mut waiting = active.iter().zip(jacobians).filter_map(step).collect::<Vec<_>>();
+    let mut worth = Vec::new();
+    for share in SHORTER {
+        let (these, steps): (Vec<_>, Vec<_>) =
+            waiting.iter().map(|(i, step)| (&all[*i], step.clone())).unzip();
+        let trials = At::moved(replay, &these, &steps, share);
+        let mut left = Vec::new();
+        for ((i, step), trial) in waiting.into_iter().zip(trials) {
+            let [before, after] = [all[i].r.norm_squared(), trial.r.norm_squared()];
+            if after < before {
+                all[i] = trial;
+                worth.extend((before - after >= LITTLE).then_some(i));
+            } else {
+                left.push((i, step));
+            }
+        }
+        waiting = left;
+    }
+    worth
+}
+
+/// -R⁻¹ Qᵀ r, the least squares step.
+pub fn newton_step(jacobian: &DMatrix<f64>, r: &DVector<f64>) -> Option<DVector<f64>> {
+    let qr = jacobian.clone().qr();
+    qr.r().solve_upper_triangular(&-(qr.q().transpose() * r)).filter(|dx| dx.iter().all(|x| x.is_finite()))
+}
+
+/// The best of some states of each window drawn about the smoothed one; the same on every call.
+fn other_starts(replay: &Replay, windows: &[&Window]) -> Vec<Vec<Vec<f64>>> {
+    let drawn = windows.iter().flat_map(|window| drawn_states(window).map(|y| (*window, y))).collect();
+    let mut drawn = At::all(replay, drawn).into_iter().map(|at| (at.r.norm_squared(), at.x));
+    let best = |with_state: bool| {
+        if !with_state {
+            return Vec::new();
+        }
+        let mut own = drawn.by_ref().take(DRAWS).collect::<Vec<_>>();
+        own.sort_by(|a, b| a.0.total_cmp(&b.0));
+        own.into_iter().take(REFINED).map(|(_, y)| y).collect()
+    };
+    windows.iter().map(|window| !window.measured.is_empty()).map(best).collect()
+}
+
+/// States drawn about the smoothed one; none of a window that has no state.
+fn drawn_states(window: &Window) -> impl Iterator<Item = Vec<f64>> {
+    let seed = (window.test as u64) << 32 | window.samples.start as u64;
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let count = if window.measured.is_empty() { 0 } else { DRAWS };
+    (0..count).map(move |_| {
+        let about = |(m, s): (&f64, &f64)| m + 3.0 * s * random.random_range(-1.0..1.0);
+        window.measured.iter().zip(&window.spread).map(about).collect()
+    })
+}

@@ -1,0 +1,54 @@
+//! What was known of the wall before the tests.
+
+use super::unknown::Slot;
+use super::{Unknown, WallNumber};
+use crate::model::WallParameters;
+
+/// Standard deviations of its prior within which a number of the wall is taken to lie.
+pub const PRIOR_REACH: f64 = 3.0;
+/// A relative prior wider than this says that a number was not known.
+const WIDE_PRIOR: f64 = 0.1;
+
+/// What was known of a number of the wall before the tests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Nuisance {
+    /// A number, with its relative standard deviation.
+    Number(&'static WallNumber, f64),
+    /// C_l by its index from 0, with its relative standard deviation.
+    Coefficient(usize, f64),
+}
+
+impl Nuisance {
+    /// Whether what was known says so little that the number was not known.
+    pub fn is_wide(&self) -> bool {
+        let (Nuisance::Number(_, sd) | Nuisance::Coefficient(_, sd)) = self;
+        *sd > WIDE_PRIOR
+    }
+
+    /// The number to be found.
+    pub(super) fn unknown(&self, base: &WallParameters) -> Unknown {
+        let (key, unit, value, relative, slot) = match *self {
+            Nuisance::Number(number, sd) => {
+                (number.key.to_owned(), number.unit, (number.get)(base), sd, Slot::Number(number))
+            }
+            Nuisance::Coefficient(l, sd) => {
+                let value = base.restitution.coefficients[l];
+                (format!("C_{}", l + 1), "", value, sd, Slot::Coefficient(l))
+            }
+        };
+        let sd = relative * value.abs();
+        let reach = PRIOR_REACH * sd;
+        // A prior as wide as the value itself does not reach what no wall has.
+        let lower = if value > 0.0 { (value - reach).max(0.02 * value) } else { value - reach };
+        Unknown {
+            key,
+            unit,
+            start: value,
+            scale: value.abs(),
+            lower,
+            upper: value + reach,
+            prior_sd: Some(sd),
+            slot,
+        }
+    }
+}

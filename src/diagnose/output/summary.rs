@@ -1,0 +1,124 @@
+//! `diagnosis.json`: the verdict, with everything it rests on.
+
+use serde_json::{Value, json};
+
+use super::KIND;
+use super::rivals::rival;
+use super::tests::tests;
+use crate::diagnose::certainty::{confused, intervals};
+use crate::diagnose::experiment::Experiment;
+use crate::diagnose::flow::Diagnosis;
+use crate::diagnose::hypothesis::Unknown;
+use crate::diagnose::trials::{Data, FRICTION, Tried, against, giving_friction, joint_error};
+use crate::diagnose::verdict::{Verdict, detectable};
+
+/// Everything the verdict rests on.
+pub fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
+    let data = diagnosis.data(experiment);
+    let answered = matches!(diagnosis.verdict, Verdict::Named | Verdict::Class);
+    let effects = if answered { effects(&data, &diagnosis.after) } else { Vec::new() };
+    let unknown = json!({"kind": null, "place": diagnosis.place, "parameters": {}, "interval": {}});
+    let effects = if diagnosis.verdict == Verdict::PlaceOnly { vec![unknown] } else { effects };
+    let rivals = diagnosis.tried.iter().map(|tried| rival(experiment, &data, tried)).collect::<Vec<_>>();
+    json!({
+        "kind": KIND,
+        "verdict": diagnosis.verdict,
+        "place": diagnosis.place.or(answered.then(|| diagnosis.after.hypothesis.additions[0].place())),
+        "effects": effects,
+        "equivalent": diagnosis.equivalent,
+        "wall": numbers(&diagnosis.after, 0..diagnosis.after.hypothesis.nuisances),
+        "tests": tests(experiment, diagnosis),
+        "other_law": diagnosis.other_law,
+        "windowed_error": {
+            "before": joint_error(&diagnosis.before),
+            "recalibrated": joint_error(&diagnosis.recalibrated),
+            "after": joint_error(&diagnosis.after),
+        },
+        "against": {
+            "before": against(&data, &diagnosis.before),
+            "recalibrated": against(&data, &diagnosis.recalibrated),
+            "after": against(&data, &diagnosis.after),
+        },
+        "windows": {
+            "fit": data.fit.windows.len(),
+            "held_out": data.held_out.windows.len(),
+            "opened": diagnosis.windows.iter().flatten().filter(|window| window.opened).count(),
+        },
+        "could_hide": could_hide(diagnosis),
+        "confused": confused(&data, &diagnosis.recalibrated, &diagnosis.tried),
+        "rivals": rivals,
+        "program": concat!("mrbd ", env!("CARGO_PKG_VERSION")),
+        "experiment": experiment.path,
+    })
+}
+
+/// The effects of an answer with their numbers and 90 % intervals.
+fn effects(data: &Data, after: &Tried) -> Vec<Value> {
+    let h = &after.hypothesis;
+    let intervals = intervals(data, after);
+    let mut from = h.nuisances;
+    let mut all = Vec::new();
+    for (index, addition) in h.additions.iter().enumerate() {
+        let count = h.unknowns.iter().filter(|u| u.belongs_to(index)).count();
+        let range = from..from + count;
+        from += count;
+        if let Some(friction) = giving_friction(h, &after.fit.values, index) {
+            all.push(json!({
+                "kind": FRICTION,
+                "name": FRICTION,
+                "place": addition.place(),
+                "parameters": {"force_n": after.fit.values[friction.force]},
+                "interval": {"force_n": intervals[friction.force]},
+                "written_as": addition.name(),
+                "sets_in_over_m": friction.onset_m,
+            }));
+            continue;
+        }
+        let of = |f: &dyn Fn(usize) -> Value| {
+            range.clone().map(|i| (h.unknowns[i].key.clone(), f(i))).collect::<serde_json::Map<_, _>>()
+        };
+        all.push(json!({
+            "kind": addition.kind(),
+            "name": addition.name(),
+            "place": addition.place(),
+            "parameters": of(&|i| json!(after.fit.values[i])),
+            "interval": of(&|i| json!(intervals[i])),
+        }));
+    }
+    all
+}
+
+/// Fitted numbers of the wall with their standard deviations, and what they were.
+fn numbers(tried: &Tried, range: std::ops::Range<usize>) -> Vec<Value> {
+    let h = &tried.hypothesis;
+    range
+        .map(|i| {
+            let Unknown { key, unit, start, prior_sd, .. } = &h.unknowns[i];
+            json!({"key": key, "unit": unit, "before": start, "prior_sd": prior_sd,
+                   "after": tried.fit.values[i], "sd": sd(tried, i)})
+        })
+        .collect()
+}
+
+/// Standard deviation of a fitted number; none where it leaves no trace.
+pub fn sd(tried: &Tried, i: usize) -> Option<f64> {
+    tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt())
+}
+
+/// For each kind, the smallest size that would have been told from nothing, and the size at which it would matter.
+fn could_hide(diagnosis: &Diagnosis) -> Vec<Value> {
+    let singles = diagnosis.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
+    let row = |tried: &Tried| {
+        let (smallest, matters) = detectable(tried)?;
+        let h = &tried.hypothesis;
+        let unknown = &h.unknowns[h.nuisances];
+        let estimate = tried.fit.values[h.nuisances] - unknown.start;
+        let sd = sd(tried, h.nuisances)?;
+        Some(json!({
+            "kind": h.additions[0].kind()?, "name": h.additions[0].name(),
+            "parameter": unknown.key, "unit": unknown.unit,
+            "estimate": estimate, "sd": sd, "smallest_detectable": smallest, "matters": matters,
+        }))
+    };
+    singles.filter_map(row).collect()
+}

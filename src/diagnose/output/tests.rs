@@ -1,0 +1,43 @@
+//! The figures of every test: errors before and after, and its noise.
+
+use serde_json::{Value, json};
+
+use crate::calibrate::Test;
+use crate::diagnose::experiment::Experiment;
+use crate::diagnose::fit::{WindowFit, windowed_error};
+use crate::diagnose::flow::Diagnosis;
+use crate::diagnose::measured::{TestData, Window};
+use crate::diagnose::trials::Tried;
+use crate::model::Wall;
+use crate::simulate::Accuracy;
+
+/// Every test: errors before and after, and the noise.
+pub fn tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Vec<Value> {
+    let walls =
+        [&diagnosis.before, &diagnosis.after].map(|t| t.hypothesis.physics(&t.fit.values).map(|p| p.wall));
+    let one = |(index, test): (usize, &TestData)| {
+        let error = |tried: &Tried| test_error(&diagnosis.windows, tried, index);
+        let wme = |wall: &Option<Wall>| wall.as_ref().and_then(|w| whole_wme(&experiment.whole[index], w));
+        json!({
+            "name": test.name,
+            "use": test.purpose.name(),
+            "windowed_error": {"before": error(&diagnosis.before), "after": error(&diagnosis.after)},
+            "wme": {"before": wme(&walls[0]), "after": wme(&walls[1])},
+            "noise_floor": 1.0,
+            "noise_rad": test.noise_rad,
+            "read_gain": test.read_gain,
+        })
+    };
+    experiment.tests.iter().enumerate().map(one).collect()
+}
+
+fn test_error(windows: &[Vec<Window>; 2], tried: &Tried, test: usize) -> Option<f64> {
+    let both = windows.iter().zip([&tried.fit.windows, &tried.held_out.windows]);
+    let own = both.flat_map(|(w, f)| w.iter().zip(f)).filter(|(w, _)| w.test == test);
+    windowed_error(&own.map(|(_, fit)| fit.clone()).collect::<Vec<WindowFit>>())
+}
+
+/// Eq. 8 over a whole run of a test.
+pub fn whole_wme(test: &Test, wall: &Wall) -> Option<f64> {
+    test.simulate(wall, Accuracy::default()).wme
+}

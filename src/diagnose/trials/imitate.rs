@@ -1,0 +1,193 @@
+//! Effects, or pairs of them, that do what the best does, as far as a linear look tells.
+//!
+//! One effect can stand for another, and a fit of the other that set out elsewhere may not have come so far. Two effects
+//! together can stand for two others: a narrower joint read with a gain moves much like the same wall under a weaker record
+//! with a carriage at its top. No single effect points at such a pair, so that a search that sets out from single effects
+//! may miss it. How the windows change with a little of every effect is cheap; what any other can make of the change that
+//! the best made is then a small least-squares problem.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Data, Tried};
+use crate::diagnose::fit::{Fit, Loss};
+use crate::diagnose::hypothesis::{Addition, Hypothesis};
+
+/// As many effects as the best has, and the values at which they come nearest.
+#[derive(Debug, Clone)]
+pub struct Imitation {
+    /// The effects.
+    pub additions: Vec<Addition>,
+    /// Values of their numbers.
+    pub values: Vec<f64>,
+    /// Squared residuals that they leave, in squared noise, as far as a linear look tells.
+    pub left: f64,
+}
+
+/// Every one of `candidates`, or every pair where the best is one, each with one number, the nearest to the best first; none
+/// where its neighbourhood is no wall.
+///
+/// `hypothesis` makes one of additions.
+pub fn imitations(
+    data: &Data,
+    best: &Tried,
+    candidates: &[Addition],
+    hypothesis: impl Fn(&[Addition]) -> Hypothesis,
+) -> Option<Vec<Imitation>> {
+    let own = &best.hypothesis.additions;
+    let others = candidates.iter().filter(|c| !own.contains(c));
+    let (h, sums) = with_others(data, best, others, hypothesis)?;
+    // Undoing the best is what another must make good.
+    let values = best.fit.values.iter().enumerate().skip(h.nuisances);
+    let undone = values.map(|(i, value)| (i, h.unknowns[i].start - value)).collect::<Vec<_>>();
+    let numbers = single_numbers(&h);
+    let sets: Vec<Vec<[usize; 2]>> = match own.len() {
+        1 => numbers.iter().filter(|[index, _]| *index > 0).map(|one| vec![*one]).collect(),
+        _ => {
+            let pairs = numbers.iter().enumerate();
+            pairs.flat_map(|(n, one)| numbers[n + 1..].iter().map(|two| vec![*one, *two])).collect()
+        }
+    };
+    let mut found = sets.iter().filter_map(|set| imitation(&h, &sums, &undone, set)).collect::<Vec<_>>();
+    found.sort_by(|a, b| a.left.total_cmp(&b.left));
+    Some(found)
+}
+
+/// Every one of `candidates` of one number beside the best, the one that takes away most first, with values of all added
+/// numbers; none where its neighbourhood is no wall.
+pub fn seconds(
+    data: &Data,
+    best: &Tried,
+    candidates: &[Addition],
+    hypothesis: impl Fn(&[Addition]) -> Hypothesis,
+) -> Option<Vec<Imitation>> {
+    let own = &best.hypothesis.additions;
+    let kinds = own.iter().map(Addition::kind).collect::<Vec<_>>();
+    let others = candidates.iter().filter(|c| !kinds.contains(&c.kind()));
+    let (h, sums) = with_others(data, best, others, hypothesis)?;
+    let beside = |[index, number]: &[usize; 2]| {
+        let (left, steps) = sums.left(best.fit.values.len(), &[], &[*number])?;
+        let unknown = &h.unknowns[*number];
+        let value = unknown.start + steps[0];
+        let additions = own.iter().copied().chain([h.additions[*index]]).collect();
+        let values = best.fit.values[h.nuisances..].iter().copied().chain([value]).collect();
+        let within = (unknown.lower..=unknown.upper).contains(&value);
+        within.then_some(Imitation { additions, values, left })
+    };
+    let numbers = single_numbers(&h);
+    let mut found =
+        numbers.iter().filter(|[index, _]| *index >= own.len()).filter_map(beside).collect::<Vec<_>>();
+    found.sort_by(|a, b| a.left.total_cmp(&b.left));
+    Some(found)
+}
+
+/// The best with a little of all the others, linear about it.
+fn with_others<'a>(
+    data: &Data,
+    best: &'a Tried,
+    others: impl Iterator<Item = &'a Addition>,
+    hypothesis: impl Fn(&[Addition]) -> Hypothesis,
+) -> Option<(Hypothesis, Sums)> {
+    let h = hypothesis(&best.hypothesis.additions.iter().chain(others).copied().collect::<Vec<_>>());
+    let sums = Sums::about(data, &h, best)?;
+    Some((h, sums))
+}
+
+/// Additions of one number, by their index, with the index of that number.
+fn single_numbers(h: &Hypothesis) -> Vec<[usize; 2]> {
+    let number = |index: usize| {
+        let mut numbers = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
+        let first = numbers.next()?;
+        numbers.next().is_none().then_some([index, first])
+    };
+    (0..h.additions.len()).filter_map(number).collect()
+}
+
+/// What additions make of it; none for two of a kind, for values outside their bounds, and where they leave no trace.
+fn imitation(h: &Hypothesis, sums: &Sums, undone: &[(usize, f64)], set: &[[usize; 2]]) -> Option<Imitation> {
+    let additions = set.iter().map(|[index, _]| h.additions[*index]).collect::<Vec<_>>();
+    let numbers = set.iter().map(|[_, number]| *number).collect::<Vec<_>>();
+    if additions.len() == 2 && additions[0].kind() == additions[1].kind() {
+        return None;
+    }
+    let (left, steps) = sums.left(h.nuisances, undone, &numbers)?;
+    let unknowns = || numbers.iter().map(|number| &h.unknowns[*number]);
+    let values = unknowns().zip(&steps).map(|(unknown, step)| unknown.start + step).collect::<Vec<_>>();
+    let mut within = unknowns().zip(&values).map(|(unknown, v)| (unknown.lower..=unknown.upper).contains(v));
+    within.all(|holds| holds).then_some(Imitation { additions, values, left })
+}
+
+/// Sums over windows, weighted as in the fit: rᵀr, Jᵀr and JᵀJ.
+struct Sums {
+    rr: f64,
+    jr: DVector<f64>,
+    jj: DMatrix<f64>,
+}
+
+impl Sums {
+    /// Of a hypothesis that begins with the numbers of another, about where that is and with nothing more.
+    fn about(data: &Data, h: &Hypothesis, best: &Tried) -> Option<Self> {
+        let mut values = h.start();
+        values[..best.fit.values.len()].copy_from_slice(&best.fit.values);
+        let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
+        let (slopes, _) = data.fit.slopes(h, &at, None)?;
+        let count = h.unknowns.len();
+        let mut sums = Self { rr: 0.0, jr: DVector::zeros(count), jj: DMatrix::zeros(count, count) };
+        for (window, slopes) in at.windows.iter().zip(slopes) {
+            let weight = Loss::Likelihood.weight(window);
+            sums.rr += weight * slopes.residual.norm_squared();
+            sums.jr += slopes.by_values.transpose() * &slopes.residual * weight;
+            sums.jj += slopes.by_values.transpose() * &slopes.by_values * weight;
+        }
+        sums.rr += h.prior_penalty(&at.values);
+        h.add_prior(&at.values, &mut sums.jj, &mut sums.jr);
+        Some(sums)
+    }
+
+    /// What is left where some numbers are moved by given amounts and the first `own` numbers and some more are free, and
+    /// where the latter go; none where these leave no trace.
+    fn left(&self, own: usize, moved: &[(usize, f64)], more: &[usize]) -> Option<(f64, Vec<f64>)> {
+        let mut step = DVector::zeros(self.jr.len());
+        moved.iter().for_each(|(i, by)| step[*i] = *by);
+        let gradient = &self.jr + &self.jj * &step;
+        let fixed = self.rr + 2.0 * self.jr.dot(&step) + step.dot(&(&self.jj * &step));
+        let traced = |i: &usize| self.jj[(*i, *i)] > 0.0;
+        if !more.iter().all(traced) {
+            return None;
+        }
+        let own = (0..own).filter(traced).collect::<Vec<_>>();
+        let free = own.iter().chain(more).copied().collect::<Vec<_>>();
+        let scale = free.iter().map(|i| self.jj[(*i, *i)].sqrt()).collect::<Vec<_>>();
+        let count = free.len();
+        // Columns of length one: two that are each other's double must not stop the solution.
+        let a = DMatrix::from_fn(count, count, |m, n| {
+            self.jj[(free[m], free[n])] / (scale[m] * scale[n]) + if m == n { 1e-9 } else { 0.0 }
+        });
+        let g = DVector::from_fn(count, |m, _| gradient[free[m]] / scale[m]);
+        let x = -a.cholesky()?.solve(&g);
+        Some((fixed + g.dot(&x), (own.len()..count).map(|m| x[m] / scale[m]).collect()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::*;
+
+    #[test]
+    fn analytic_two_numbers_make_good_what_they_can_of_another() {
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let mut draw = |_, _| random.random_range(-1.0..1.0);
+        let (j, r) = (DMatrix::from_fn(40, 4, &mut draw), DVector::from_fn(40, &mut draw));
+        let sums = Sums { rr: r.norm_squared(), jr: j.transpose() * &r, jj: j.transpose() * &j };
+        // The last is moved; the first is the wall's own.
+        let (left, two) = sums.left(1, &[(3, 0.5)], &[1, 2]).expect("full rank");
+        let moved = &r + j.column(3) * 0.5;
+        let free = j.columns(0, 3).into_owned();
+        let x = -free.clone().svd(true, true).solve(&moved, 0.0).expect("full rank");
+        // The ridge of 1e-9 beside ones.
+        assert!((left - (&moved + free * &x).norm_squared()).abs() < 1e-6, "{left}");
+        assert!((two[0] - x[1]).abs() < 1e-6 && (two[1] - x[2]).abs() < 1e-6, "{two:?}, {x}");
+    }
+}
