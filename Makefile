@@ -45,12 +45,13 @@ bench: ## time and work of one run, beside its arithmetic
 	cargo bench --locked
 
 # Cases of a set and its name: tune on one, freeze, report on another. Those recorded are counted and not diagnosed again.
+FIRST ?= 0
 CASES ?= 40
 SET ?= tune
 RECORDED ?= $(wildcard tests/blind/recorded/$(SET).jsonl)
 
 blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: CASES=40 SET=tune
-	cargo test --release --locked --quiet --test blind -- --cases $(CASES) --set $(SET) \
+	cargo test --release --locked --quiet --test blind -- --first $(FIRST) --cases $(CASES) --set $(SET) \
 		$(if $(RECORDED),--recorded $(RECORDED))
 
 lint: ## formatting and lints, warnings denied

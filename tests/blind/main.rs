@@ -37,7 +37,7 @@ struct Options {
     /// Only cases whose kind contains this.
     #[arg(long)]
     only: Option<String>,
-    /// Cases of the set that were scored before: they count, and are not diagnosed again.
+    /// Cases of the set that were scored before: those asked for count, and are not diagnosed again.
     #[arg(long)]
     recorded: Option<PathBuf>,
     /// Folder of the set [default: outputs/blind/SET].
@@ -74,7 +74,8 @@ fn go(options: &Options) -> Result<(), String> {
     let only = |kind: &cases::kind::Kind| options.only.as_ref().is_none_or(|part| kind.name().contains(part));
     let recorded =
         options.recorded.as_ref().map(|path| score::recorded::load(path, &options.set)).transpose()?;
-    let recorded = recorded.unwrap_or_default();
+    let asked = |row: &score::Row| (options.first..options.first + options.cases).contains(&row.number);
+    let recorded = recorded.unwrap_or_default().into_iter().filter(asked).collect::<Vec<_>>();
     let is_new = |case: &cases::draw::Case| recorded.iter().all(|row| row.number != case.number);
     let chosen: Vec<cases::draw::Case> = drawn.filter(|case| only(&case.kind) && is_new(case)).collect();
     let folder = |case: &cases::draw::Case| out.join(format!("case_{:04}", case.number));

@@ -9,32 +9,25 @@ use crate::diagnose::hypothesis::{Addition, Hypothesis, candidates};
 
 /// Effects fitted beside the best single one because a linear look says that they take away most.
 const BESIDE: usize = 4;
+/// Best single effects that are paired with all others where none closes the gap alone.
+const BASES: usize = 2;
+/// Pairs fitted of each single effect that is paired: where one closes the gap but may not be alone, and where none does.
+const BESIDE_A_NAME: usize = 4;
+const WITHOUT_A_NAME: usize = 7;
 
 impl<P: Progress> Trials<'_, P> {
-    /// Pairs of the best `paired` single effects with every other, of which `fitted` are fitted.
+    /// Pairs with the best single effects, where one of them closes a gap by its `name` or where none does.
     pub fn pairs(
         &self,
         singles: &[Tried],
         single: &Tried,
         before: &Tried,
         gap: f64,
-        [paired, fitted]: [usize; 2],
+        name: bool,
     ) -> Vec<Tried> {
         let answers = singles.iter().filter(|t| kinds(t).is_some()).collect::<Vec<_>>();
-        let mut sets: Vec<Vec<Addition>> = Vec::new();
-        let mut starts = Vec::new();
-        for first in answers.iter().take(paired) {
-            let one = first.hypothesis.additions[0];
-            for second in &answers {
-                let two = second.hypothesis.additions[0];
-                let same_kind = one.kind() == two.kind();
-                if !same_kind && !sets.iter().any(|set| set.contains(&one) && set.contains(&two)) {
-                    sets.push(vec![one, two]);
-                    starts.push(*first);
-                }
-            }
-        }
-        let pairs = self.promising(sets.into_iter().zip(starts).collect(), fitted);
+        let count = if name { BESIDE_A_NAME } else { WITHOUT_A_NAME };
+        let pairs = self.promising(&bases(&answers, name), &answers, count);
         self.progress.step("pairs of effects", pairs.len());
         let try_one = |(h, first): &(Hypothesis, &Tried)| {
             let tried = try_second(&self.data, h.clone(), first, before);
@@ -60,21 +53,84 @@ impl<P: Progress> Trials<'_, P> {
         found.par_iter().filter_map(|imitation| self.fit_from(imitation, first)).collect()
     }
 
-    /// The pairs that promise most at a glance, and those of which only a fit would tell.
+    /// Of each base the pairs that promise most at a glance, and those of which only a fit would tell: bases that follow the
+    /// windows differently are looked at in different losses.
     fn promising<'t>(
         &self,
-        sets: Vec<(Vec<Addition>, &'t Tried)>,
+        bases: &[&'t Tried],
+        answers: &[&Tried],
         count: usize,
     ) -> Vec<(Hypothesis, &'t Tried)> {
-        self.progress.step("a glance at pairs", sets.len());
-        let look = |(set, first): (Vec<Addition>, &'t Tried)| {
-            let h = self.hypothesis(&self.experiment.nuisances, &set);
+        let sets = sets(bases, answers);
+        self.progress.step("a glance at pairs", sets.iter().map(Vec::len).sum());
+        let look = |first: &'t Tried, set: &[Addition; 2]| {
+            let h = self.hypothesis(&self.experiment.nuisances, set);
             let cost = promise(&self.data, &h, first).unwrap_or(f64::NEG_INFINITY);
             self.progress.fitted();
             (cost, h, first)
         };
-        let mut pairs = sets.into_par_iter().map(look).collect::<Vec<_>>();
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        pairs.into_iter().take(count).map(|(_, h, first)| (h, first)).collect()
+        let best = |(first, sets): (&&'t Tried, Vec<[Addition; 2]>)| {
+            let mut pairs = sets.par_iter().map(|set| look(first, set)).collect::<Vec<_>>();
+            pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+            pairs.into_iter().take(count).map(|(_, h, first)| (h, first)).collect::<Vec<_>>()
+        };
+        bases.iter().zip(sets).flat_map(best).collect()
+    }
+}
+
+/// Single effects that are paired with all others: the best; where none closes the gap, the second best too, and that which
+/// follows the windows with the least error, for of a gap far above the noise likelihood tells little.
+fn bases<'t>(answers: &[&'t Tried], name: bool) -> Vec<&'t Tried> {
+    let mut bases = answers.iter().copied().take(if name { 1 } else { BASES }).collect::<Vec<_>>();
+    let follows = answers.iter().copied().min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+    bases.extend(follows.filter(|t| !name && !bases.iter().any(|b| std::ptr::eq(*b, *t))));
+    bases
+}
+
+/// Of each base its pairs with all others of another kind, each pair once.
+fn sets(bases: &[&Tried], answers: &[&Tried]) -> Vec<Vec<[Addition; 2]>> {
+    let addition = |t: &&Tried| t.hypothesis.additions[0];
+    let bases = bases.iter().map(addition).collect::<Vec<_>>();
+    let of = |(i, one): (usize, &Addition)| {
+        let new = |two: &Addition| two.kind() != one.kind() && !bases[..i].contains(two);
+        answers.iter().map(addition).filter(new).map(|two| [*one, two]).collect()
+    };
+    bases.iter().enumerate().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::fit::{Fit, WindowFit};
+    use crate::diagnose::hypothesis::example::starter_with;
+
+    /// One effect, followed to a squared error over squared noise.
+    fn followed(name: &str, reduced: f64) -> Tried {
+        let window = WindowFit { x: vec![0.0; 4], squares: 200.0 * reduced, freedom: 200.0 };
+        let of = |windows| Fit { values: vec![0.0], windows, cost: 0.0, covariance: None };
+        Tried { hypothesis: starter_with(&[name]), fit: of(vec![window; 10]), held_out: of(Vec::new()) }
+    }
+
+    #[test]
+    fn analytic_the_best_and_what_follows_best_are_paired_where_none_closes_the_gap() {
+        let all = ["gap", "cubic_stiffness", "carriage_mass", "record_gain"];
+        let singles =
+            all.iter().zip([4.0, 9.0, 2.0, 16.0]).map(|(name, r)| followed(name, r)).collect::<Vec<_>>();
+        let answers = singles.iter().collect::<Vec<_>>();
+        let names =
+            |tried: &[&Tried]| tried.iter().map(|t| t.hypothesis.additions[0].name()).collect::<Vec<_>>();
+        assert_eq!(names(&bases(&answers, true)), ["gap"]);
+        let three = bases(&answers, false);
+        assert_eq!(names(&three), ["gap", "cubic_stiffness", "carriage_mass"]);
+        let pairs = |sets: &Vec<[Addition; 2]>| {
+            sets.iter().map(|set| set.map(|a| a.name()).join(" + ")).collect::<Vec<_>>()
+        };
+        let sets = sets(&three, &answers).iter().map(pairs).collect::<Vec<_>>();
+        assert_eq!(sets[0], ["gap + cubic_stiffness", "gap + carriage_mass", "gap + record_gain"]);
+        assert_eq!(sets[1], ["cubic_stiffness + carriage_mass", "cubic_stiffness + record_gain"]);
+        assert_eq!(sets[2], ["carriage_mass + record_gain"]);
+        // The best that follows best is one base.
+        let nearer = [followed("gap", 1.0), followed("cubic_stiffness", 2.0)];
+        assert_eq!(names(&bases(&[&nearer[0], &nearer[1]], false)), ["gap", "cubic_stiffness"]);
     }
 }

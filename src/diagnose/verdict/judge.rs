@@ -16,10 +16,6 @@ use crate::diagnose::trials::{
 /// Gain in natural logarithms of likelihood, over the windows fitted and held out together, below which an effect is not
 /// worth its name. Chosen: the effects of the development set gain hundreds.
 const WORTH_A_NAME: f64 = 30.0;
-/// Single effects whose pairs with all others are looked at, and pairs that are fitted: where no single effect is the
-/// answer, and where one is but may not be alone.
-const WITHOUT_A_NAME: [usize; 2] = [2, 14];
-const BESIDE_A_NAME: [usize; 2] = [1, 4];
 /// Gain of the best single addition below which pairs are not tried.
 const WORTH_PAIRS: f64 = 60.0;
 /// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
@@ -124,8 +120,7 @@ impl<P: Progress> Gap<'_, P> {
     fn with_pairs(&self, one: Option<Answer>, mut tried: Vec<Tried>) -> (Option<Answer>, Vec<Tried>) {
         let trials = self.trials;
         let best_single = |tried: &[Tried]| best_answer(tried).unwrap_or(&self.recalibrated).clone();
-        let counts = if one.is_some() { BESIDE_A_NAME } else { WITHOUT_A_NAME };
-        let pairs = trials.pairs(&tried, &best_single(&tried), &self.before, self.error, counts);
+        let pairs = trials.pairs(&tried, &best_single(&tried), &self.before, self.error, one.is_some());
         let mut one = one;
         // A pair of which one effect does nothing is the other alone, fitted better.
         if let Some(pair) = pairs.first().filter(|pair| !does_something(pair)) {

@@ -21,19 +21,20 @@ pub fn load(path: &Path, set: &str) -> Result<Vec<Row>, String> {
         if rows.last().is_some_and(|last| last.number >= row.number) {
             return Err(told(format!("case {} is not after the one before", row.number)));
         }
-        rows.push(row);
+        rows.push(Row { recorded_as: Some(line.to_owned()), ..row });
     }
     Ok(rows)
 }
 
-/// Writes scored cases, to be read again.
+/// Writes scored cases, to be read again; those that were read as they were.
 ///
 /// # Errors
 /// Text for people if the file cannot be written.
 pub fn save(path: &Path, rows: &[Row]) -> Result<(), String> {
     let mut text = String::new();
     for row in rows {
-        let line = serde_json::to_string(row).map_err(|e| e.to_string())?;
+        let written = || serde_json::to_string(row).map_err(|e| e.to_string());
+        let line = row.recorded_as.clone().map_or_else(written, Ok)?;
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{line}");
     }

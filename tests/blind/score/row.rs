@@ -39,6 +39,9 @@ pub struct Row {
     pub before: Option<f64>,
     pub after: Option<f64>,
     pub seconds: f64,
+    /// The line that it was read from, if it was recorded before: numbers that are read and written again differ in the last bit.
+    #[serde(skip)]
+    pub recorded_as: Option<String>,
 }
 
 impl Row {
@@ -82,6 +85,7 @@ impl Row {
             before: held_out(diagnosis, "before"),
             after: held_out(diagnosis, "after"),
             seconds: outcome.seconds,
+            recorded_as: None,
         };
         if row.exact() {
             row.compare_parameter(answer, diagnosis);
