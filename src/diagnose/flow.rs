@@ -3,37 +3,22 @@
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::measured::{Window, is_readable, windows};
 use crate::diagnose::trials::{
-    Alone, Data, Progress, Trials, Tried, gain_misread, opened_as_given, opened_windows, reads_better,
-    set_gain,
+    Alone, Data, Progress, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain,
 };
-use crate::diagnose::verdict::{Found, OtherLaw, Verdict, judge};
+use crate::diagnose::verdict::{Found, judge};
 use crate::error::{InputError, Result};
 use crate::input::experiment::Purpose;
 
 /// Times that patterns are read again without a sensor's gain.
 const READ_AGAIN: usize = 3;
 
-/// What a diagnosis found.
+/// A diagnosis: what was found, and in which windows.
 #[derive(Debug)]
 pub struct Diagnosis {
-    /// The answer.
-    pub verdict: Verdict,
+    /// The answer, and what it rests on.
+    pub found: Found,
     /// Windows to fit and held out.
     pub windows: [Vec<Window>; 2],
-    /// The wall as it was given.
-    pub before: Tried,
-    /// Its uncertain numbers fitted.
-    pub recalibrated: Tried,
-    /// The wall of the answer.
-    pub after: Tried,
-    /// What cannot be told from it.
-    pub equivalent: Vec<String>,
-    /// Where a force is missing, when no law is named.
-    pub place: Option<&'static str>,
-    /// What speaks for another law than the best of the catalogue, where that closes the gap.
-    pub other_law: Option<OtherLaw>,
-    /// Everything tried, best first.
-    pub tried: Vec<Tried>,
 }
 
 impl Diagnosis {
@@ -67,8 +52,7 @@ pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result
     }
     let trials = Trials { experiment, data: Data::new(experiment, &windows), progress };
     let found = judge(&trials, alone);
-    let Found { verdict, before, recalibrated, after, equivalent, place, other_law, tried } = found;
-    Ok(Diagnosis { verdict, before, recalibrated, after, equivalent, place, other_law, tried, windows })
+    Ok(Diagnosis { found, windows })
 }
 
 /// Windows of the tests, and what effects do to them one by one.

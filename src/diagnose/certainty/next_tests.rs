@@ -70,10 +70,10 @@ pub struct NextPull {
 
 /// What would part the answer from its nearest rival; none where the verdict is no class.
 pub fn next_tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Option<NextTests> {
-    if diagnosis.verdict != Verdict::Class {
+    if diagnosis.found.verdict != Verdict::Class {
         return None;
     }
-    let first = &diagnosis.after;
+    let first = &diagnosis.found.after;
     let second = nearest_rival(experiment, diagnosis);
     let pair = Pair { experiment, diagnosis, first, second };
     let mut shaking = pair.candidates();
@@ -99,12 +99,12 @@ fn name(tried: &Tried) -> String {
 /// The best of what explains the tests as well; the wall's own numbers where no addition does.
 fn nearest_rival<'d>(experiment: &Experiment, diagnosis: &'d Diagnosis) -> &'d Tried {
     let data = diagnosis.data(experiment);
-    let limit = against(&data, &diagnosis.after) + EQUIVALENT;
+    let limit = against(&data, &diagnosis.found.after) + EQUIVALENT;
     let other = |t: &&Tried| {
-        !t.hypothesis.additions.contains(&Addition::Placebo) && kinds(t) != kinds(&diagnosis.after)
+        !t.hypothesis.additions.contains(&Addition::Placebo) && kinds(t) != kinds(&diagnosis.found.after)
     };
-    let rival = diagnosis.tried.iter().filter(other).find(|t| against(&data, t) < limit);
-    rival.unwrap_or(&diagnosis.recalibrated)
+    let rival = diagnosis.found.tried.iter().filter(other).find(|t| against(&data, t) < limit);
+    rival.unwrap_or(&diagnosis.found.recalibrated)
 }
 
 struct Pair<'a> {

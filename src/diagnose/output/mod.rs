@@ -21,7 +21,7 @@ use serde_json::{Value, json};
 use crate::diagnose::certainty::next_tests;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::flow::Diagnosis;
-use crate::diagnose::tables::{Tables, kept};
+use crate::diagnose::tables::Tables;
 use crate::error::{Error, InputError, Result};
 use crate::store::write_durably;
 use manifest::write_manifest;
@@ -41,7 +41,7 @@ pub fn write_results(names: &OutputNames, experiment: &Experiment, diagnosis: &D
     let tables = Tables::new(experiment, diagnosis).ok_or_else(no_wall)?;
     summary["missing_force"] = tables.summary();
     summary["next_tests"] = json!(next_tests(experiment, diagnosis));
-    let wall = updated_wall(experiment, kept(diagnosis))?;
+    let wall = updated_wall(experiment, diagnosis.found.kept())?;
     names.clear()?;
     write_manifest(&names.manifest, experiment, names.started_unix_s)?;
     tables.write(&names.folder)?;

@@ -10,42 +10,43 @@ use crate::diagnose::experiment::Experiment;
 use crate::diagnose::flow::Diagnosis;
 use crate::diagnose::hypothesis::Unknown;
 use crate::diagnose::trials::{Data, FRICTION, Tried, against, giving_friction, joint_error};
-use crate::diagnose::verdict::{Verdict, detectable};
+use crate::diagnose::verdict::{Found, Verdict, detectable};
 
 /// Everything the verdict rests on.
 pub fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
     let data = diagnosis.data(experiment);
-    let answered = matches!(diagnosis.verdict, Verdict::Named | Verdict::Class);
-    let effects = if answered { effects(&data, &diagnosis.after) } else { Vec::new() };
-    let unknown = json!({"kind": null, "place": diagnosis.place, "parameters": {}, "interval": {}});
-    let effects = if diagnosis.verdict == Verdict::PlaceOnly { vec![unknown] } else { effects };
-    let rivals = diagnosis.tried.iter().map(|tried| rival(experiment, &data, tried)).collect::<Vec<_>>();
+    let found = &diagnosis.found;
+    let answered = matches!(found.verdict, Verdict::Named | Verdict::Class);
+    let effects = if answered { effects(&data, &found.after) } else { Vec::new() };
+    let unknown = json!({"kind": null, "place": found.place, "parameters": {}, "interval": {}});
+    let effects = if found.verdict == Verdict::PlaceOnly { vec![unknown] } else { effects };
+    let rivals = found.tried.iter().map(|tried| rival(experiment, &data, tried)).collect::<Vec<_>>();
     json!({
         "kind": KIND,
-        "verdict": diagnosis.verdict,
-        "place": diagnosis.place.or(answered.then(|| diagnosis.after.hypothesis.additions[0].place())),
+        "verdict": found.verdict,
+        "place": found.place.or(answered.then(|| found.after.hypothesis.additions[0].place())),
         "effects": effects,
-        "equivalent": diagnosis.equivalent,
-        "wall": numbers(&diagnosis.after, 0..diagnosis.after.hypothesis.nuisances),
+        "equivalent": found.equivalent,
+        "wall": numbers(&found.after, 0..found.after.hypothesis.nuisances),
         "tests": tests(experiment, diagnosis),
-        "other_law": diagnosis.other_law,
+        "other_law": found.other_law,
         "windowed_error": {
-            "before": joint_error(&diagnosis.before),
-            "recalibrated": joint_error(&diagnosis.recalibrated),
-            "after": joint_error(&diagnosis.after),
+            "before": joint_error(&found.before),
+            "recalibrated": joint_error(&found.recalibrated),
+            "after": joint_error(&found.after),
         },
         "against": {
-            "before": against(&data, &diagnosis.before),
-            "recalibrated": against(&data, &diagnosis.recalibrated),
-            "after": against(&data, &diagnosis.after),
+            "before": against(&data, &found.before),
+            "recalibrated": against(&data, &found.recalibrated),
+            "after": against(&data, &found.after),
         },
         "windows": {
             "fit": data.fit.windows.len(),
             "held_out": data.held_out.windows.len(),
             "opened": diagnosis.windows.iter().flatten().filter(|window| window.opened).count(),
         },
-        "could_hide": could_hide(diagnosis),
-        "confused": confused(&data, &diagnosis.recalibrated, &diagnosis.tried),
+        "could_hide": could_hide(found),
+        "confused": confused(&data, &found.recalibrated, &found.tried),
         "rivals": rivals,
         "program": concat!("mrbd ", env!("CARGO_PKG_VERSION")),
         "experiment": experiment.path,
@@ -106,8 +107,8 @@ pub fn sd(tried: &Tried, i: usize) -> Option<f64> {
 }
 
 /// For each kind, the smallest size that would have been told from nothing, and the size at which it would matter.
-fn could_hide(diagnosis: &Diagnosis) -> Vec<Value> {
-    let singles = diagnosis.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
+fn could_hide(found: &Found) -> Vec<Value> {
+    let singles = found.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
     let row = |tried: &Tried| {
         let (smallest, matters) = detectable(tried)?;
         let h = &tried.hypothesis;

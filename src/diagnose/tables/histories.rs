@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
+use super::Tables;
 use super::sampled::Sampled;
-use super::{Tables, kept};
 use crate::diagnose::fit::{Replay, shaken};
 use crate::diagnose::force::stretches;
 use crate::diagnose::measured::{TestData, Window};
@@ -103,7 +103,9 @@ impl Tables<'_> {
             let from = rows.len();
             rows.extend(self.samples(test));
             let own = &mut rows[from..];
-            for (which, tried) in [&self.diagnosis.before, kept(self.diagnosis)].into_iter().enumerate() {
+            for (which, tried) in
+                [&self.diagnosis.found.before, self.diagnosis.found.kept()].into_iter().enumerate()
+            {
                 for (window, x) in self.windows_of(tried).filter(|(w, _)| w.test == index) {
                     let residual = replays[which].residual(window, x);
                     for (i, k) in window.samples.clone().enumerate() {

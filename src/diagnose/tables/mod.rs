@@ -29,7 +29,6 @@ use crate::diagnose::force::{
 };
 use crate::diagnose::hypothesis::Physics;
 use crate::diagnose::trials::Tried;
-use crate::diagnose::verdict::Verdict;
 use crate::error::Result;
 use crate::model::{Contact, Pivot, RockingWall};
 use serde_json::{Value, json};
@@ -58,21 +57,13 @@ pub struct Tables<'a> {
     laws: Vec<LawCurve>,
 }
 
-/// The hypothesis whose wall is written: that of the answer, or the wall as given.
-pub fn kept(diagnosis: &Diagnosis) -> &Tried {
-    match diagnosis.verdict {
-        Verdict::Named | Verdict::Class | Verdict::Recalibrated => &diagnosis.after,
-        _ => &diagnosis.before,
-    }
-}
-
 impl<'a> Tables<'a> {
     /// Works out what the tables hold; none if a wall of the diagnosis is none, which is a defect.
     pub fn new(experiment: &'a Experiment, diagnosis: &'a Diagnosis) -> Option<Self> {
         let physics = |tried: &Tried| tried.hypothesis.physics(&tried.fit.values);
-        let physics = [physics(&diagnosis.before)?, physics(kept(diagnosis))?];
+        let physics = [physics(&diagnosis.found.before)?, physics(diagnosis.found.kept())?];
         let force = [0, 1].map(|i| force_points(&experiment.tests, &physics[i]));
-        let laws = law_curves(&experiment.wall, &diagnosis.tried, &force[0]);
+        let laws = law_curves(&experiment.wall, &diagnosis.found.tried, &force[0]);
         Some(Self { experiment, diagnosis, physics, force, laws })
     }
 

@@ -53,7 +53,8 @@ static COLUMNS: [Column<Row>; 11] = [
 
 impl Tables<'_> {
     pub(super) fn write_rivals(&self, path: &Path) -> Result<()> {
-        let rows = self.diagnosis.tried.iter().zip(1..).flat_map(|(tried, rank)| self.rival(tried, rank));
+        let rows =
+            self.diagnosis.found.tried.iter().zip(1..).flat_map(|(tried, rank)| self.rival(tried, rank));
         write_table(path, &COLUMNS, &[], &rows.collect::<Vec<_>>())
     }
 

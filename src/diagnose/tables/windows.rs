@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Tables, kept};
+use super::Tables;
 use crate::diagnose::fit::{Replay, WindowFit};
 use crate::diagnose::trials::Tried;
 use crate::error::Result;
@@ -61,8 +61,8 @@ static COLUMNS: [Column<Row>; 17] = [
 impl Tables<'_> {
     pub(super) fn write_windows(&self, path: &Path) -> Result<()> {
         let replay = Replay::new(&self.experiment.tests, &self.physics[1]);
-        let after = kept(self.diagnosis);
-        let fits = [&self.diagnosis.before, &self.diagnosis.recalibrated, after].map(fits_of);
+        let after = self.diagnosis.found.kept();
+        let fits = [&self.diagnosis.found.before, &self.diagnosis.found.recalibrated, after].map(fits_of);
         let row = |(i, (window, x)): (usize, (&crate::diagnose::measured::Window, &[f64]))| {
             let test = &self.experiment.tests[window.test];
             Row {

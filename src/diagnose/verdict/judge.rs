@@ -44,6 +44,16 @@ pub struct Found {
     pub tried: Vec<Tried>,
 }
 
+impl Found {
+    /// The hypothesis whose wall is written: that of the answer, or the wall as given where there is none.
+    pub fn kept(&self) -> &Tried {
+        match self.verdict {
+            Verdict::Named | Verdict::Class | Verdict::Recalibrated => &self.after,
+            _ => &self.before,
+        }
+    }
+}
+
 /// A hypothesis that may be the answer.
 struct Answer {
     verdict: Verdict,
