@@ -10,7 +10,7 @@ use crate::diagnose::experiment::Experiment;
 use crate::diagnose::flow::Diagnosis;
 use crate::diagnose::hypothesis::Unknown;
 use crate::diagnose::trials::{Data, FRICTION, Tried, against, giving_friction, joint_error};
-use crate::diagnose::verdict::{Found, Verdict, detectable};
+use crate::diagnose::verdict::{Found, Verdict, power};
 
 /// Everything the verdict rests on.
 pub fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
@@ -45,7 +45,7 @@ pub fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
             "held_out": data.held_out.windows.len(),
             "opened": diagnosis.windows.iter().flatten().filter(|window| window.opened).count(),
         },
-        "could_hide": could_hide(found),
+        "could_hide": could_hide(&data, found),
         "confused": confused(&data, &found.recalibrated, &found.tried),
         "rivals": rivals,
         "program": concat!("mrbd ", env!("CARGO_PKG_VERSION")),
@@ -106,19 +106,18 @@ pub fn sd(tried: &Tried, i: usize) -> Option<f64> {
     tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt())
 }
 
-/// For each kind, the smallest size that would have been told from nothing, and the size at which it would matter.
-fn could_hide(found: &Found) -> Vec<Value> {
+/// For each kind, the smallest sizes that would have been told from nothing and named, and the size at which it would matter.
+fn could_hide(data: &Data, found: &Found) -> Vec<Value> {
     let singles = found.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
     let row = |tried: &Tried| {
-        let (smallest, matters) = detectable(tried)?;
+        let power = power(data, &found.recalibrated, tried)?;
         let h = &tried.hypothesis;
         let unknown = &h.unknowns[h.nuisances];
-        let estimate = tried.fit.values[h.nuisances] - unknown.start;
-        let sd = sd(tried, h.nuisances)?;
         Some(json!({
             "kind": h.additions[0].kind()?, "name": h.additions[0].name(),
             "parameter": unknown.key, "unit": unknown.unit,
-            "estimate": estimate, "sd": sd, "smallest_detectable": smallest, "matters": matters,
+            "estimate": tried.fit.values[h.nuisances] - unknown.start, "sd": power.sd,
+            "smallest_detectable": power.detected_from, "named_from": power.named_from, "matters": power.matters,
         }))
     };
     singles.filter_map(row).collect()

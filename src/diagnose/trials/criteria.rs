@@ -32,7 +32,7 @@ const LEFT: f64 = 5e-4;
 const SIGNIFICANT: f64 = 4.0;
 /// ... and the share of the size that would matter. Both chosen; a null twin that was once named had 1.2 standard
 /// deviations and 7e-5.
-const FLOOR: f64 = 0.005;
+pub const FLOOR: f64 = 0.005;
 
 /// Windowed error over fitted and held-out windows together; none where there are none.
 pub fn joint_error(tried: &Tried) -> Option<f64> {

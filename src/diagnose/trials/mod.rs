@@ -27,8 +27,8 @@ mod tried;
 
 pub use alone::Alone;
 pub use criteria::{
-    EQUIVALENT, HELD_OUT, against, all_windows, best_answer, closes, does_something, is_noise, joint_error,
-    kinds,
+    EQUIVALENT, FLOOR, HELD_OUT, against, all_windows, best_answer, closes, does_something, is_noise,
+    joint_error, kinds,
 };
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub use misread_gain::{gain_misread, reads_better, set_gain};

@@ -47,10 +47,22 @@ impl Tried {
     /// What speaks against it, in natural logarithms of likelihood: windows that were fitted with the prior and half the
     /// logarithm of their number for each added one (Schwarz), and windows that were held out.
     pub fn against(&self, data: &Data) -> [f64; 2] {
+        [nats(&self.fit.windows) + self.prior() + self.price(data), nats(&self.held_out.windows)]
+    }
+
+    /// The same in all windows, without the price of added numbers.
+    pub fn unpriced(&self) -> f64 {
+        nats(&self.fit.windows) + self.prior() + nats(&self.held_out.windows)
+    }
+
+    /// What its added numbers cost: half the logarithm of the samples fitted for each (Schwarz).
+    pub fn price(&self, data: &Data) -> f64 {
         let samples = data.fit.windows.iter().map(|w| w.samples.len()).sum::<usize>();
         let added = self.hypothesis.unknowns.len() - self.hypothesis.nuisances;
-        let price = 0.5 * added as f64 * (samples.max(1) as f64).ln();
-        let prior = 0.5 * self.hypothesis.prior_penalty(&self.fit.values);
-        [nats(&self.fit.windows) + prior + price, nats(&self.held_out.windows)]
+        0.5 * added as f64 * (samples.max(1) as f64).ln()
+    }
+
+    fn prior(&self) -> f64 {
+        0.5 * self.hypothesis.prior_penalty(&self.fit.values)
     }
 }

@@ -1,8 +1,8 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
-use super::detectable::could_show;
 use super::names::{name_of_number, names};
 use super::place::place;
+use super::power::could_show;
 use super::second::worth_two;
 use super::{OtherLaw, Verdict};
 use crate::diagnose::experiment::Experiment;
@@ -15,7 +15,7 @@ use crate::diagnose::trials::{
 
 /// Gain in natural logarithms of likelihood, over the windows fitted and held out together, below which an effect is not
 /// worth its name. Chosen: the effects of the development set gain hundreds.
-const WORTH_A_NAME: f64 = 30.0;
+pub const WORTH_A_NAME: f64 = 30.0;
 /// Gain of the best single addition below which pairs are not tried.
 const WORTH_PAIRS: f64 = 60.0;
 /// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
@@ -95,7 +95,11 @@ impl<P: Progress> Gap<'_, P> {
         let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.recalibrated, best));
         if gain < WORTH_A_NAME {
             if is_noise(&self.before) {
-                let verdict = if could_show(&singles) { Verdict::None } else { Verdict::NoPower };
+                let verdict = if could_show(&self.trials.data, &self.recalibrated, &singles) {
+                    Verdict::None
+                } else {
+                    Verdict::NoPower
+                };
                 let after = self.before.clone();
                 return self.found(Answer { verdict, after, equivalent: Vec::new() }, singles);
             }

@@ -1,17 +1,17 @@
 //! From fitted hypotheses to a verdict.
 
 mod amplitude;
-mod detectable;
 mod judge;
 mod names;
 mod other_law;
 mod place;
+mod power;
 mod second;
 
-pub use detectable::{DETECTED, detectable};
 pub use judge::{Found, judge};
 pub use names::names;
 pub use other_law::OtherLaw;
+pub use power::{DETECTED, power};
 
 use serde::Serialize;
 

@@ -21,12 +21,12 @@ const DRAWN: usize = 14;
 /// [`crate::Error::Picture`] if plotters refuses.
 pub fn section(stored: &Stored) -> Result<Section> {
     let mut powers = stored.could_hide.iter().filter(|p| p.sd.is_finite() && p.sd > 0.0).collect::<Vec<_>>();
-    let share = |p: &StoredPower| p.smallest_detectable / p.matters;
+    let share = |p: &StoredPower| p.named_from / p.matters;
     powers.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let blind =
         stored.could_hide.iter().filter(|p| !p.sd.is_finite() || p.sd <= 0.0 || share(p) > 1.0).count();
     let mut text = vec![
-        "For every kind, the smallest size that these tests would have told from nothing, had it been alone (3.3 standard deviations). What is smaller may be there all the same.".to_owned(),
+        "For every kind, the smallest size that would have been named in these tests, had it been alone: it gains 30 natural logarithms of likelihood, some 8 standard deviations. What is smaller may be there all the same, though from 3.3 standard deviations on it differs from nothing by more than chance.".to_owned(),
     ];
     if blind > 0 {
         text.push(format!("{blind} of them could hide at a size that matters."));
@@ -53,9 +53,9 @@ pub fn section(stored: &Stored) -> Result<Section> {
 
 fn figure(powers: &[&StoredPower]) -> Result<Figure> {
     let dot = |(row, p): (f64, &&StoredPower)| Dot {
-        x: (p.smallest_detectable / p.matters).clamp(RANGE[0], RANGE[1]),
+        x: (p.named_from / p.matters).clamp(RANGE[0], RANGE[1]),
         y: row,
-        tip: format!("{}\n{} from {} {}", p.name, p.parameter, number(p.smallest_detectable), p.unit),
+        tip: format!("{}\n{} from {} {}", p.name, p.parameter, number(p.named_from), p.unit),
     };
     let dots = (0..).map(f64::from).zip(powers).map(dot).collect::<Vec<_>>();
     let matters = Layer::Line {
@@ -65,7 +65,7 @@ fn figure(powers: &[&StoredPower]) -> Result<Figure> {
         name: String::new(),
         points: vec![(1.0, -0.5), (1.0, powers.len() as f64 - 0.5)],
     };
-    let x = Axis::log_holding("smallest told over what matters", dots.iter().map(|d| d.x).chain([1.5]));
+    let x = Axis::log_holding("smallest named over what matters", dots.iter().map(|d| d.x).chain([1.5]));
     let graph = Graph {
         title: String::new(),
         format: Format::Half,
@@ -78,8 +78,8 @@ fn figure(powers: &[&StoredPower]) -> Result<Figure> {
     };
     Ok(Figure {
         id: "could-hide-figure".into(),
-        title: "Smallest size told from nothing".into(),
-        legend: vec![key("smallest size told", PALETTE[0], Mark::Circle)],
+        title: "Smallest size that would be named".into(),
+        legend: vec![key("smallest size named", PALETTE[0], Mark::Circle)],
         panels: vec![graph.svg()?],
         caption: "A size that matters makes a force as large as the floor’s spring at the largest displacement (the table gives each). Right of the dashed line an effect that matters could hide.".into(),
         links: vec![Link::to("diagnosis.json")],
@@ -119,10 +119,11 @@ fn table(powers: &[&StoredPower]) -> Table {
             p.name.clone(),
             format!("{} {}", p.parameter, p.unit),
             number(p.smallest_detectable),
+            number(p.named_from),
             with_sd(p.estimate, Some(p.sd)),
             number(p.matters),
         ]
     };
-    let head = ["effect", "by its", "smallest told", "fitted, less nothing", "would matter"];
+    let head = ["effect", "by its", "told from nothing", "named", "fitted, less nothing", "would matter"];
     Table::of("Sizes", &head, powers.iter().map(row))
 }

@@ -106,6 +106,7 @@ pub struct StoredPower {
     pub estimate: f64,
     pub sd: f64,
     pub smallest_detectable: f64,
+    pub named_from: f64,
     pub matters: f64,
 }
 
