@@ -50,7 +50,7 @@ CASES ?= 40
 SET ?= tune
 RECORDED ?= $(wildcard tests/blind/recorded/$(SET).jsonl)
 
-blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: CASES=40 SET=tune
+blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: FIRST=0 CASES=40 SET=tune
 	cargo test --release --locked --quiet --test blind -- --first $(FIRST) --cases $(CASES) --set $(SET) \
 		$(if $(RECORDED),--recorded $(RECORDED))
 

@@ -1,4 +1,4 @@
-//! The seven steps of a diagnosis.
+//! The flow of a diagnosis: windows, what effects do to them one by one, patterns read again, the verdict.
 
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::measured::{Window, is_readable, windows};

@@ -200,7 +200,7 @@ fn analytic_a_set_holds_the_promised_shares() {
     }
 }
 
-/// Cases of a frozen program that were scored before: `make blind SET=fresh11` goes on from there.
+/// Cases that were scored before: `make blind SET=fresh11` goes on from there.
 fn recorded() -> Vec<score::Row> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
     score::recorded::load(&path, "fresh11").expect("the recorded cases")
@@ -218,6 +218,16 @@ fn regress_recorded_cases_are_what_is_drawn_under_their_numbers() {
         assert_eq!(row.hidden, all("kind"), "{row:?}");
         assert_eq!(row.hidden_places, all("place"), "{row:?}");
     }
+}
+
+#[test]
+fn regress_recorded_cases_are_written_again_as_they_were() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
+    let folder = tempfile::tempdir().expect("a folder");
+    let again = folder.path().join("cases.jsonl");
+    score::recorded::save(&again, &recorded()).expect("written");
+    let [own, again] = [&path, &again].map(|path| std::fs::read_to_string(path).expect("cases"));
+    assert!(own == again, "recorded cases change when they are read and written");
 }
 
 #[test]
