@@ -103,12 +103,12 @@ fn told(summary: &Value) -> String {
     if !equivalent.is_empty() {
         lines.push(format!("  these tests cannot tell apart: {}", equivalent.join(", ")));
     }
-    let error = |when: &str| summary["windowed_error"][when].as_f64().unwrap_or(f64::NAN);
-    lines.push(format!(
-        "windowed error, in noise: {:.2} before, {:.2} recalibrated, {:.2} after",
-        error("before"),
-        error("recalibrated"),
-        error("after")
-    ));
+    let error = |when: &str| summary["windowed_error"][when].as_f64();
+    lines.push(match ["before", "recalibrated", "after"].map(error) {
+        [Some(before), Some(recalibrated), Some(after)] => {
+            format!("windowed error, in noise: {before:.2} before, {recalibrated:.2} recalibrated, {after:.2} after")
+        }
+        _ => "windowed error: no window in which the wall moves".to_owned(),
+    });
     lines.join("\n")
 }

@@ -8,7 +8,7 @@ use crate::diagnose::measured::TestData;
 use crate::error::{InputError, Result};
 use crate::input::experiment::{ExperimentFile, TestTable};
 use crate::input::load_wall;
-use crate::model::Wall;
+use crate::model::{Wall, WallParameters};
 use crate::simulate::Accuracy;
 use crate::store::FileNote;
 
@@ -48,19 +48,34 @@ impl Experiment {
             return Err(InputError::key(&wall_path, "wall.crack_height_m", "no crack", allowed).into());
         }
         let nuisances = nuisances(path, &file)?;
+        check_relative(path, &nuisances, wall.parameters())?;
         let whole = file
             .tests
             .iter()
             .map(|t| Test::load(folder, t, &wall, Accuracy::default()))
             .collect::<Result<Vec<_>>>()?;
-        let data =
-            |(test, table): (&Test, &TestTable)| TestData::new(test, &folder.join(&table.measured), table);
+        let data = |(test, table): (&Test, &TestTable)| {
+            TestData::new(test, &folder.join(&table.measured), table, &wall)
+        };
         let tests = whole.iter().zip(&file.tests).map(data).collect::<Result<Vec<_>, _>>()?;
         let scales = Scales::of(&wall, &tests);
         let note = |(role, file): (String, PathBuf)| FileNote::of(&role, &file);
         let read = experiment_files(path, &file).into_iter().filter(|(role, _)| role != "coefficients");
         let inputs = read.map(note).collect::<Result<_>>()?;
         Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales, inputs })
+    }
+}
+
+/// A relative standard deviation says nothing of a number that is zero.
+fn check_relative(path: &Path, nuisances: &[Nuisance], wall: &WallParameters) -> Result<(), InputError> {
+    match nuisances.iter().find(|n| n.value(wall) == 0.0) {
+        Some(nuisance) => Err(InputError::key(
+            path,
+            format!("prior.{}", nuisance.key()),
+            "a relative standard deviation of a number that is 0 in the wall file",
+            "priors of numbers that are not 0; leave it out, or give the wall the value it may have",
+        )),
+        None => Ok(()),
     }
 }
 

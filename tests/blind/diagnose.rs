@@ -63,8 +63,8 @@ impl Program {
             .arg(blind.path().join("experiment.toml"))
             .arg("--out")
             .arg(&folder)
-            // Cases run side by side; each on one thread.
-            .env("RAYON_NUM_THREADS", "1")
+            // Cases run side by side, as many as there are processors.
+            .args(["--threads", "1"])
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .output()

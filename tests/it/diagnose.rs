@@ -237,21 +237,77 @@ fn analytic_twin_with_nothing_hidden_is_none() {
 
 #[test]
 fn rejects_rotations_in_degrees_swapped_or_of_the_wrong_sign_are_refused() {
-    type Wrong = (&'static str, fn([f64; 2]) -> [f64; 2]);
-    let wrongs: [Wrong; 3] = [
-        ("degrees", |theta| theta.map(|t| t.to_degrees())),
-        ("swapped", |[one, two]| [two, one]),
-        ("sign", |theta| theta.map(|t| -t)),
+    type Wrong = (&'static str, f64, fn([f64; 2]) -> [f64; 2]);
+    let wrongs: [Wrong; 6] = [
+        ("are these degrees", 2.2, |theta| theta.map(|t| t.to_degrees())),
+        // Below what no standing wall has turned by in radians.
+        ("are in degrees", 0.4, |theta| theta.map(|t| t.to_degrees())),
+        ("swapped", 2.2, |[one, two]| [two, one]),
+        ("both rotations have the wrong sign", 2.2, |theta| theta.map(|t| -t)),
+        ("the sign of theta1_rad", 2.2, |[one, two]| [-one, two]),
+        ("the sign of theta2_rad", 2.2, |[one, two]| [one, -two]),
     ];
     let wall = table_wall(ImpactLaw::Contact);
-    for (word, wrong) in wrongs {
+    for (word, scale, wrong) in wrongs {
         let folder = tempfile::tempdir().expect("a folder");
-        let experiment = write_twin(folder.path(), &wall, &wall, wrong);
-        let output = diagnose(&experiment, &folder.path().join("out"));
-        let told = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{word}: {told}");
-        assert!(told.contains(word), "{word}: {told}");
+        let experiment = write_twins(folder.path(), &wall, [&wall; 3], [scale; 3], wrong);
+        assert_refused(&experiment, word);
     }
+}
+
+/// That a diagnosis ends with 2 and says so.
+fn assert_refused(experiment: &Path, word: &str) {
+    let out = experiment.with_file_name("out");
+    let output = diagnose(experiment, &out);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{word}: {told}");
+    assert!(told.contains(word), "{word}: {told}");
+}
+
+#[test]
+fn rejects_priors_of_nothing_and_tests_apart_from_their_record() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let wall = table_wall(ImpactLaw::Contact);
+    let experiment = write_twin(folder.path(), &wall, &wall, |theta| theta);
+    let text = std::fs::read_to_string(&experiment).expect("written");
+    for (old, new, word) in [
+        ("mass_kg = 0.01", "eccentricity_m = 0.1", "prior.diaphragm.eccentricity_m"),
+        ("start_s = 0.5", "start_s = 100.0", "times that overlap the record, 0 to 11.99 s"),
+    ] {
+        std::fs::write(&experiment, text.replacen(old, new, 1)).expect("written");
+        assert_refused(&experiment, word);
+    }
+}
+
+#[test]
+fn analytic_twin_with_coefficients_in_doubt_and_missing_samples_is_named_by_both_effects() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let described = table_wall(ImpactLaw::Contact);
+    let effect = |name, value| Effect::with_parameters(name, &[value]).expect("an effect");
+    let effects = vec![effect("carriage_mass", 300.0), effect("record_gain", 0.96)];
+    let true_wall = WallParameters { effects, ..described.clone() };
+    let experiment = write_twin(folder.path(), &described, &true_wall, |theta| theta);
+    let text = std::fs::read_to_string(&experiment).expect("written");
+    std::fs::write(&experiment, text.replacen("mass_kg = 0.01", "restitution = 0.02", 1)).expect("written");
+    for number in 0..3 {
+        let path = folder.path().join(format!("measured_{number}.csv"));
+        let whole = std::fs::read_to_string(&path).expect("written");
+        // A tenth of a second of every two is missing.
+        let holed = whole.lines().enumerate().map(|(k, line)| match (k % 400 < 20, line.split_once(',')) {
+            (true, Some((time_s, _))) if k > 0 => format!("{time_s},,\n"),
+            _ => format!("{line}\n"),
+        });
+        std::fs::write(&path, holed.collect::<String>()).expect("written");
+    }
+    let found = diagnosed(&experiment, &folder.path().join("out"));
+    assert_eq!(found["verdict"], "named", "{found:#}");
+    let names = found["effects"].as_array().expect("a list").iter().map(|e| e["name"].as_str());
+    let mut names = names.collect::<Vec<_>>();
+    names.sort_unstable();
+    assert_eq!(names, [Some("carriage_mass"), Some("record_gain")]);
+    let left = found["windowed_error"]["after"].as_f64().expect("a number");
+    // What missing readings would take away if they counted, a twentieth of the squared error, is half of that below.
+    assert!((left - 1.0).abs() < 0.05, "{left}");
 }
 
 #[test]

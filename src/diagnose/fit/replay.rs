@@ -80,9 +80,6 @@ impl<'a> Replay<'a> {
     fn left(&self, window: &Window, sampler: Sampler) -> DVector<f64> {
         let test = &self.tests[window.test];
         let reading = self.simulators[window.test].wall().wall().reading();
-        let mut theta = sampler.theta;
-        // A run that failed says nothing of what came after.
-        theta.resize(window.samples.len(), [f64::NAN; 2]);
         let measured = &test.theta_rad[window.samples.clone()];
         let of = |(measured, simulated): (&Pair, Pair)| {
             let simulated = reading.of(simulated);
@@ -90,7 +87,7 @@ impl<'a> Replay<'a> {
                 .map(|i| (measured[i] - simulated[i]) / test.noise_rad[i])
                 .map(|r| if r.is_finite() { r } else { 0.0 })
         };
-        DVector::from_iterator(2 * measured.len(), measured.iter().zip(theta).flat_map(of))
+        DVector::from_iterator(2 * measured.len(), measured.iter().zip(sampler.theta).flat_map(of))
     }
 }
 

@@ -87,7 +87,7 @@ impl<'w> At<'w> {
 
     /// The fitted window it is.
     pub fn fit(self) -> WindowFit {
-        let freedom = (self.r.len() - self.x.len()) as f64;
+        let freedom = (self.window.readings - self.x.len()) as f64;
         WindowFit { squares: self.r.norm_squared(), freedom, x: self.x }
     }
 }

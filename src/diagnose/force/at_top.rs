@@ -6,7 +6,7 @@ use super::points::{ForcePoint, median_share_off_top};
 
 /// Share of the squared moments off the direction of the top below which they are of a force there. Twins of forces at the
 /// top have 1e-3 and less, a record 0.01 s late 0.1.
-const ALONG: f64 = 0.03;
+pub const ALONG: f64 = 0.03;
 /// Fewest stretches with a direction.
 const LEAST_POINTS: usize = 3;
 /// Share that a curve against one quantity must explain: chosen; a stop outside the catalogue has 0.999, dampers of twins

@@ -25,23 +25,35 @@ impl Nuisance {
         *sd > WIDE_PRIOR
     }
 
+    /// Its dotted key, or C_l.
+    pub fn key(&self) -> String {
+        match self {
+            Nuisance::Number(number, _) => number.key.to_owned(),
+            Nuisance::Coefficient(l, _) => format!("C_{}", l + 1),
+        }
+    }
+
+    /// Its value in a wall.
+    pub fn value(&self, wall: &WallParameters) -> f64 {
+        match self {
+            Nuisance::Number(number, _) => (number.get)(wall),
+            Nuisance::Coefficient(l, _) => wall.restitution.coefficients[*l],
+        }
+    }
+
     /// The number to be found.
     pub(super) fn unknown(&self, base: &WallParameters) -> Unknown {
-        let (key, unit, value, relative, slot) = match *self {
-            Nuisance::Number(number, sd) => {
-                (number.key.to_owned(), number.unit, (number.get)(base), sd, Slot::Number(number))
-            }
-            Nuisance::Coefficient(l, sd) => {
-                let value = base.restitution.coefficients[l];
-                (format!("C_{}", l + 1), "", value, sd, Slot::Coefficient(l))
-            }
+        let (unit, relative, slot) = match *self {
+            Nuisance::Number(number, sd) => (number.unit, sd, Slot::Number(number)),
+            Nuisance::Coefficient(l, sd) => ("", sd, Slot::Coefficient(l)),
         };
+        let value = self.value(base);
         let sd = relative * value.abs();
         let reach = PRIOR_REACH * sd;
         // A prior as wide as the value itself does not reach what no wall has.
         let lower = if value > 0.0 { (value - reach).max(0.02 * value) } else { value - reach };
         Unknown {
-            key,
+            key: self.key(),
             unit,
             start: value,
             scale: value.abs(),

@@ -8,6 +8,8 @@ use crate::model::{Contact, Pair, Pivot, State};
 const COUNT: usize = 2 * HALF + 1;
 /// Standard deviations beyond which a sum of squares is not noise alone.
 const BEYOND_NOISE: f64 = 3.0;
+/// Share of a step by which times may be off, as rounded ones are: a velocity is then wrong by a small part of that.
+const UNEVEN: f64 = 0.25;
 /// Samples averaged where the sign of an opening is asked for, and standard deviations it must stand off zero.
 const AVERAGED: usize = 5;
 const CLEAR: f64 = 4.0;
@@ -64,8 +66,9 @@ pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     let from = k.checked_sub(HALF)?;
     test.theta_rad.get(from..from + COUNT)?;
     let around: [Pair; COUNT] = std::array::from_fn(|i| test.from_rest_rad(from + i));
-    let regular = test.time_s[from + COUNT - 1] - test.time_s[from] < test.step_s * COUNT as f64;
-    if !regular || around.iter().flatten().any(|theta| theta.is_nan()) {
+    if !is_even(&test.time_s[from..from + COUNT], test.step_s)
+        || around.iter().flatten().any(|theta| theta.is_nan())
+    {
         return None;
     }
     let noise = test.noise_rad;
@@ -94,6 +97,11 @@ pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     Some(MeasuredState { freedom, numbers })
 }
 
+/// Whether samples are as far apart as those of the whole test: smoothing takes them for evenly spaced.
+fn is_even(time_s: &[f64], step_s: f64) -> bool {
+    time_s.windows(2).all(|pair| ((pair[1] - pair[0]) / step_s - 1.0).abs() < UNEVEN)
+}
+
 /// Noise about zero: neither the sum of squares nor the mean stands out.
 fn is_zero(y: &[f64; COUNT], noise: f64) -> bool {
     let n = COUNT as f64;
@@ -113,4 +121,18 @@ fn is_clear(y: &[f64; COUNT], noise: f64) -> bool {
     let sign = y[HALF].signum();
     let n = AVERAGED as f64;
     y.windows(AVERAGED).all(|some| some.iter().sum::<f64>() / n * sign > CLEAR * noise / n.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_times_that_were_rounded_are_even_and_a_finer_stretch_is_not() {
+        // 256 Hz to milliseconds: off by up to an eighth of a step.
+        let rounded = (0..17).map(|k| (1000.0 * f64::from(k) / 256.0).round() / 1000.0).collect::<Vec<_>>();
+        assert!(is_even(&rounded, 1.0 / 256.0));
+        let finer = (0..17).map(|k| 0.0025 * f64::from(k)).collect::<Vec<_>>();
+        assert!(is_even(&finer, 0.0025) && !is_even(&finer, 0.005));
+    }
 }

@@ -8,7 +8,7 @@ use crate::calibrate::{Test, median_step};
 use crate::error::InputError;
 use crate::ground::Accelerogram;
 use crate::input::experiment::{Purpose, TestTable};
-use crate::model::Pair;
+use crate::model::{Pair, Wall};
 use crate::simulate::Shaking;
 
 /// Fewest samples of both rotations that can be diagnosed: some windows of tens of samples.
@@ -44,20 +44,22 @@ pub struct TestData {
 
 impl TestData {
     /// A test as it was read for the errors over whole runs, with what its table says of the file at `path` and of what
-    /// counts.
+    /// counts, and with the gains at which sensors of the wall read.
     ///
     /// # Errors
     /// Input errors for a channel that is lost, rotations no standing wall has, too few samples, or no noise.
-    pub fn new(test: &Test, path: &Path, table: &TestTable) -> Result<Self, InputError> {
+    pub fn new(test: &Test, path: &Path, table: &TestTable, wall: &Wall) -> Result<Self, InputError> {
         let refuse = |found: String, allowed: &str| Err(InputError::file(path, found, allowed));
         let measured = &test.measured;
         let [Some(lower), Some(upper)] = &measured.theta_rad else {
             let found = format!("one rotation only in test {:?}", test.name);
             return refuse(found, "theta1_rad and theta2_rad");
         };
-        let largest_rad =
-            lower.iter().chain(upper).filter(|t| t.is_finite()).fold(0.0, |m, t| f64::max(m, t.abs()));
-        if largest_rad > TOO_LARGE_RAD && table.collapse_s.is_none() {
+        let fell_s = table.collapse_s.unwrap_or(f64::INFINITY);
+        let standing = measured.time_s.iter().zip(lower.iter().zip(upper)).take_while(|(t, _)| **t < fell_s);
+        let rotations = standing.flat_map(|(_, (one, two))| [one.abs(), two.abs()]);
+        let largest_rad = rotations.filter(|theta| theta.is_finite()).fold(0.0, f64::max);
+        if largest_rad > TOO_LARGE_RAD {
             let found = format!("a rotation of {largest_rad:.3} in test {:?}", test.name);
             return refuse(
                 found,
@@ -76,14 +78,23 @@ impl TestData {
         let theta_rad = kept.iter().map(theta).collect::<Vec<_>>();
         let record_s = test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
         let last_s = time_s.last().copied().unwrap_or(0.0);
-        let overlap_s = last_s.min(record_s) - time_s.first().copied().unwrap_or(0.0);
-        if time_s.len() < LEAST_SAMPLES || overlap_s <= 0.0 {
-            let found = format!(
-                "{} samples of test {:?} in the time of its record of {record_s:.2} s",
-                time_s.len(),
-                test.name
+        if last_s.min(record_s) <= time_s.first().copied().unwrap_or(0.0) {
+            let [from_s, to_s] =
+                [measured.time_s.first(), measured.time_s.last()].map(|t| t.copied().unwrap_or(0.0));
+            let found =
+                format!("test {:?} measured from {from_s:.2} to {to_s:.2} s of the record's time", test.name);
+            return refuse(
+                found,
+                &format!("times that overlap the record, 0 to {record_s:.2} s; see start_s"),
             );
-            return refuse(found, &format!("{LEAST_SAMPLES} or more"));
+        }
+        if time_s.len() < LEAST_SAMPLES {
+            let found =
+                format!("{} samples of test {:?} from its record's beginning on", time_s.len(), test.name);
+            return refuse(
+                found,
+                &format!("{LEAST_SAMPLES} or more before the wall falls; are rotations in radians?"),
+            );
         }
         let noise_rad = noise_rad(&time_s, &theta_rad, measured.gap_s)
             .ok_or_else(|| InputError::file(path, "no noise at all", "rotations as measured"))?;
@@ -95,7 +106,7 @@ impl TestData {
             step_s: median_step(&time_s),
             time_s,
             rest_offset_rad: rest_offset_rad(&theta_rad, noise_rad),
-            read_gain: [1.0; 2],
+            read_gain: wall.reading().gain,
             theta_rad,
             noise_rad,
             gap_s: measured.gap_s,

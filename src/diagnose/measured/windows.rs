@@ -9,7 +9,8 @@ use super::pattern::{Freedom, MeasuredState, measured_state};
 use super::test_data::TestData;
 use crate::input::experiment::Purpose;
 
-/// Length aimed at, s: windows are half to one and a half times as long. About half a period of a rocking wall, so that
+/// Length aimed at, s: windows are half to one and a half times as long, and up to four times where no pattern is beyond doubt
+/// for so long. About half a period of a rocking wall, so that
 /// most hold one impact at the ground.
 pub const WINDOW_S: f64 = 0.5;
 /// Fewest samples of a window, several times what its own state takes.
@@ -33,6 +34,8 @@ pub struct Window {
     pub purpose: Purpose,
     /// Its samples.
     pub samples: Range<usize>,
+    /// Rotations measured in it: two of each sample, less those that are missing.
+    pub readings: usize,
     /// What is free at its start.
     pub freedom: Freedom,
     /// Whether both bodies are free though a joint reads as closed.
@@ -71,8 +74,17 @@ fn windows_of(index: usize, test: &TestData) -> Vec<Window> {
     let pairs = starts.iter().zip(ends);
     let longest = 4 * step;
     pairs
-        .filter_map(|(&from, to)| window(index, test, from..to.min(from + longest), states[from].as_ref()?))
+        .filter_map(|(&from, to)| {
+            let to = gap_after(test, from).min(to).min(from + longest);
+            window(index, test, from..to, states[from].as_ref()?)
+        })
         .collect()
+}
+
+/// The first sample after another that is not joined to the one before it, or their number.
+fn gap_after(test: &TestData, from: usize) -> usize {
+    let gap = |k: &usize| test.time_s[*k] - test.time_s[*k - 1] > test.gap_s;
+    (from + 1..test.time_s.len()).find(gap).unwrap_or(test.time_s.len())
 }
 
 /// How good a start each sample is: far from doubt.
@@ -84,7 +96,7 @@ fn worths(test: &TestData, states: &[Option<MeasuredState>]) -> Vec<i64> {
     for k in 1..count {
         before[k] = if same(k, k - 1) { before[k - 1] + 1 } else { 0 };
     }
-    for k in (0..count - 1).rev() {
+    for k in (0..count.saturating_sub(1)).rev() {
         after[k] = if same(k, k + 1) { after[k + 1] + 1 } else { 0 };
     }
     let moved_soon = |k: usize| (k.saturating_sub(SOON)..k).any(|j| moves(test, j));
@@ -109,7 +121,8 @@ fn moves(test: &TestData, k: usize) -> bool {
 
 fn window(index: usize, test: &TestData, samples: Range<usize>, start: &MeasuredState) -> Option<Window> {
     let in_motion = samples.clone().filter(|&k| moves(test, k)).count() > 2;
-    if samples.len() < LEAST_SAMPLES || (start.freedom == Freedom::Rest && !in_motion) {
+    let readings = test.theta_rad[samples.clone()].iter().flatten().filter(|t| t.is_finite()).count();
+    if readings < 2 * LEAST_SAMPLES || (start.freedom == Freedom::Rest && !in_motion) {
         return None;
     }
     let noise = test.noise_rad[0].max(test.noise_rad[1]);
@@ -123,6 +136,57 @@ fn window(index: usize, test: &TestData, samples: Range<usize>, start: &Measured
         opened: false,
         measured: start.numbers.clone(),
         spread: spread.iter().copied().cycle().take(start.freedom.numbers()).collect(),
+        readings,
         samples,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::Shaking;
+
+    const NOISE_RAD: f64 = 1e-5;
+
+    /// Four seconds of a wall that sways in pattern 3, at these samples of 200 a second.
+    fn swaying(samples: impl Iterator<Item = u32>) -> TestData {
+        let time_s = samples.map(|k| 0.005 * f64::from(k)).collect::<Vec<_>>();
+        TestData {
+            name: "swaying".to_owned(),
+            purpose: Purpose::Fit,
+            shaking: Shaking { tail_s: 1.0, ..Shaking::default() },
+            theta_rad: time_s.iter().map(|t| [0.02 + 0.01 * (3.0 * t).sin(); 2]).collect(),
+            time_s,
+            noise_rad: [NOISE_RAD; 2],
+            rest_offset_rad: [0.0; 2],
+            read_gain: [1.0; 2],
+            step_s: 0.005,
+            gap_s: 0.0125,
+        }
+    }
+
+    #[test]
+    fn analytic_no_window_reaches_over_a_gap_and_none_is_there_without_samples() {
+        assert!(windows(&[swaying(0..0)]).is_empty());
+        // A tenth of a second was not written, in the middle of what would be a window.
+        let test = swaying((0..415).chain(435..800));
+        let found = windows(std::slice::from_ref(&test));
+        assert!(found.len() > 4, "{}", found.len());
+        for window in &found {
+            let times = &test.time_s[window.samples.clone()];
+            assert!(times.windows(2).all(|pair| pair[1] - pair[0] < test.gap_s), "{:?}", window.samples);
+            assert_eq!(window.readings, 2 * times.len());
+        }
+    }
+
+    #[test]
+    fn analytic_missing_readings_do_not_count() {
+        let mut test = swaying(0..800);
+        for k in (0..800).filter(|k| (410..430).contains(k)) {
+            test.theta_rad[k][1] = f64::NAN;
+        }
+        let found = windows(std::slice::from_ref(&test));
+        let missing = found.iter().map(|w| 2 * w.samples.len() - w.readings).sum::<usize>();
+        assert_eq!(missing, 20);
+    }
 }

@@ -8,6 +8,7 @@ use super::tests::whole_wme;
 use crate::calibrate::Test;
 use crate::diagnose::certainty::ensemble;
 use crate::diagnose::experiment::Experiment;
+use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{Data, Tried, against};
 use crate::diagnose::verdict::names;
 use crate::input::experiment::Purpose;
@@ -19,7 +20,9 @@ pub fn rival(experiment: &Experiment, data: &Data, tried: &Tried) -> Value {
     let added = h.nuisances..h.unknowns.len();
     let [fit, held_out] = tried.errors();
     let [against_fit, against_held_out] = tried.against(data);
-    let walls = ensemble(tried).unwrap_or_default();
+    // The vertical motion of the placebo is not in its wall.
+    let is_placebo = h.additions.contains(&Addition::Placebo);
+    let walls = if is_placebo { Vec::new() } else { ensemble(tried).unwrap_or_default() };
     let wme = |purpose| walls.par_iter().map(|wall| mean_wme(experiment, wall, purpose)).collect::<Vec<_>>();
     let [wme_fit, wme_held_out] = [Purpose::Fit, Purpose::HoldOut].map(wme);
     let fitted = |all: &[Option<f64>]| all.first().copied().flatten();

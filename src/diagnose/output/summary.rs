@@ -33,12 +33,12 @@ pub fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
         "windowed_error": {
             "before": joint_error(&found.before),
             "recalibrated": joint_error(&found.recalibrated),
-            "after": joint_error(&found.after),
+            "after": joint_error(found.kept()),
         },
         "against": {
             "before": against(&data, &found.before),
             "recalibrated": against(&data, &found.recalibrated),
-            "after": against(&data, &found.after),
+            "after": against(&data, found.kept()),
         },
         "windows": {
             "fit": data.fit.windows.len(),
@@ -49,7 +49,7 @@ pub fn summary(experiment: &Experiment, diagnosis: &Diagnosis) -> Value {
         "confused": confused(&data, &found.recalibrated, &found.tried),
         "rivals": rivals,
         "program": concat!("mrbd ", env!("CARGO_PKG_VERSION")),
-        "experiment": experiment.path,
+        "experiment": experiment.path.display().to_string(),
     })
 }
 

@@ -11,17 +11,17 @@ use crate::diagnose::trials::Tried;
 use crate::model::Wall;
 use crate::simulate::Accuracy;
 
-/// Every test: errors before and after, and the noise.
+/// Every test: errors of the wall as given and of the wall that is written, and the noise.
 pub fn tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Vec<Value> {
-    let walls = [&diagnosis.found.before, &diagnosis.found.after]
-        .map(|t| t.hypothesis.physics(&t.fit.values).map(|p| p.wall));
+    let both = [&diagnosis.found.before, diagnosis.found.kept()];
+    let walls = both.map(|t| t.hypothesis.physics(&t.fit.values).map(|p| p.wall));
     let one = |(index, test): (usize, &TestData)| {
         let error = |tried: &Tried| test_error(&diagnosis.windows, tried, index);
         let wme = |wall: &Option<Wall>| wall.as_ref().and_then(|w| whole_wme(&experiment.whole[index], w));
         json!({
             "name": test.name,
             "use": test.purpose.name(),
-            "windowed_error": {"before": error(&diagnosis.found.before), "after": error(&diagnosis.found.after)},
+            "windowed_error": {"before": error(both[0]), "after": error(both[1])},
             "wme": {"before": wme(&walls[0]), "after": wme(&walls[1])},
             "noise_floor": 1.0,
             "noise_rad": test.noise_rad,

@@ -126,8 +126,7 @@ struct Sums {
 impl Sums {
     /// Of a hypothesis that begins with the numbers of another, about where that is and with nothing more.
     fn about(data: &Data, h: &Hypothesis, best: &Tried) -> Option<Self> {
-        let mut values = h.start();
-        values[..best.fit.values.len()].copy_from_slice(&best.fit.values);
+        let values = h.values_from(&best.hypothesis, &best.fit.values);
         let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
         let (slopes, _) = data.fit.slopes(h, &at, None)?;
         let count = h.unknowns.len();

@@ -154,6 +154,7 @@ mod tests {
             test: 0,
             purpose: Purpose::Fit,
             samples: 0..COUNT,
+            readings: 2 * COUNT,
             freedom,
             opened: false,
             measured: measured.to_vec(),

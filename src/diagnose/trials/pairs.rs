@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::imitate::seconds;
 use super::search::{promise, try_second};
 use super::{Progress, Trials, Tried, kinds};
-use crate::diagnose::hypothesis::{Addition, Hypothesis, candidates};
+use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
 
 /// Effects fitted beside the best single one because a linear look says that they take away most.
 const BESIDE: usize = 4;
@@ -46,7 +46,10 @@ impl<P: Progress> Trials<'_, P> {
     fn beside(&self, first: &Tried) -> Vec<Tried> {
         let hypothesis = |additions: &[Addition]| self.hypothesis(&self.experiment.nuisances, additions);
         let effects = candidates(self.experiment.wall.parameters());
-        let effects = effects.into_iter().filter(|a| a.kind().is_some()).collect::<Vec<_>>();
+        // Factors on the coefficients of impact would free these of what was known of them.
+        let known = self.experiment.nuisances.iter().any(|n| matches!(n, Nuisance::Coefficient(..)));
+        let effect = |a: &Addition| a.kind().is_some_and(|kind| !known || kind != "impact_dissipation");
+        let effects = effects.into_iter().filter(effect).collect::<Vec<_>>();
         let Some(found) = seconds(&self.data, first, &effects, hypothesis) else { return Vec::new() };
         let found = found.into_iter().take(BESIDE).collect::<Vec<_>>();
         self.progress.step("what helps most beside the best", found.len());

@@ -8,7 +8,8 @@ use crate::diagnose::force::{curve_left, force_points};
 use crate::diagnose::trials::{Data, Tried};
 
 /// Squared standard deviations of the force left at the top that a bend with velocity may explain beside a named effect.
-/// Right names leave 6 and less, once 28; a quadratic drag called a damper 101 and 400, a loose mass 169.
+/// Right names leave 6 and less, once 28; friction under stiff corners left 63 and 73, and is not named; a quadratic drag called
+/// a damper leaves 101 and 400, a loose mass 169.
 const BENT: f64 = 50.0;
 /// Gain in natural logarithms of likelihood that a trend of a named size with the amplitude may have. Right names have 9 and
 /// less, but at a noise of 1e-5 rad 27, 51 and 57; damping that grows with displacement called

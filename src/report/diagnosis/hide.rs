@@ -81,7 +81,7 @@ fn figure(powers: &[&StoredPower]) -> Result<Figure> {
         title: "Smallest size that would be named".into(),
         legend: vec![key("smallest size named", PALETTE[0], Mark::Circle)],
         panels: vec![graph.svg()?],
-        caption: "A size that matters makes a force as large as the floor’s spring at the largest displacement (the table gives each). Right of the dashed line an effect that matters could hide.".into(),
+        caption: "A size that matters makes a force at the top as large as the floor’s spring at the largest displacement; for gains and factors, joints, corners, delays and offsets the table gives what it is. Right of the dashed line an effect that matters could hide.".into(),
         links: vec![Link::to("diagnosis.json")],
         ..Figure::default()
     })

@@ -10,10 +10,12 @@ use super::parting::shows_after;
 use super::stored::{Stored, StoredRival};
 use super::words::at;
 use super::{AFTER, BEFORE, MEASURED, key};
+use crate::diagnose::force::ALONG;
 use crate::error::Result;
 use crate::model::PATTERN_NAMES;
 
-/// Least share off the direction of the top beyond which a force there alone does not explain the residual.
+/// Share off the direction of the top from which a force there alone does not explain the residual: twins of a late record
+/// have 0.1 and more.
 const OFF: f64 = 0.1;
 /// Fewest points with a direction to speak of one.
 const LEAST_POINTS: u64 = 3;
@@ -153,8 +155,10 @@ fn direction_in_words(stored: &Stored) -> String {
         Some(share) if force.points_with_direction >= LEAST_POINTS => format!(
             "Off the direction of a horizontal force at the top lies {share:.3} of the squared moments (median of {} stretches clear of the noise): {}.",
             force.points_with_direction,
-            if share < OFF {
+            if share < ALONG {
                 "what is missing acts at the top, as far as smooth motion tells"
+            } else if share < OFF {
+                "it may act at the top, or shake the whole wall"
             } else {
                 "a force at the top alone does not explain it"
             }

@@ -89,7 +89,7 @@ pub fn lead(stored: &Stored) -> String {
             format!("Unknown: model and tests part, and nothing in the catalogue explains it.{like}")
         }
         "no_power" => {
-            "No power: the wall hardly moved, so no effect of a size that matters could have shown."
+            "No power: the wall moves too little beside the noise, or is sampled too coarsely, for most effects of a size that matters to show."
                 .to_owned()
         }
         other => other.to_owned(),

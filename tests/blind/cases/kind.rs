@@ -97,7 +97,8 @@ impl Kind {
         }
     }
 
-    /// The kind of a case from a number in [0, 1): in 770 cases, 200 hide nothing and 30 each effect.
+    /// The kind of a case from a number in [0, 1): of 770 cases, 200 hide nothing and 30 each effect, but for the
+    /// luck of the draw.
     pub fn at(share: f64) -> Self {
         let mut place = share * 770.0;
         let mut within = |cases: f64| {
