@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::{InputError, Result};
 use crate::ground::{Accelerogram, Suite};
 use crate::input::coefficients::CoefficientSets;
+use crate::input::pipeline::check_name;
 use crate::input::{load_wall, toml_file};
 use crate::model::{Contact, ImpactLaw, Pair, Wall, WallParameters};
 use crate::simulate::{Accuracy, Observer, Shaking, simulate_observed};
@@ -48,6 +49,16 @@ pub const KIND: &str = "comparison";
 
 /// Names of the models.
 pub const MODELS: [&str; 3] = ["calibrated", "updated", "lumped"];
+
+/// The name of a comparison, and of the folder of its results.
+///
+/// # Errors
+/// Input errors of the pipeline file.
+pub fn name(path: &Path) -> Result<String> {
+    let file: ComparisonFile = toml_file::load(path)?;
+    check_name(path, &file.name)?;
+    Ok(file.name)
+}
 
 /// One run.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -54,6 +54,16 @@ pub enum Error {
         /// The accepted medians.
         baseline: PathBuf,
     },
+    /// A suite does not follow the code spectrum of a site.
+    #[error("suite {suite}: {found} of the code spectrum; allowed: {allowed}")]
+    Incompatible {
+        /// Name of the suite.
+        suite: String,
+        /// Lowest and highest deviation.
+        found: String,
+        /// Those that are allowed.
+        allowed: String,
+    },
     /// A run that was done again gave other bits than are stored.
     #[error(
         "run {position} of the study: {column} is stored as {stored:?} and came out as {now:?}: another version of the program, or other arithmetic"

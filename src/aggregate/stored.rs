@@ -8,7 +8,7 @@ use polars::prelude::*;
 use super::answer::{Answer, Compared};
 use super::scan::{count, scan};
 use crate::error::{Error, Result};
-use crate::store::run_files;
+use crate::store::{has_runs, run_files};
 
 /// Numbers of the run at a position of the plan, by column; none for a run that is not stored, and for values that
 /// do not exist.
@@ -20,7 +20,10 @@ pub fn stored_numbers<const N: usize>(
     position: u64,
     columns: [&str; N],
 ) -> Result<Option<[Option<f64>; N]>> {
-    let Ok(files) = run_files(folder) else { return Ok(None) };
+    if !has_runs(folder)? {
+        return Ok(None);
+    }
+    let files = run_files(folder)?;
     let read = || -> PolarsResult<Option<[Option<f64>; N]>> {
         let rows = scan(&files)?.filter(col("run").eq(lit(position))).select(columns.map(col)).collect()?;
         if rows.height() == 0 {

@@ -90,7 +90,11 @@ fn evaluate(experiment: &Experiment) -> Result<()> {
             let run = simulate(&experiment.space, test, &values, experiment.accuracy());
             run.and_then(|run| run.wme).map_or_else(|| "nan".to_owned(), |wme| format!("{wme:?}"))
         });
-        let wme = wme.collect::<Vec<_>>().join(",");
+        let wme = wme.collect::<Vec<_>>();
+        if wme.iter().any(|wme| wme == "nan") {
+            eprintln!("mrbd: note: line {}: no wall has these values, or a run failed: nan", number + 1);
+        }
+        let wme = wme.join(",");
         output::to_stdout(|out| writeln!(out, "{wme}").and_then(|()| out.flush()).map_err(output::failed))?;
     }
     Ok(())

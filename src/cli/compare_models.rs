@@ -4,18 +4,24 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::output;
-use crate::comparison::{Finding, ModelComparison, compare, print_rows, write_histories};
-use crate::error::{Error, InputError, Result};
-use crate::store::write_durably;
+use crate::comparison::{self, Finding, ModelComparison, compare, print_rows, write_histories};
+use crate::error::{Error, Result};
+use crate::store::{prepare_whole, write_durably};
+
+/// What it writes.
+const FILES: [&str; 4] = ["manifest.json", "comparison.csv", "histories.parquet", "findings.json"];
 
 /// Runs the comparison.
 ///
 /// # Errors
 /// Input errors of the pipeline and what it names, and of the output folder; [`Error::Io`] if the disk refuses.
-pub fn execute(pipeline: &Path, suite: Option<&Path>, out: Option<&Path>) -> Result<()> {
+pub fn execute(pipeline: &Path, suite: Option<&Path>, out: Option<&Path>, replace: bool) -> Result<()> {
+    let started_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let default = Path::new("outputs").join(comparison::name(pipeline)?);
+    let folder = out.unwrap_or(&default);
+    prepare_whole(folder, &FILES, replace)?;
     let comparison = compare(pipeline, suite)?;
-    let default = Path::new("outputs").join(&comparison.name);
-    write(&comparison, out.unwrap_or(&default))?;
+    write(&comparison, folder, started_unix_s)?;
     for finding in &comparison.findings {
         let Finding { law, claim, holds, of } = finding;
         eprintln!("{} {law:<8} {holds:>3} of {of:<3} {claim}", finding.mark());
@@ -24,24 +30,21 @@ pub fn execute(pipeline: &Path, suite: Option<&Path>, out: Option<&Path>) -> Res
     output::to_stdout(|out| print_rows(out, &comparison.rows).map_err(output::failed))
 }
 
-fn write(comparison: &ModelComparison, folder: &Path) -> Result<()> {
-    std::fs::create_dir_all(folder).map_err(|e| {
-        let found = format!("{}: {e}", folder.display());
-        InputError::option("--out", found, "a folder that can be written")
-    })?;
-    write_durably(&folder.join("manifest.json"), manifest(comparison).as_bytes())?;
+fn write(comparison: &ModelComparison, folder: &Path, started_unix_s: u64) -> Result<()> {
+    let [manifest_json, comparison_csv, histories_parquet, findings_json] =
+        FILES.map(|name| folder.join(name));
+    write_durably(&manifest_json, manifest(comparison, started_unix_s).as_bytes())?;
     let mut rows = Vec::new();
     print_rows(&mut rows, &comparison.rows).map_err(|e| Error::io("write the rows", folder, e))?;
-    write_durably(&folder.join("comparison.csv"), &rows)?;
-    write_histories(&folder.join("histories.parquet"), &comparison.histories)?;
+    write_durably(&comparison_csv, &rows)?;
+    write_histories(&histories_parquet, &comparison.histories)?;
     let findings = serde_json::to_vec_pretty(&comparison.findings)
         .map_err(|e| Error::io("write the findings", folder, e.into()))?;
-    write_durably(&folder.join("findings.json"), &findings)
+    write_durably(&findings_json, &findings)
 }
 
 /// Kind and provenance, by which `mrbd report` knows the folder.
-fn manifest(comparison: &ModelComparison) -> String {
-    let now_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+fn manifest(comparison: &ModelComparison, started_unix_s: u64) -> String {
     let manifest = serde_json::json!({
         "kind": crate::comparison::KIND,
         "name": comparison.name,
@@ -49,7 +52,7 @@ fn manifest(comparison: &ModelComparison) -> String {
         "suite": comparison.suite,
         "generated": comparison.generated,
         "inputs": comparison.inputs,
-        "started_unix_s": now_unix_s,
+        "started_unix_s": started_unix_s,
     });
     format!("{manifest:#}\n")
 }

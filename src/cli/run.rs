@@ -64,11 +64,11 @@ impl RunCommand {
             return self.overturning(&study);
         }
         if crate::comparison::is_comparison(&self.pipeline)? {
-            return super::compare_models::execute(
-                &self.pipeline,
-                self.suite.as_deref(),
-                self.out.as_deref(),
-            );
+            self.refuse_parts("a comparison of models has a few runs, done at once")?;
+            let out = self.out.as_deref();
+            let compare =
+                || super::compare_models::execute(&self.pipeline, self.suite.as_deref(), out, self.force);
+            return self.pool()?.install(compare);
         }
         let pipeline = Pipeline::load(&self.pipeline)?;
         let plan = Plan::load(&pipeline, self.suite.as_deref())?;
@@ -105,25 +105,32 @@ impl RunCommand {
         }
     }
 
+    fn pool(&self) -> Result<rayon::ThreadPool, InputError> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.map_or(0, NonZero::get)).build();
+        pool.map_err(|e| InputError::option("--threads", e.to_string(), "fewer threads"))
+    }
+
+    /// Options of plans, for what has none.
+    fn refuse_parts(&self, why: &str) -> Result<(), InputError> {
+        let options =
+            [("--dry-run", self.dry_run), ("--shard", self.shard.is_some()), ("--resume", self.resume)];
+        match options.into_iter().find(|(_, given)| *given) {
+            Some((option, _)) => Err(InputError::option(option, "given", format!("left out: {why}"))),
+            None => Ok(()),
+        }
+    }
+
     /// An overturning spectrum: a study of one wall under pulses, without survey and suite.
     fn overturning(&self, study: &overturning::Study) -> Result<()> {
-        let refused = [
-            ("--suite", self.suite.is_some()),
-            ("--dry-run", self.dry_run),
-            ("--shard", self.shard.is_some()),
-            ("--resume", self.resume),
-        ];
-        if let Some((option, _)) = refused.into_iter().find(|(_, given)| *given) {
-            let allowed = "left out: an overturning spectrum has pulses for records and a grid for a plan";
-            return Err(InputError::option(option, "given", allowed).into());
+        let why = "an overturning spectrum has pulses for records and a grid for a plan";
+        if self.suite.is_some() {
+            return Err(InputError::option("--suite", "given", format!("left out: {why}")).into());
         }
+        self.refuse_parts(why)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("outputs").join(&study.name));
-        overturning::prepare(&out)?;
+        overturning::prepare(&out, self.force)?;
         let progress = batch::progress_bar(study.frequency_over_p.values().len() as u64);
-        let threads =
-            rayon::ThreadPoolBuilder::new().num_threads(self.threads.map_or(0, NonZero::get)).build();
-        let threads = threads.map_err(|e| InputError::option("--threads", e.to_string(), "fewer threads"))?;
-        let spectrum = threads.install(|| overturning::spectrum(study, || progress.inc(1)))?;
+        let spectrum = self.pool()?.install(|| overturning::spectrum(study, || progress.inc(1)))?;
         progress.finish_and_clear();
         overturning::store(&out, study, &spectrum)?;
         eprintln!("mrbd: trials.parquet and boundaries.parquet in {}", out.display());

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use super::output;
 use crate::error::{Error, InputError, Result};
 use crate::ground::{Accelerogram, ReadOptions, read};
 use crate::input::load_wall;
@@ -12,6 +13,9 @@ use crate::model::{PATTERN_NAMES, Wall};
 use crate::report::{PlotFile, RunPicture, Watch};
 use crate::simulate::{Accuracy, Outcome, Response, Shaking, simulate_observed};
 use crate::store::write_history;
+
+/// Densities of masonry with room to spare, from light blocks with holes to dense stone, kg/m³.
+const MASONRY_KG_M3: std::ops::RangeInclusive<f64> = 300.0..=3500.0;
 
 /// Simulate one wall under one record, or its free release.
 ///
@@ -78,6 +82,11 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     let shaking = shaking(args)?;
     let accuracy = accuracy(args.tolerance)?;
     check_moves(&wall, args)?;
+    tell_odd_density(&wall);
+    let read = [Some(&args.wall), args.record.as_ref(), args.vertical.as_ref()];
+    let read = read.into_iter().flatten().map(PathBuf::as_path).collect::<Vec<_>>();
+    output::check_apart("--history", args.history.as_deref(), &read)?;
+    output::check_apart("--plot", args.plot.as_deref(), &read)?;
     let history = args.history.as_deref().map(write_history).transpose()?;
     let plot = args.plot.as_deref().map(PlotFile::new).transpose()?;
     let mut watch = Watch::new(history_step_s(args, &shaking)?);
@@ -101,7 +110,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
             response: &response,
         })?;
     }
-    super::output::print(&if args.json {
+    output::print(&if args.json {
         format!("{:#}", as_json(&wall, &response))
     } else {
         summary(&wall, &response)
@@ -175,6 +184,17 @@ fn check_moves(wall: &Wall, args: &SimulateArgs) -> Result<()> {
         eprintln!("mrbd: note: no record, so --scale has nothing to act on");
     }
     Ok(())
+}
+
+/// Lengths in millimetres or a mass in tonnes make a wall that can be, but is none of masonry.
+fn tell_odd_density(wall: &Wall) {
+    let p = wall.parameters();
+    let density_kg_m3 = p.mass_kg / (p.thickness_m * p.height_m * p.length_m);
+    if !MASONRY_KG_M3.contains(&density_kg_m3) {
+        eprintln!(
+            "mrbd: note: mass and lengths of the wall come to {density_kg_m3:.3} kg/m3; are they in kg and m?"
+        );
+    }
 }
 
 /// Time between rows of the history: the record's, or for a free release what was asked for.

@@ -115,7 +115,8 @@ impl Pipeline {
     }
 }
 
-fn check_name(path: &Path, name: &str) -> Result<()> {
+/// Refuses a name that is no folder's.
+pub(crate) fn check_name(path: &Path, name: &str) -> Result<()> {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || !name.chars().all(plain) {
         let allowed = "letters, digits, - and _: the output folder is named after it";

@@ -51,7 +51,7 @@ pub struct Spectrum {
 /// p = √(3g/4R) of the uncracked wall, rad/s, with R half its diagonal between rocking corners.
 pub fn rocking_frequency_rad_s(wall: &Wall) -> f64 {
     let p = wall.parameters();
-    let half_diagonal_m = 0.5 * p.lower_width_m.hypot(p.height_m);
+    let half_diagonal_m = 0.5 * wall.indented().lower_width_m.hypot(p.height_m);
     (0.75 * G_M_S2 / half_diagonal_m).sqrt()
 }
 

@@ -5,8 +5,8 @@ use std::path::Path;
 use super::spectrum::{Boundary, Spectrum, Trial};
 use super::study::Study;
 use super::words::assumptions;
-use crate::error::{InputError, Result};
-use crate::store::{Column, Read, write_table};
+use crate::error::Result;
+use crate::store::{Column, Read, prepare_whole, write_table};
 
 static TRIALS: [Column<Trial>; 7] = [
     Column::input(
@@ -65,15 +65,12 @@ static BOUNDARIES: [Column<Boundary>; 4] = [
     ),
 ];
 
-/// Makes sure that a folder can be written before anything runs.
+/// Makes the output folder ready, before anything is run; results that are there are refused, unless they are to be replaced.
 ///
 /// # Errors
-/// An input error that names the folder.
-pub fn prepare(folder: &Path) -> Result<()> {
-    let allowed = "a folder that can be made and written";
-    std::fs::create_dir_all(folder)
-        .and_then(|()| tempfile::tempfile_in(folder).map(drop))
-        .map_err(|e| InputError::key(folder, "--out", e.to_string(), allowed).into())
+/// As [`prepare_whole`].
+pub fn prepare(folder: &Path, replace: bool) -> Result<()> {
+    prepare_whole(folder, &["trials.parquet", "boundaries.parquet"], replace)
 }
 
 /// Writes `trials.parquet` and `boundaries.parquet` into a folder.

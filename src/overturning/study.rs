@@ -6,6 +6,7 @@ use serde::Deserialize;
 
 use crate::error::{InputError, Result};
 use crate::ground::Pulse;
+use crate::input::pipeline::check_name;
 use crate::input::{load_wall, toml_file};
 use crate::model::Wall;
 
@@ -134,6 +135,7 @@ impl Study {
             return Ok(None);
         }
         let file: StudyFile = toml_file::parse(path, &text)?;
+        check_name(path, &file.name)?;
         check(path, &file)?;
         let wall = load_wall(&path.parent().unwrap_or(Path::new(".")).join(&file.wall))?;
         Ok(Some(Self {

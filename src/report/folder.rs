@@ -23,12 +23,19 @@ pub fn report(results: &Path, site: Option<&Site>) -> Result<PathBuf> {
     let (page, path) = if results.is_dir() {
         (page_of(results, site), results.join(PAGE_NAME))
     } else if results.exists() {
-        (history::page(results), results.with_extension("html"))
+        (history::page(results), page_beside(results))
     } else {
         return Err(InputError::file(results, "nothing there", RESULTS).into());
     };
     write_durably(&path, page.map_err(as_damage)?.html()?.as_bytes())?;
     Ok(path)
+}
+
+/// FILE.html for a history FILE: `run.html` beside `run.parquet` may be the page of `mrbd simulate --plot`.
+fn page_beside(history: &Path) -> PathBuf {
+    let mut name = history.as_os_str().to_owned();
+    name.push(".html");
+    PathBuf::from(name)
 }
 
 /// What a page can be made of.

@@ -146,7 +146,7 @@ fn lock(path: &Path, shared: bool) -> Result<Option<File>> {
 }
 
 /// Makes the folder and tries a file in it.
-fn make_writable(path: &Path) -> Result<()> {
+pub(super) fn make_writable(path: &Path) -> Result<()> {
     let refuse = |e: std::io::Error| {
         let found = format!("{}, which cannot be written: {e}", path.display());
         InputError::option("--out", found, "a folder that can be written")
@@ -185,7 +185,8 @@ fn clear(path: &Path) -> Result<()> {
     };
     let folders = ["runs", "blocks"].map(|name| path.join(name));
     folders.iter().try_for_each(|folder| removed(folder, fs::remove_dir_all(folder)))?;
-    let derived = ["checksums.json", "medians.parquet", "findings.csv"].map(|name| path.join(name));
+    let derived = ["checksums.json", "medians.parquet", "findings.csv", crate::report::PAGE_NAME];
+    let derived = derived.map(|name| path.join(name));
     derived.iter().try_for_each(|file| removed(file, fs::remove_file(file)))
 }
 

@@ -11,6 +11,7 @@ use arrow::array::{ArrayRef, Float64Array, RecordBatch, StringArray};
 use parquet::arrow::ArrowWriter;
 use tempfile::NamedTempFile;
 
+use super::durable::put_in_place;
 use crate::error::{Error, InputError, Result};
 use crate::model::Reading;
 use crate::simulate::History;
@@ -62,9 +63,7 @@ impl HistoryWriter {
                 write_parquet(file.as_file(), history, reading).map_err(|e| Error::table(&path, e))?
             }
         }
-        file.as_file().sync_all().map_err(|e| Error::io("write the history", &path, e))?;
-        file.persist(&path).map_err(|e| Error::io("write the history", &path, e.error))?;
-        Ok(())
+        put_in_place(file, &path)
     }
 }
 

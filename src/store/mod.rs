@@ -10,6 +10,7 @@ mod manifest_differences;
 mod parquet_file;
 mod parts;
 mod schema;
+mod whole_folder;
 
 pub use checksum::file_sha256;
 pub use column::{Column, Encoding, Read, Stage, print_csv};
@@ -18,5 +19,6 @@ pub use folder::{Earlier, OutputFolder};
 pub use history::{HistoryWriter, write_history};
 pub use manifest::{FileNote, Manifest, RecordNote, SuiteNote};
 pub use parquet_file::{ParquetFile, write_table};
-pub use parts::{RunFile, run_files};
+pub use parts::{RunFile, has_runs, run_files};
 pub use schema::{COLUMNS, SCHEMA_VERSION};
+pub use whole_folder::prepare_whole;

@@ -155,24 +155,48 @@ impl OutputFolder {
     }
 }
 
-/// The Parquet files of a study's runs, sorted by path; of an unfinished study, those there are. They are not checked.
+/// The Parquet files of a study's runs, sorted by path; of an unfinished study, those there are. Each holds what was written:
+/// figures are not made of anything else.
 ///
 /// # Errors
-/// An input error for a folder without any.
+/// An input error for a folder without any, and for a file that is damaged or gone; [`Error::Io`] if one cannot be read.
 pub fn run_files(path: &Path) -> Result<Vec<PathBuf>> {
-    let finished: Vec<String> = read_checksums(path)?.into_keys().collect();
-    let mut files: Vec<PathBuf> =
-        finished.iter().map(|record| path.join("runs").join(record).join("part-1.parquet")).collect();
-    for folder in entries(&path.join("blocks"))?.into_iter().filter(|entry| entry.is_dir()) {
-        if !finished.contains(&name_of(&folder)) {
-            files.extend(block_files(&folder)?.into_iter().map(|(_, file)| file.path));
-        }
-    }
-    files.sort();
+    let files = listed(path)?;
     if files.is_empty() {
         let allowed = "the output folder of `mrbd run`, with runs/record=*/part-1.parquet";
         return Err(InputError::file(path, "no results", allowed).into());
     }
+    for file in &files {
+        if !file.is_whole()? {
+            let allowed = "the file as it was written; `mrbd run … --resume` does its runs again";
+            return Err(InputError::file(&file.path, "damaged, or gone", allowed).into());
+        }
+    }
+    Ok(files.into_iter().map(|file| file.path).collect())
+}
+
+/// Whether a study has stored runs, whole or not.
+///
+/// # Errors
+/// As [`OutputFolder::part`].
+pub fn has_runs(path: &Path) -> Result<bool> {
+    Ok(!listed(path)?.is_empty())
+}
+
+/// The files of a study's runs, sorted by path, not checked.
+fn listed(path: &Path) -> Result<Vec<RunFile>> {
+    let finished = read_checksums(path)?;
+    let part = |(record, checksum): (&String, &String)| RunFile {
+        path: path.join("runs").join(record).join("part-1.parquet"),
+        checksum: checksum.clone(),
+    };
+    let mut files = finished.iter().map(part).collect::<Vec<_>>();
+    for folder in entries(&path.join("blocks"))?.into_iter().filter(|entry| entry.is_dir()) {
+        if !finished.contains_key(&name_of(&folder)) {
+            files.extend(block_files(&folder)?.into_iter().map(|(_, file)| file));
+        }
+    }
+    files.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(files)
 }
 

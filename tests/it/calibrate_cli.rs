@@ -140,6 +140,9 @@ fn rejects_an_output_folder_with_other_files() {
 fn published_the_findings_of_figure_9_hold_in_most_cases() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let pipeline = concat!(env!("CARGO_MANIFEST_DIR"), "/pipelines/model_comparison.toml");
+    let planned = mrbd(&["run", pipeline, "--out", text(folder.path()), "--dry-run"]);
+    assert_eq!(planned.status.code(), Some(2), "a comparison has no plan");
+    assert!(String::from_utf8_lossy(&planned.stderr).contains("--dry-run"));
     let done = mrbd(&["run", pipeline, "--out", text(folder.path())]);
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     let findings = std::fs::read(folder.path().join("findings.json")).expect("findings.json");

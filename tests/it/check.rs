@@ -187,5 +187,14 @@ fn regress_status_tells_how_far_a_study_is_and_how_to_read_it() {
     fs::write(at.join("out/runs/record=pulse_1/part-1.parquet"), "x").expect("written");
     let told = stdout(&mrbd(at, &["status", "out"]));
     assert!(told.contains("damaged: out/runs/record=pulse_1/part-1.parquet"), "{told}");
+    for reader in ["aggregate", "report", "check-tolerance"] {
+        let output = mrbd(at, &[reader, "out"]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{reader}: {told}");
+        assert!(
+            told.contains("record=pulse_1/part-1.parquet") && told.contains("--resume"),
+            "{reader}: {told}"
+        );
+    }
     assert_eq!(mrbd(at, &["status", "."]).status.code(), Some(2), "no study");
 }

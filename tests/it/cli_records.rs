@@ -73,9 +73,14 @@ fn analytic_convert_keeps_every_bit() {
 fn analytic_check_says_whether_a_suite_is_compatible() {
     let text = accepted(&["check", EMILIA, "--site", SITE]);
     assert!(text.contains("emilia7") && text.contains(", compatible"), "{text}");
-    let json = accepted(&["check", EMILIA, "--site", SITE, "--above", "0.01", "--json"]);
-    let json: Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!(json["compatible"].as_bool(), Some(false));
+    let json: Value =
+        serde_json::from_str(&accepted(&["check", EMILIA, "--site", SITE, "--json"])).expect("JSON");
+    assert_eq!(json["compatible"].as_bool(), Some(true));
+    let output = mrbd(&["check", EMILIA, "--site", SITE, "--above", "0.01", "--json"]);
+    let json: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!((json["compatible"].as_bool(), output.status.code()), (Some(false), Some(1)));
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(told.contains("emilia7") && told.contains("+1.0 %"), "{told}");
 }
 
 #[test]
@@ -142,8 +147,10 @@ fn analytic_pulse_writes_a_record_that_reads_back() {
 fn rejects_what_makes_no_sense() {
     let folder = folder();
     let out = at(&folder, "x.csv");
+    let record = emilia(3, "602ya");
     for (arguments, word) in [
         (&["describe", "none.csv"][..], "none.csv"),
+        (&["convert", &record, &at(&folder, "x.AT2")], "a .csv file"),
         (&["describe", "--suite", EMILIA, "--dt", "0.01"], "--suite"),
         (&["check", EMILIA, "--site", SITE, "--from", "3"], "--from"),
         (&["check", EMILIA, "--site", EMILIA], "emilia7"),

@@ -118,6 +118,7 @@ fn rejects_walls_that_cannot_be() {
         ("thickness_m = 0.291", "thicknes_m = 0.291", "thicknes_m"),
         ("length_m = 1.5", "", "length_m"),
         ("lower_width_m = 0.271", "lower_width_m = 0.4", "corners.lower_width_m"),
+        ("stiffness_n_per_m = 37000.0", "stiffness_n_per_m = 37e20", "diaphragm.stiffness_n_per_m"),
         ("law = \"whole\"", "law = \"hole\"", "restitution.law"),
         ("[wall]", "[wall", "wall.toml:"),
     ];
@@ -205,6 +206,11 @@ fn rejects_options_that_make_no_sense() {
         &["simulate", TABLE_WALL, "--record", record, "--history", text(&nowhere)],
         &["h.csv", "--history"],
     );
+    let before = std::fs::read(record).expect("the record");
+    for option in ["--history", "--plot"] {
+        rejects(&["simulate", TABLE_WALL, "--record", record, option, record], &[option, "which is read"]);
+    }
+    assert_eq!(std::fs::read(record).expect("the record"), before);
     let odd = folder.path().join("h.xlsx");
     rejects(&["simulate", TABLE_WALL, "--record", record, "--history", text(&odd)], &["h.xlsx", ".parquet"]);
 }

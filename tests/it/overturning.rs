@@ -47,7 +47,7 @@ fn regress_a_spectrum_is_stored_whole() {
     let out = folder.path().join("out");
     let run = |threads: &str| {
         let output = Command::new(env!("CARGO_BIN_EXE_mrbd"))
-            .args(["run", study.to_str().expect("UTF-8"), "--threads", threads, "--out"])
+            .args(["run", study.to_str().expect("UTF-8"), "--threads", threads, "--force", "--out"])
             .arg(&out)
             .output()
             .expect("mrbd starts");
@@ -56,6 +56,11 @@ fn regress_a_spectrum_is_stored_whole() {
         (output.stdout, file)
     };
     assert_eq!(run("1"), run("2"), "results depend on threads");
+    let again =
+        Command::new(env!("CARGO_BIN_EXE_mrbd")).arg("run").arg(&study).arg("--out").arg(&out).output();
+    let again = again.expect("mrbd starts");
+    let told = String::from_utf8_lossy(&again.stderr);
+    assert!(again.status.code() == Some(2) && told.contains("--force"), "{told}");
     let file = std::fs::File::open(out.join("trials.parquet")).expect("the trials");
     let reader =
         parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder::try_new(file).expect("Parquet");

@@ -262,6 +262,8 @@ pub fn any_impact(rng: &mut ChaCha8Rng, wall: &Wall, slowest: f64) -> (Contact, 
 /// Largest difference of rotations over the record and its tail, in units of α_i.
 pub fn largest_difference(wall: &WallParameters, a: &History, b: &History) -> f64 {
     let alpha = made(wall).alpha_i_rad();
+    assert_eq!(a.rows.len(), b.rows.len(), "one of the runs ended before the other");
+    assert!(a.rows.iter().chain(&b.rows).flat_map(|row| row.theta_rad).all(f64::is_finite));
     let rows = a.rows.iter().zip(&b.rows);
     rows.map(|(a, b)| {
         let of = |i: usize| (a.theta_rad[i] - b.theta_rad[i]).abs() / alpha[i];

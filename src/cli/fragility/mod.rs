@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use self::asked::{Asked, State};
+use super::output::check_apart;
 use crate::error::{Error, InputError, Result};
 use crate::fragility::report::{self, GroupAnalysis};
 use crate::fragility::{
@@ -119,6 +120,8 @@ impl FragilityCommand {
     /// # Errors
     /// Input errors of the options and the table; [`Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
+        check_apart("--out", self.out.as_deref(), &[&self.file])?;
+        check_apart("--nrml", self.nrml.as_deref(), &[&self.file])?;
         let asked = self.asked()?;
         let measure = self.measure(asked.intensity())?;
         let mut groups = Vec::new();

@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::{percent, print, print_json, print_table};
-use crate::error::{InputError, Result};
+use crate::error::{Error, InputError, Result};
 use crate::ground::{COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck};
 
 /// Check the mean spectrum of a suite against the Italian code spectrum (NTC 2018) of a site.
@@ -66,20 +66,32 @@ pub(super) fn execute(args: &CheckArgs) -> Result<()> {
     let suite = Suite::load(&args.suite)?;
     let check = SuiteCheck::of(&suite, &site, periods);
     let is_compatible = check.is_within(deviation);
+    let range = format!("{} to {}", percent(check.lowest_deviation), percent(check.highest_deviation));
+    let allowed = format!("{} to {}", percent(deviation.0), percent(deviation.1));
     if args.json {
         let facts = json!({ "suite": suite.name, "generated": suite.generated, "compatible": is_compatible, "check": check });
-        return print_json(&facts);
+        print_json(&facts)?;
+        return judged(&suite, is_compatible, &range, &allowed);
     }
     let every_tenth = (0..check.period_s.len()).step_by(10);
     let rows: Vec<Vec<String>> = every_tenth.map(|i| row(&check, i)).collect();
     print_table(&["period s", "code m/s2", "mean m/s2", "deviation"], &rows)?;
-    let range = format!("{} to {}", percent(check.lowest_deviation), percent(check.highest_deviation));
     let verdict = if is_compatible { "compatible" } else { "not compatible" };
-    let allowed = format!("{} to {}", percent(deviation.0), percent(deviation.1));
     print(&format!(
         "{}: {range} over {} to {} s, {verdict} (allowed {allowed})",
         suite.name, periods.0, periods.1
-    ))
+    ))?;
+    judged(&suite, is_compatible, &range, &allowed)
+}
+
+/// What a script learns from the exit code.
+fn judged(suite: &Suite, is_compatible: bool, found: &str, allowed: &str) -> Result<()> {
+    let [found, allowed] = [found, allowed].map(str::to_owned);
+    if is_compatible {
+        Ok(())
+    } else {
+        Err(Error::Incompatible { suite: suite.name.clone(), found, allowed })
+    }
 }
 
 fn row(check: &SuiteCheck, i: usize) -> Vec<String> {

@@ -29,6 +29,11 @@ pub(super) fn execute(args: &ConvertArgs) -> Result<()> {
         let found = format!("{}, which exists", args.out.display());
         return Err(InputError::option("OUT", found, "a file that does not exist yet").into());
     }
+    let is_csv = args.out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("csv"));
+    if !is_csv {
+        let found = format!("{}, named as another format", args.out.display());
+        return Err(InputError::option("OUT", found, "a .csv file").into());
+    }
     let record = args.read.read(&args.file)?;
     write_two_columns(&args.out, &record.accelerogram)?;
     let motion = &record.accelerogram;
