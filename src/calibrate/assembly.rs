@@ -95,15 +95,18 @@ impl Assembly<'_> {
     pub fn tests(&self, joint: &Vector, per_test: &[(Vec<f64>, f64)]) -> Vec<TestResult> {
         let before = self.simulated(&self.experiment.space.nominal());
         let after = self.simulated(&joint.values);
+        let accuracy = self.experiment.accuracy();
         let result = |k: usize| {
             let test = &self.experiment.tests[k];
-            let alone = self.fit.iter().position(|&f| f == k).map(|f| per_test[f].1);
+            let alone = self.fit.iter().position(|&f| f == k).map(|f| &per_test[f].0);
+            let alone =
+                alone.and_then(|values| simulate(&self.experiment.space, test, values, accuracy)?.wme);
             TestResult {
                 name: test.name.clone(),
                 purpose: test.purpose.name().to_owned(),
                 wme_before: before[k].as_ref().and_then(|s| s.wme),
                 wme_joint: after[k].as_ref().and_then(|s| s.wme),
-                wme_alone: alone.filter(|wme| wme.is_finite()),
+                wme_alone: alone,
                 transitions: after[k].as_ref().map_or([0; 8], |s| s.transitions),
                 measured_collapse_s: test.collapse_s,
                 simulated_collapse_s: after[k].as_ref().and_then(|s| s.collapse_s),

@@ -12,6 +12,7 @@ use super::experiment::Experiment;
 use super::identifiability::{BOOTSTRAP, Judge};
 use super::objective::Objective;
 use super::paper_de::PaperDe;
+use super::prior::prior_factor;
 use super::result::{Calibration, MethodResult, Vector};
 use super::search::Found;
 use super::similarity::most_similar;
@@ -56,7 +57,7 @@ impl Flow<'_> {
         let refined = refine.minimise(self.elsewhere(), &self.draws("refined"))?;
         let assembly = Assembly { experiment: self.experiment, fit: &self.fit };
         let methods = assembly.methods(&paper, &adaptive, similar, [&joint, &refined]);
-        let (vector, joint_from) = cheaper(&methods);
+        let (vector, joint_from) = self.cheapest(&methods);
         let vector = assembly.without_idle(&vector);
         let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
         let per_test = self.better_of(&paper, &adaptive);
@@ -163,7 +164,21 @@ impl Flow<'_> {
         })
     }
 
-    /// Best vector and WME of each test to fit, by the better of the two searches.
+    /// The best of the vectors for all tests by the cost that the searches minimise, and where it comes from.
+    fn cheapest(&self, methods: &[MethodResult]) -> (Vector, String) {
+        let Experiment { space, tests, .. } = self.experiment;
+        let samples = self.fit.iter().map(|&k| tests[k].target.independent_samples()).sum::<f64>();
+        let cost = |m: &MethodResult| {
+            let wme = m.best.mean_wme.unwrap_or(f64::INFINITY);
+            wme * prior_factor(&space.parameters, &m.best.values, samples)
+        };
+        let for_all = methods.iter().filter(|m| m.test.is_none());
+        let best = for_all.reduce(|a, b| if cost(b) < cost(a) { b } else { a });
+        // The joint search always stands in the list.
+        best.map_or_else(|| (methods[0].best.clone(), String::new()), |m| (m.best.clone(), m.method.clone()))
+    }
+
+    /// Best vector and cost of each test to fit, by the better of the two searches.
     fn better_of(&self, paper: &[Found], adaptive: &[Found]) -> Vec<(Vec<f64>, f64)> {
         let better = |(p, a): (&Found, &Found)| {
             let best = if a.best().cost < p.best().cost { a.best() } else { p.best() };
@@ -171,13 +186,4 @@ impl Flow<'_> {
         };
         paper.iter().zip(adaptive).map(better).collect()
     }
-}
-
-/// The better of the two vectors for all tests, and where it comes from.
-fn cheaper(methods: &[MethodResult]) -> (Vector, String) {
-    let cost = |m: &MethodResult| m.best.mean_wme.unwrap_or(f64::INFINITY);
-    let for_all = methods.iter().filter(|m| m.test.is_none());
-    let best = for_all.reduce(|a, b| if cost(b) < cost(a) { b } else { a });
-    // The joint search always stands in the list.
-    best.map_or_else(|| (methods[0].best.clone(), String::new()), |m| (m.best.clone(), m.method.clone()))
 }

@@ -27,11 +27,16 @@ static GENERATIONS: [Column<Generation>; 6] = [
     ),
     Column::input("generation", "", "generation of the search, from 0", Read::Count(|g| Some(g.generation))),
     Column::input("vectors", "", "vectors simulated up to here", Read::Count(|g| Some(g.vectors))),
-    Column::result("best_wme", "", "lowest misfit so far", Read::Number(|g| g.best_wme)),
+    Column::result(
+        "best_wme",
+        "",
+        "lowest cost so far: WME, raised by a prior",
+        Read::Number(|g| g.best_wme),
+    ),
     Column::result(
         "sum_wme",
         "",
-        "sum over the population; null while a vector of it has no misfit (Fig. 6)",
+        "sum of costs over the population; null while a vector of it has no misfit (Fig. 6)",
         Read::Number(|g| g.sum_wme),
     ),
 ];

@@ -52,7 +52,7 @@ impl Measured {
         let theta_rad = channels.rotations()?;
         if theta_rad.iter().all(Option::is_none) {
             let allowed = "theta1_rad, theta2_rad, or displacements with lower_reading and upper_reading";
-            let found = format!("columns {}", columns.names.join(", "));
+            let found = format!("columns {}, in none of them a measured rotation", columns.names.join(", "));
             return Err(InputError::line(path, 1, found, allowed).into());
         }
         Ok(Self { time_s, theta_rad, gap_s, collapse_s: None })

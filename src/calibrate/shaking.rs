@@ -10,7 +10,7 @@ use crate::simulate::Shaking;
 /// Steps this near each other, as a share, are equal: files round them.
 const SAME_STEP: f64 = 1e-9;
 
-/// What is kept of a record beyond its last use, s, for walls whose effects bring it earlier.
+/// What is kept of a record beyond its last use, s, for walls whose effects bring it earlier: by no more than this.
 const SPARE_S: f64 = 1.0;
 
 /// Reads the records of a test; paths are relative to `folder`.

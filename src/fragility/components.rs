@@ -5,8 +5,7 @@
 //! calculations for variance components in large unbalanced crossed random effects models", Electron. J. Statist. 11).
 //! The estimates are unbiased, need one pass, and may be negative where a variance is small.
 
-use std::collections::HashMap;
-use std::hash::Hash;
+use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -56,7 +55,7 @@ pub fn components(rows: &[usize], values: &[f64], kinds: &[Clusters]) -> Option<
 /// cluster c; for the rest every row is its own cluster: N minus the number of groups.
 fn equation(by: &[u32], values: &[f64], labels: &[Vec<u32>]) -> (f64, Vec<f64>) {
     let sizes = tally(by.iter().copied());
-    let mut sums: HashMap<u32, f64> = HashMap::with_capacity(sizes.len());
+    let mut sums: BTreeMap<u32, f64> = BTreeMap::new();
     by.iter().zip(values).for_each(|(&g, value)| *sums.entry(g).or_default() += value);
     let squares = by.iter().zip(values).map(|(g, value)| (value - sums[g] / sizes[g]).powi(2)).sum();
     let n = values.len() as f64;
@@ -71,8 +70,9 @@ fn equation(by: &[u32], values: &[f64], labels: &[Vec<u32>]) -> (f64, Vec<f64>) 
     (squares, factors)
 }
 
-fn tally<T: Eq + Hash>(labels: impl Iterator<Item = T>) -> HashMap<T, f64> {
-    let mut counts = HashMap::new();
+/// In the order of the labels, so that sums over them are the same to the bit.
+fn tally<T: Ord>(labels: impl Iterator<Item = T>) -> BTreeMap<T, f64> {
+    let mut counts = BTreeMap::new();
     labels.for_each(|label| *counts.entry(label).or_insert(0.0) += 1.0);
     counts
 }

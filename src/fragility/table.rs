@@ -152,6 +152,9 @@ fn find(path: &Path, names: &[String], known: &[&str]) -> Result<Vec<usize>> {
                 Err(InputError::file(path, format!("two columns {name:?}"), "a name for each column").into())
             }
             (None, _) => {
+                if known.is_empty() {
+                    return Err(InputError::file(path, "an empty file", "a header and rows").into());
+                }
                 let found = format!("no column {name:?}");
                 let allowed =
                     with_suggestion(format!("one of {}", known.join(", ")), name, known.iter().copied());

@@ -209,6 +209,9 @@ impl Wall {
     }
 }
 
+/// Stiffer than any floor by many powers of ten, N/m: beyond it steps become too short to get anywhere.
+const MOST_STIFFNESS_N_PER_M: f64 = 1e15;
+
 fn check(p: &WallParameters, effects: &EffectSums) -> Result<(), ImpossibleWall> {
     positive("wall.thickness_m", p.thickness_m)?;
     positive("wall.height_m", p.height_m)?;
@@ -222,7 +225,9 @@ fn check(p: &WallParameters, effects: &EffectSums) -> Result<(), ImpossibleWall>
     width("corners.lower_width_m", p.lower_width_m, p.thickness_m)?;
     not_negative("diaphragm.mass_kg", p.diaphragm_mass_kg)?;
     not_negative("diaphragm.carriage_mass_kg", p.carriage_mass_kg)?;
-    not_negative("diaphragm.stiffness_n_per_m", p.stiffness_n_per_m)?;
+    let allowed = || format!("0 to {MOST_STIFFNESS_N_PER_M:e}");
+    let possible = (0.0..=MOST_STIFFNESS_N_PER_M).contains(&p.stiffness_n_per_m);
+    require("diaphragm.stiffness_n_per_m", p.stiffness_n_per_m, possible, allowed)?;
     let allowed = || format!("within half the thickness, ±{}", p.thickness_m / 2.0);
     let within = p.eccentricity_m.abs() <= p.thickness_m / 2.0;
     require("diaphragm.eccentricity_m", p.eccentricity_m, within, allowed)?;

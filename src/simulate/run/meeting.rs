@@ -30,6 +30,11 @@ impl<O: Observer> Run<O> {
     pub(super) fn advance(&mut self, piece: &Piece, step: &Step, after: &Aftermath) -> Result<(), Stop> {
         if !self.controller.accepts(step) {
             self.tally.work.rejected_steps += 1;
+            let time_s = piece.start_s + self.offset_s;
+            if time_s + step.h == time_s {
+                let reason = format!("no step is short enough in pattern {}", self.contact.name());
+                return Err(Stop::Failed { time_s, reason });
+            }
             return Ok(());
         }
         let from_s = self.offset_s;
