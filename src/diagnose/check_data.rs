@@ -10,12 +10,14 @@ use crate::diagnose::measured::{TestData, rest_offset_rad, windows};
 use crate::diagnose::trials::{Data, untouched};
 use crate::error::{InputError, Result};
 
-/// Share of a test's windowed error that another reading of its file leaves, below which it is told. In 377 tests of walls with
-/// and without hidden effects, read as they should be, the least was 0.71 for channels swapped (of a wall whose crack hardly opens
-/// they are alike), 1.25 for both signs and 3.4 for the others; 95 of 100 files with both signs wrong are found by it, all with one.
-const ALONE: f64 = 0.6;
-/// The same for the geometric mean over all tests: there the least was 0.98, in experiments of three to five tests.
-const TOGETHER: f64 = 0.9;
+/// Share of a test's windowed error that another reading of its file leaves, below which it is told. In 599 tests of walls with
+/// and without hidden effects, read as they should be, the least was 0.75 for channels swapped, 1.03 for both signs and 2.4 for
+/// the others. Of the same files made wrong it finds one sign and degrees in all, both signs in 88 and a swap in 16 of 100: the
+/// channels of a wall whose crack hardly opens are alike.
+const ALONE: f64 = 0.5;
+/// The same for the geometric mean over all tests. In 130 experiments of three to six tests the least was 0.90; all of them made
+/// wrong, both signs are found in 99 and a swap in 37 of 100.
+const TOGETHER: f64 = 0.75;
 const LEAST_TESTS: usize = 3;
 
 type Misreading = (&'static str, fn(&mut TestData));
@@ -41,8 +43,10 @@ const MISREADINGS: [Misreading; 5] = [
     }),
 ];
 
-/// Windowed error of the wall as given in a test as it stands, and by every misreading put right.
+/// Windowed error of the wall as given in a test, and by every misreading put right.
 struct Errors {
+    /// As it stands, or without a gain between its channels if that leaves less: a gain makes a closed crack look open, to the
+    /// other side once they are swapped.
     as_it_stands: f64,
     put_right: [Option<f64>; MISREADINGS.len()],
 }
@@ -50,13 +54,15 @@ struct Errors {
 impl Errors {
     /// None where nothing moves.
     fn of(experiment: &Experiment, test: &TestData) -> Option<Self> {
-        let put_right = MISREADINGS.map(|(_, put_right)| {
+        let read = |change: fn(&mut TestData)| {
             let mut other = test.clone();
-            put_right(&mut other);
+            change(&mut other);
             other.rest_offset_rad = rest_offset_rad(&other.theta_rad, other.noise_rad);
             misfit(experiment, &other)
-        });
-        Some(Self { as_it_stands: misfit(experiment, test)?, put_right })
+        };
+        let as_it_stands = misfit(experiment, test)?;
+        let as_it_stands = read(without_gain).map_or(as_it_stands, |other| other.min(as_it_stands));
+        Some(Self { as_it_stands, put_right: MISREADINGS.map(|(_, put_right)| read(put_right)) })
     }
 
     fn share(&self, misreading: usize) -> Option<f64> {
@@ -93,6 +99,18 @@ pub fn check_data(experiment: &Experiment) -> Result<()> {
     match likeliest(together, TOGETHER) {
         Some(likeliest) => refuse("tests".to_owned(), "all tests".to_owned(), likeliest),
         None => Ok(()),
+    }
+}
+
+/// The upper channel over what it reads of the lower, in least squares.
+fn without_gain(test: &mut TestData) {
+    let both = test.theta_rad.iter().filter(|theta| theta.iter().all(|t| t.is_finite()));
+    let [own, across] =
+        both.fold([0.0; 2], |[own, across], [lower, upper]| [own + lower * lower, across + lower * upper]);
+    let gain = across / own;
+    if gain.is_finite() && gain > 0.0 {
+        test.theta_rad.iter_mut().for_each(|theta| theta[1] /= gain);
+        test.noise_rad[1] /= gain;
     }
 }
 
