@@ -39,7 +39,7 @@ const ARRIVED: f64 = 1.5;
 const LET_GO: f64 = 2.0;
 const MOST_LEFT: f64 = 100.0;
 /// A misfit below which nothing is left to find: rotations agree to a ten-thousandth.
-const GOOD_ENOUGH: f64 = 1e-4;
+pub(super) const GOOD_ENOUGH: f64 = 1e-4;
 /// A misfit of the roundings of the simulations.
 const NOTHING_LEFT: f64 = 1e-9;
 

@@ -7,6 +7,7 @@
 //! [`CmaEs`] on the WME itself. Then comes what the tests can tell: counts of transitions, bootstrap intervals, correlations, and the
 //! dependence on the capture velocity.
 
+mod agreement;
 mod alignment;
 mod archive;
 mod assembly;
@@ -53,6 +54,7 @@ mod stretches;
 mod trial;
 mod windows;
 
+pub(crate) use agreement::disagreement;
 pub use alignment::Alignment;
 pub use archive::{Address, Archive, Row};
 pub use cma_es::CmaEs;

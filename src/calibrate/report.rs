@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use super::agreement::disagreement;
 use super::result::{Calibration, Estimate};
 
 /// Parameters as CSV: name, bounds, value, interval, spread over tests, and what the tests tell.
@@ -52,6 +53,7 @@ pub fn summary(c: &Calibration) -> String {
     }
     line(String::new());
     line(format!("The vector for all tests is that of `{}`.", c.joint_from));
+    disagreement(&c.methods).into_iter().for_each(&mut line);
     line(format!("{:<32}{:>11}{:>24}{:>10}  {}", "parameter", "value", "95 % interval", "by test", "told"));
     c.parameters.iter().for_each(|e| line(parameter(e)));
     line(String::new());

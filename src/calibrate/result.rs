@@ -25,7 +25,7 @@ pub struct Calibration {
     pub methods: Vec<MethodResult>,
     /// The one vector for all tests.
     pub joint: Vector,
-    /// Where it comes from: `similarity`, `joint` or `refined`, whichever has the lowest mean WME.
+    /// Where it comes from: `similarity`, `joint` or `refined`, whichever has the lowest mean WME, raised by a prior.
     pub joint_from: String,
     /// What the tests tell about each parameter.
     pub parameters: Vec<Estimate>,

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use super::page::{Link, Number, Page};
 use super::provenance::{Note, read_json};
-use crate::calibrate::{Calibration, Identifiability};
+use crate::calibrate::{Calibration, Identifiability, disagreement};
 use crate::error::Result;
 use histories::Again;
 
@@ -91,6 +91,7 @@ fn notes(stored: &Calibration) -> Vec<String> {
         "Assumed: impact law “{}”, capture velocity {:e} rad/s. WME: mean absolute error of both rotations, each over its mean absolute measured rotation (Eq. 8).",
         stored.law, stored.capture_velocity_rad_s
     )];
+    notes.extend(disagreement(&stored.methods));
     let on_bound: Vec<&str> =
         stored.parameters.iter().filter(|p| p.on_bound).map(|p| p.name.as_str()).collect();
     if !on_bound.is_empty() {
