@@ -8,7 +8,7 @@ use polars::prelude::*;
 use super::answer::{Answer, Compared};
 use super::scan::{count, scan};
 use crate::error::{Error, Result};
-use crate::store::{has_runs, run_files};
+use crate::store::{listed_run_files, run_files};
 
 /// Numbers of the run at a position of the plan, by column; none for a run that is not stored, and for values that
 /// do not exist.
@@ -20,7 +20,7 @@ pub fn stored_numbers<const N: usize>(
     position: u64,
     columns: [&str; N],
 ) -> Result<Option<[Option<f64>; N]>> {
-    if !has_runs(folder)? {
+    if listed_run_files(folder)?.is_empty() {
         return Ok(None);
     }
     let files = run_files(folder)?;

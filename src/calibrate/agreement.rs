@@ -18,9 +18,8 @@ fn told(joint: f64, refined: f64) -> Option<String> {
     let [low, high] = [joint.min(refined), joint.max(refined)];
     (high > GOOD_ENOUGH && high > (1.0 + APART) * low).then(|| {
         format!(
-            "Distrust what follows: `joint` ended at a mean WME of {joint:.4} and `refined` at {refined:.4}, so at least one has \
-             not arrived, and the intervals hold only about where the better one stands. More vectors (refine_vectors, \
-             most_generations), or numbers of the wall set free that are not what the file says, may bring them together."
+            "Distrust values and intervals: `joint` ended at a mean WME of {joint:.4} and `refined` at {refined:.4}, so at least \
+             one search has not arrived. More vectors (refine_vectors, most_generations) may bring them together."
         )
     })
 }

@@ -125,7 +125,7 @@ impl Archive {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let best = kept.best.entry(search.to_owned()).or_insert(f64::INFINITY);
         *best = best.min(cost);
-        self.progress.set_message(format!("{search}: best WME {best:.4}"));
+        self.progress.set_message(format!("{search}: best cost {best:.4}"));
         self.progress.inc(simulations);
     }
 

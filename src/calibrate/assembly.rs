@@ -92,15 +92,13 @@ impl Assembly<'_> {
     }
 
     /// Every test under the vector for all.
-    pub fn tests(&self, joint: &Vector, per_test: &[(Vec<f64>, f64)]) -> Vec<TestResult> {
+    pub fn tests(&self, joint: &Vector, methods: &[MethodResult]) -> Vec<TestResult> {
         let before = self.simulated(&self.experiment.space.nominal());
         let after = self.simulated(&joint.values);
-        let accuracy = self.experiment.accuracy();
         let result = |k: usize| {
             let test = &self.experiment.tests[k];
-            let alone = self.fit.iter().position(|&f| f == k).map(|f| &per_test[f].0);
-            let alone =
-                alone.and_then(|values| simulate(&self.experiment.space, test, values, accuracy)?.wme);
+            let own = methods.iter().filter(|m| m.test.as_ref() == Some(&test.name));
+            let alone = own.filter_map(|m| m.best.wme[k]).reduce(f64::min);
             TestResult {
                 name: test.name.clone(),
                 purpose: test.purpose.name().to_owned(),

@@ -63,7 +63,7 @@ impl Flow<'_> {
         let per_test = self.better_of(&paper, &adaptive);
         let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
         let capture_study = capture::study(self.experiment, self.archive, &self.fit, &vector.values)?;
-        let tests = assembly.tests(&vector, &per_test);
+        let tests = assembly.tests(&vector, &methods);
         let base = self.experiment.space.base();
         let seconds = start.elapsed().as_secs_f64();
         let simulations = self.archive.simulated();
@@ -178,11 +178,11 @@ impl Flow<'_> {
         best.map_or_else(|| (methods[0].best.clone(), String::new()), |m| (m.best.clone(), m.method.clone()))
     }
 
-    /// Best vector and cost of each test to fit, by the better of the two searches.
-    fn better_of(&self, paper: &[Found], adaptive: &[Found]) -> Vec<(Vec<f64>, f64)> {
+    /// Best vector of each test to fit, by the better of the two searches.
+    fn better_of(&self, paper: &[Found], adaptive: &[Found]) -> Vec<Vec<f64>> {
         let better = |(p, a): (&Found, &Found)| {
             let best = if a.best().cost < p.best().cost { a.best() } else { p.best() };
-            (best.values.clone(), best.cost)
+            best.values.clone()
         };
         paper.iter().zip(adaptive).map(better).collect()
     }

@@ -63,7 +63,7 @@ impl Judge<'_> {
     }
 
     /// An estimate of every parameter, and their correlations.
-    pub fn estimates(&self, joint: &Vector, per_test: &[(Vec<f64>, f64)]) -> Result<(Vec<Estimate>, Matrix)> {
+    pub fn estimates(&self, joint: &Vector, per_test: &[Vec<f64>]) -> Result<(Vec<Estimate>, Matrix)> {
         let space = &self.experiment.space;
         let acting = Self::acting(&self.simulated(&joint.values), self.fit);
         let idle = |p: &Parameter| {
@@ -129,14 +129,14 @@ impl Judge<'_> {
     }
 
     /// Each test's best vector; none for a coefficient that never acts in it.
-    fn by_test(&self, per_test: &[(Vec<f64>, f64)]) -> Vec<Vec<Option<f64>>> {
+    fn by_test(&self, per_test: &[Vec<f64>]) -> Vec<Vec<Option<f64>>> {
         let Experiment { space, tests, .. } = self.experiment;
         let law = space.base().restitution.law;
-        let of_test = |(values, &test): (&(Vec<f64>, f64), &usize)| {
-            let run = simulate(space, &tests[test], &values.0, self.experiment.accuracy());
+        let of_test = |(values, &test): (&Vec<f64>, &usize)| {
+            let run = simulate(space, &tests[test], values, self.experiment.accuracy());
             let counts = run.map_or([0; 8], |run| run.transitions);
             let acts = |p: &Parameter| p.coefficient().is_none_or(|l| Self::idle(l, &counts, law).is_none());
-            let kept = values.0.iter().zip(&space.parameters).map(|(x, p)| acts(p).then_some(*x));
+            let kept = values.iter().zip(&space.parameters).map(|(x, p)| acts(p).then_some(*x));
             kept.collect::<Vec<_>>()
         };
         per_test.iter().zip(self.fit).map(of_test).collect()

@@ -44,11 +44,7 @@ pub fn summary(c: &Calibration) -> String {
     line(format!("{:<11}{:<24}{:>10}{:>12}{:>8}", "search", "test", "WME", "simulations", "gen."));
     for m in &c.methods {
         let test = m.test.as_deref().unwrap_or("all (mean)");
-        let wme = match &m.test {
-            Some(_) => m.best_costs.last().copied().filter(|x| x.is_finite()),
-            None => m.best.mean_wme,
-        };
-        let wme = figure(wme);
+        let wme = figure(c.wme_of(m));
         line(format!("{:<11}{test:<24}{wme:>10}{:>12}{:>8}", m.method, m.simulations, m.generations));
     }
     line(String::new());

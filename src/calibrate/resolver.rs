@@ -67,16 +67,12 @@ impl Resolver<'_> {
                            such as diaphragm.stiffness_n_per_m or effects.0.coefficient_n_s_per_m";
             self.fault(i, "key", format!("{name:?}"), &self.suggested(allowed, name))
         })?;
-        if nominal == 0.0 && self.prior_sd(&target).is_some() {
-            let allowed = "no prior, which is a share of the number, and bounds instead";
-            return Err(self.fault(
-                i,
-                "key",
-                format!("{name}, which is 0 in the wall file, with a prior"),
-                allowed,
-            ));
+        let relative = self.prior_sd(&target);
+        if nominal == 0.0 && relative.is_some() {
+            let found = format!("{name}, which is 0 in the wall file, with a prior");
+            return Err(self.fault(i, "key", found, "bounds alone: a prior is a share of the number"));
         }
-        let prior_sd = self.prior_sd(&target).map(|relative| relative * nominal.abs());
+        let prior_sd = relative.map(|relative| relative * nominal.abs());
         let default = match (&target, prior_sd) {
             (Target::Coefficient(l), _) => Some([self.sets.lower[*l], self.sets.upper[*l]]),
             (_, Some(sd)) => Some([nominal - PRIOR_REACH * sd, nominal + PRIOR_REACH * sd]),

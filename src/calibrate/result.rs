@@ -47,6 +47,19 @@ pub struct Calibration {
     pub simulations_per_second: f64,
 }
 
+impl Calibration {
+    /// WME of what a search found, where it searched: in its test, or the mean of those to fit.
+    pub fn wme_of(&self, method: &MethodResult) -> Option<f64> {
+        match &method.test {
+            Some(name) => {
+                let k = self.tests.iter().position(|test| test.name == *name)?;
+                *method.best.wme.get(k)?
+            }
+            None => method.best.mean_wme,
+        }
+    }
+}
+
 /// A vector and its misfits.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Vector {

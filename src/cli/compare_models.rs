@@ -6,7 +6,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use super::output;
 use crate::comparison::{self, Finding, ModelComparison, compare, print_rows, write_histories};
 use crate::error::{Error, Result};
-use crate::store::{prepare_whole, write_durably};
+use crate::store::{WholeFolder, write_durably};
 
 /// What it writes.
 const FILES: [&str; 4] = ["manifest.json", "comparison.csv", "histories.parquet", "findings.json"];
@@ -19,9 +19,9 @@ pub fn execute(pipeline: &Path, suite: Option<&Path>, out: Option<&Path>, replac
     let started_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let default = Path::new("outputs").join(comparison::name(pipeline)?);
     let folder = out.unwrap_or(&default);
-    prepare_whole(folder, &FILES, replace)?;
+    let folder = WholeFolder::check(folder, &FILES, replace)?;
     let comparison = compare(pipeline, suite)?;
-    write(&comparison, folder, started_unix_s)?;
+    write(&comparison, folder.cleared()?, started_unix_s)?;
     for finding in &comparison.findings {
         let Finding { law, claim, holds, of } = finding;
         eprintln!("{} {law:<8} {holds:>3} of {of:<3} {claim}", finding.mark());

@@ -16,7 +16,7 @@ use crate::overturning;
 use crate::plan::Plan;
 use crate::sampling::Sampling;
 
-use crate::store::{COLUMNS, Earlier, Manifest, OutputFolder, Stage, print_csv};
+use crate::store::{COLUMNS, Earlier, Manifest, OutputFolder, Stage, WholeFolder, print_csv};
 
 /// Failed runs that are told one by one; all are counted, and stored with their reasons.
 const FAILURES_TOLD: usize = 10;
@@ -128,11 +128,11 @@ impl RunCommand {
         }
         self.refuse_parts(why)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("outputs").join(&study.name));
-        overturning::prepare(&out, self.force)?;
+        let folder = WholeFolder::check(&out, &overturning::FILES, self.force)?;
         let progress = batch::progress_bar(study.frequency_over_p.values().len() as u64);
         let spectrum = self.pool()?.install(|| overturning::spectrum(study, || progress.inc(1)))?;
         progress.finish_and_clear();
-        overturning::store(&out, study, &spectrum)?;
+        overturning::store(folder.cleared()?, study, &spectrum)?;
         eprintln!("mrbd: trials.parquet and boundaries.parquet in {}", out.display());
         output::print(&overturning::picture(&spectrum))
     }

@@ -47,8 +47,7 @@ impl Experiment {
             let allowed = "a wall of two bodies: wall.crack_height_m given";
             return Err(InputError::key(&wall_path, "wall.crack_height_m", "no crack", allowed).into());
         }
-        let nuisances = nuisances(path, &file)?;
-        check_relative(path, &nuisances, wall.parameters())?;
+        let nuisances = nuisances(path, &file, wall.parameters())?;
         let whole = file
             .tests
             .iter()
@@ -66,20 +65,7 @@ impl Experiment {
     }
 }
 
-/// A relative standard deviation says nothing of a number that is zero.
-fn check_relative(path: &Path, nuisances: &[Nuisance], wall: &WallParameters) -> Result<(), InputError> {
-    match nuisances.iter().find(|n| n.value(wall) == 0.0) {
-        Some(nuisance) => Err(InputError::key(
-            path,
-            format!("prior.{}", nuisance.key()),
-            "a relative standard deviation of a number that is 0 in the wall file",
-            "priors of numbers that are not 0; leave it out, or give the wall the value it may have",
-        )),
-        None => Ok(()),
-    }
-}
-
-fn nuisances(path: &Path, file: &ExperimentFile) -> Result<Vec<Nuisance>, InputError> {
+fn nuisances(path: &Path, file: &ExperimentFile, wall: &WallParameters) -> Result<Vec<Nuisance>, InputError> {
     let mut found = Vec::new();
     for (key, &sd) in &file.prior {
         let number = |key: &str| wall_number(key).map(|n| Nuisance::Number(n, sd));
@@ -99,6 +85,12 @@ fn nuisances(path: &Path, file: &ExperimentFile) -> Result<Vec<Nuisance>, InputE
                     allowed,
                 )
             })?),
+        }
+        // A relative standard deviation says nothing of a number that is zero.
+        if found.iter().any(|nuisance| nuisance.value(wall) == 0.0) {
+            let told = "a prior of a number that is 0 in the wall file";
+            let allowed = "priors of numbers that are not: they are shares; leave it out";
+            return Err(InputError::key(path, format!("prior.{key}"), told, allowed));
         }
     }
     Ok(found)

@@ -12,5 +12,5 @@ mod words;
 
 pub use picture::picture;
 pub use spectrum::{Boundary, Spectrum, Trial, rocking_frequency_rad_s, spectrum};
-pub use store::{prepare, store};
+pub use store::{FILES, store};
 pub use study::{PulseShape, Range, Study};

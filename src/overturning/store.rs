@@ -6,7 +6,7 @@ use super::spectrum::{Boundary, Spectrum, Trial};
 use super::study::Study;
 use super::words::assumptions;
 use crate::error::Result;
-use crate::store::{Column, Read, prepare_whole, write_table};
+use crate::store::{Column, Read, write_table};
 
 static TRIALS: [Column<Trial>; 7] = [
     Column::input(
@@ -65,13 +65,8 @@ static BOUNDARIES: [Column<Boundary>; 4] = [
     ),
 ];
 
-/// Makes the output folder ready, before anything is run; results that are there are refused, unless they are to be replaced.
-///
-/// # Errors
-/// As [`prepare_whole`].
-pub fn prepare(folder: &Path, replace: bool) -> Result<()> {
-    prepare_whole(folder, &["trials.parquet", "boundaries.parquet"], replace)
-}
+/// What is written.
+pub const FILES: [&str; 2] = ["trials.parquet", "boundaries.parquet"];
 
 /// Writes `trials.parquet` and `boundaries.parquet` into a folder.
 ///

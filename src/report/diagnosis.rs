@@ -98,7 +98,9 @@ fn notes(stored: &Stored) -> Vec<String> {
     }
     if let Some(test) = stored.tests.iter().find(|test| test.read_gain != [1.0; 2]) {
         let [lower, upper] = test.read_gain.map(number);
-        notes.push(format!("Patterns were read without gains of the sensors that the tests showed: θ₁ times {lower}, θ₂ times {upper}."));
+        notes.push(format!(
+            "Patterns were read without the gains of the sensors: θ₁ times {lower}, θ₂ times {upper}."
+        ));
     }
     if stored.windows.opened > 0 {
         notes.push(format!("{} windows start with a joint open by less than the noise: it reads as closed, but so no wall followed them.", stored.windows.opened));

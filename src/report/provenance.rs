@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use super::page::{Link, address};
 use crate::aggregate::VariantNote;
 use crate::error::{InputError, Result};
-use crate::store::{FileNote, Manifest, file_sha256, run_files};
+use crate::store::{FileNote, Manifest, file_sha256, listed_run_files};
 
 /// The manifest as names and values.
 pub fn of(manifest: &Manifest) -> Vec<(String, String)> {
@@ -138,14 +138,15 @@ pub fn notes(manifest: &Manifest, variants: &[VariantNote]) -> Vec<String> {
 /// Links to the run files, one a record and part.
 ///
 /// # Errors
-/// As [`run_files`].
+/// As [`listed_run_files`].
 pub fn run_links(folder: &Path) -> Result<Vec<Link>> {
     let link = |path: &std::path::PathBuf| {
         let relative = path.strip_prefix(folder).unwrap_or(path).to_string_lossy().replace('\\', "/");
         let text = relative.strip_prefix("runs/record=").unwrap_or(&relative).to_owned();
         Link { text, href: address(&relative) }
     };
-    Ok(run_files(folder)?.iter().map(link).collect())
+    // The figures beside them were made of the same files, checked.
+    Ok(listed_run_files(folder)?.iter().map(link).collect())
 }
 
 /// All files behind a page.

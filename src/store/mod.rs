@@ -19,6 +19,6 @@ pub use folder::{Earlier, OutputFolder};
 pub use history::{HistoryWriter, write_history};
 pub use manifest::{FileNote, Manifest, RecordNote, SuiteNote};
 pub use parquet_file::{ParquetFile, write_table};
-pub use parts::{RunFile, has_runs, run_files};
+pub use parts::{RunFile, listed_run_files, run_files};
 pub use schema::{COLUMNS, SCHEMA_VERSION};
-pub use whole_folder::prepare_whole;
+pub use whole_folder::WholeFolder;

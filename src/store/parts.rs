@@ -175,12 +175,12 @@ pub fn run_files(path: &Path) -> Result<Vec<PathBuf>> {
     Ok(files.into_iter().map(|file| file.path).collect())
 }
 
-/// Whether a study has stored runs, whole or not.
+/// The same files, not checked; none for a folder without any.
 ///
 /// # Errors
 /// As [`OutputFolder::part`].
-pub fn has_runs(path: &Path) -> Result<bool> {
-    Ok(!listed(path)?.is_empty())
+pub fn listed_run_files(path: &Path) -> Result<Vec<PathBuf>> {
+    Ok(listed(path)?.into_iter().map(|file| file.path).collect())
 }
 
 /// The files of a study's runs, sorted by path, not checked.

@@ -204,6 +204,21 @@ fn rejects_faults_of_experiments_with_file_and_key() {
 }
 
 #[test]
+fn rejects_a_prior_of_a_number_that_is_zero() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let key = "{ key = \"eccentricity_m\", lower = -0.01, upper = 0.01 }";
+    let settings = format!("seed = 1\nparameters = [{key}]\n[prior]\neccentricity_m = 0.1\n");
+    let twin = Twin { scales: vec![0.7], settings, ..Twin::of(ImpactLaw::Contact) };
+    let path = twin.write(folder.path());
+    let wall = folder.path().join("wall.toml");
+    let text = std::fs::read_to_string(&wall).expect("readable");
+    std::fs::write(&wall, text.replacen("[diaphragm]", "[diaphragm]\neccentricity_m = 0.0", 1))
+        .expect("written");
+    let told = Experiment::load(Path::new(&path), None).expect_err("must be refused").to_string();
+    assert!(told.contains("calibrate.parameters[0].key") && told.contains("is 0 in the wall file"), "{told}");
+}
+
+#[test]
 fn rejects_faults_of_measured_files_with_line() {
     let measured = |from: &str, to: &str| refused("measured_0.csv", from, to);
     assert!(measured("\n0.0,", "\nzero,").contains("measured_0.csv:2: found \"zero\" under time_s"));

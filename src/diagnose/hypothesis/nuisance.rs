@@ -26,7 +26,7 @@ impl Nuisance {
     }
 
     /// Its dotted key, or C_l.
-    pub fn key(&self) -> String {
+    fn key(&self) -> String {
         match self {
             Nuisance::Number(number, _) => number.key.to_owned(),
             Nuisance::Coefficient(l, _) => format!("C_{}", l + 1),

@@ -8,7 +8,7 @@ use crate::model::{Contact, Pair, Pivot, State};
 const COUNT: usize = 2 * HALF + 1;
 /// Standard deviations beyond which a sum of squares is not noise alone.
 const BEYOND_NOISE: f64 = 3.0;
-/// Share of a step by which times may be off, as rounded ones are: a velocity is then wrong by a small part of that.
+/// Share of a step by which times may be off: twice what rounding to milliseconds does at 256 Hz.
 const UNEVEN: f64 = 0.25;
 /// Samples averaged where the sign of an opening is asked for, and standard deviations it must stand off zero.
 const AVERAGED: usize = 5;

@@ -34,7 +34,7 @@ pub struct TestData {
     pub noise_rad: Pair,
     /// What each channel reads at rest, rad: taken off where a pattern is recognised, never where a model is judged.
     pub rest_offset_rad: Pair,
-    /// What each channel reads of a rotation, as far as it was found out: taken out at the same places.
+    /// What each channel reads of a rotation, as far as it is known or was found out: taken out at the same places.
     pub read_gain: Pair,
     /// Time between samples, s: their median distance.
     pub step_s: f64,
@@ -47,7 +47,8 @@ impl TestData {
     /// counts, and with the gains at which sensors of the wall read.
     ///
     /// # Errors
-    /// Input errors for a channel that is lost, rotations no standing wall has, too few samples, or no noise.
+    /// Input errors for a channel that is lost, rotations no standing wall has, a measurement apart from its record, too few
+    /// samples, or no noise.
     pub fn new(test: &Test, path: &Path, table: &TestTable, wall: &Wall) -> Result<Self, InputError> {
         let refuse = |found: String, allowed: &str| Err(InputError::file(path, found, allowed));
         let measured = &test.measured;

@@ -10,8 +10,7 @@ use super::test_data::TestData;
 use crate::input::experiment::Purpose;
 
 /// Length aimed at, s: windows are half to one and a half times as long, and up to four times where no pattern is beyond doubt
-/// for so long. About half a period of a rocking wall, so that
-/// most hold one impact at the ground.
+/// for so long. About half a period of a rocking wall, so that most hold one impact at the ground.
 pub const WINDOW_S: f64 = 0.5;
 /// Fewest samples of a window, several times what its own state takes.
 const LEAST_SAMPLES: usize = 20;
@@ -182,7 +181,7 @@ mod tests {
     #[test]
     fn analytic_missing_readings_do_not_count() {
         let mut test = swaying(0..800);
-        for k in (0..800).filter(|k| (410..430).contains(k)) {
+        for k in 410..430 {
             test.theta_rad[k][1] = f64::NAN;
         }
         let found = windows(std::slice::from_ref(&test));

@@ -42,7 +42,7 @@ pub fn updated_wall(experiment: &Experiment, after: &Tried) -> Result<String> {
     Ok(text.map_err(|e| InputError::file(path, e.to_string(), "a table that can be written"))?)
 }
 
-/// Sets the numbers of a wall that are not those of another, which the file gives.
+/// Sets the numbers in which a fitted wall differs from the one that the file gives.
 fn set_numbers(table: &mut Table, found: &WallParameters, given: &WallParameters) {
     let moved = |number: &&WallNumber| (number.get)(found) != (number.get)(given);
     // What the file gives by a density or a strength would follow the other numbers, and be another wall than the fitted one.

@@ -38,11 +38,11 @@ pub fn section(stored: &Calibration) -> Result<Section> {
         title: "How the searches converged".into(),
         figures: vec![Figure {
             id: "convergence-figure".into(),
-            title: "Lowest misfit by generation".into(),
+            title: "Lowest cost by generation".into(),
             paper: Some("Fig. 6".into()),
             legend: legend.collect(),
             panels,
-            caption: "Lowest WME found so far, by generation of each search. Searches that end in different valleys say that the misfit is rough.".into(),
+            caption: "Lowest cost found so far (WME, raised by what was known beforehand), by generation of each search. Searches that end in different valleys say that the misfit is rough.".into(),
             links: vec![Link::to("generations.parquet")],
             ..Figure::default()
         }],
@@ -70,7 +70,7 @@ fn panel(stored: &Calibration, names: &[&str], test: Option<&str>) -> Result<Str
         let tip = |&(x, y): &(f64, f64)| Dot {
             x,
             y,
-            tip: format!("{}, generation {x}\nlowest WME {y:.4}", method.method),
+            tip: format!("{}, generation {x}\nlowest cost {y:.4}", method.method),
         };
         let dots = points.iter().filter(|point| point.1.is_finite()).map(tip).collect();
         layers.push(Layer::Line { colour, width: 2, dashed: false, name: String::new(), points });
@@ -80,7 +80,7 @@ fn panel(stored: &Calibration, names: &[&str], test: Option<&str>) -> Result<Str
         title: test.unwrap_or("all tests to fit").to_owned(),
         format: Format::Half,
         x: Axis::linear("generation", 0.0, (longest - 1).max(1) as f64),
-        y: Axis::log_holding("lowest WME", costs()),
+        y: Axis::log_holding("lowest cost", costs()),
         layers,
     }
     .svg()
@@ -88,16 +88,8 @@ fn panel(stored: &Calibration, names: &[&str], test: Option<&str>) -> Result<Str
 
 fn table(stored: &Calibration) -> Table {
     let row = |m: &MethodResult| {
-        let lowest = match m.test {
-            Some(_) => m.best_costs.last().copied().filter(|cost| cost.is_finite()),
-            None => m.best.mean_wme,
-        };
         let test = m.test.clone().unwrap_or_else(|| "all, mean".to_owned());
-        vec![m.method.clone(), test, wme(lowest), m.simulations.to_string()]
+        vec![m.method.clone(), test, wme(stored.wme_of(m)), m.simulations.to_string()]
     };
-    Table::of(
-        "The searches",
-        &["search", "test", "lowest WME", "simulations"],
-        stored.methods.iter().map(row),
-    )
+    Table::of("The searches", &["search", "test", "WME", "simulations"], stored.methods.iter().map(row))
 }
