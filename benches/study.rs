@@ -13,10 +13,10 @@ use std::time::Instant;
 use mrbd::batch::{SideBySide, Simulate, run_all};
 use mrbd::campaign::{BLOCK_RUNS, Layout, Shard, Standing, Work, run_missing};
 use mrbd::input::pipeline::Pipeline;
-use mrbd::model::{Contact, ImpactLaw, Pivot, RockingWall, State, Vector, Wall};
 use mrbd::plan::Plan;
-use mrbd::simulate::{Accuracy, Response, Shaking, simulate};
 use mrbd::store::{Earlier, Manifest, OutputFolder};
+use mrbd_kernel::model::{Contact, ImpactLaw, Pivot, RockingWall, State, Vector, Wall};
+use mrbd_kernel::simulate::{Accuracy, Response, Shaking, simulate};
 
 use table_wall::{earthquake, table_wall};
 

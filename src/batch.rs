@@ -12,9 +12,9 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use rayon::prelude::*;
 
 use crate::error::{InputError, Result};
-use crate::model::Wall;
 use crate::plan::{Plan, Run};
-use crate::simulate::{Accuracy, Outcome, Response, Shaking, simulate};
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking, simulate};
 
 /// A run and what came of it.
 #[derive(Debug, Clone)]

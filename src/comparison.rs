@@ -13,14 +13,14 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{InputError, Result};
-use crate::ground::{Accelerogram, Suite};
-use crate::input::coefficients::CoefficientSets;
 use crate::input::pipeline::check_name;
-use crate::input::{load_wall, toml_file};
-use crate::model::{Contact, ImpactLaw, Pair, Wall, WallParameters};
-use crate::simulate::{Accuracy, Observer, Shaking, simulate_observed};
-use crate::solver::Quintic;
-use crate::store::FileNote;
+use mrbd_files::FileNote;
+use mrbd_files::coefficients::CoefficientSets;
+use mrbd_files::{load_wall, toml_file};
+use mrbd_kernel::model::{Contact, ImpactLaw, Pair, Wall, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, Observer, Shaking, simulate_observed};
+use mrbd_kernel::solver::Quintic;
+use mrbd_records::{Accelerogram, Suite};
 
 pub use histories::{HistoryPoint, write_histories};
 
@@ -149,7 +149,7 @@ pub fn compare(path: &Path, suite: Option<&Path>) -> Result<ModelComparison> {
         ("coefficients", beside(&file.coefficients)),
         ("suite", suite_path.clone()),
     ];
-    let inputs = files.iter().map(|(role, path)| FileNote::of(role, path)).collect::<Result<_>>()?;
+    let inputs = files.iter().map(|(role, path)| FileNote::of(role, path)).collect::<Result<_, _>>()?;
     let wall = load_wall(&files[1].1)?;
     let best_fit = CoefficientSets::load(&files[2].1)?.best_fit;
     let suite = Suite::load(&suite_path)?;

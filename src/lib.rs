@@ -60,27 +60,20 @@
 
 pub mod aggregate;
 pub mod batch;
-pub mod calibrate;
 pub mod campaign;
 pub mod check;
 pub mod cli;
 pub mod comparison;
-pub mod diagnose;
 pub mod error;
 pub mod findings;
 pub mod fragility;
-mod fused;
-pub mod ground;
 pub mod input;
-pub mod model;
 pub mod overturning;
 pub mod plan;
 pub mod report;
+pub mod results;
 pub mod sampling;
-pub mod simulate;
-pub mod solver;
 pub mod starter;
 pub mod store;
-mod suggestion;
 
 pub use error::{Error, InputError, Result};

@@ -9,7 +9,7 @@ use indicatif::ProgressBar;
 
 use super::{Finished, SideBySide, answered, run_one};
 use crate::plan::Plan;
-use crate::simulate::{Prepared, Shaking, Simulator, simulate_side_by_side};
+use mrbd_kernel::simulate::{Prepared, Shaking, Simulator, simulate_side_by_side};
 
 /// As [`super::run_all`].
 pub(super) fn run_all(plan: &Plan, positions: &[u64], progress: &ProgressBar) -> Vec<Finished> {

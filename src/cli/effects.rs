@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::output;
 use crate::error::{InputError, Result};
-use crate::model::{Effect, EffectKind, EffectParameter, Place};
+use mrbd_kernel::model::{Effect, EffectKind, EffectParameter, Place};
 
 /// List the further effects that a wall file may have, with an example of each.
 ///

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::{Case, ComparisonRow, ComparisonTable, MODELS};
 use crate::error::Result;
-use crate::model::Contact;
-use crate::simulate::{Accuracy, History, Shaking, simulate_observed};
 use crate::store::{Column, Read, write_table};
+use mrbd_kernel::model::Contact;
+use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
 
 /// Time between rows, s: a hundred in a swing of such walls.
 const STEP_S: f64 = 0.02;
@@ -84,7 +84,7 @@ fn history(case: &Case, model: usize, settings: &ComparisonTable) -> Vec<History
     let mut history = History::new(STEP_S);
     simulate_observed(wall, &shaking, Accuracy { tolerance: settings.tolerance }, &mut history);
     let alpha = wall.alpha_i_rad();
-    let point = |row: crate::simulate::HistoryRow| HistoryPoint {
+    let point = |row: mrbd_kernel::simulate::HistoryRow| HistoryPoint {
         law: case.law.name(),
         record: case.name.clone(),
         scale: case.scale,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use polars::prelude::*;
 
 use crate::error::{Error, InputError, Result};
-use crate::suggestion::with_suggestion;
+use mrbd_files::suggestion::with_suggestion;
 
 /// A column as it stands in the table; an empty cell or a null is none.
 #[derive(Debug, Clone, PartialEq)]

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{InputError, Result};
-use crate::model::{ImpactLaw, Restitution, WallParameters};
+use mrbd_kernel::model::{ImpactLaw, Restitution, WallParameters};
 
 /// What a study assumes where the survey is silent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -51,7 +51,7 @@ impl Default for Assumptions {
             law: ImpactLaw::Whole,
             capture_velocity_rad_s: Restitution::DEFAULT_CAPTURE_RAD_S,
             collapse_rotation_ratio: WallParameters::DEFAULT_COLLAPSE_RATIO,
-            tolerance: crate::simulate::Accuracy::default().tolerance,
+            tolerance: mrbd_kernel::simulate::Accuracy::default().tolerance,
             tail_s: 5.0,
             vertical: false,
         }

@@ -10,9 +10,9 @@ use super::study::StudyTables;
 pub use super::study::{Cloud, Drawn, Incremental, Kind, Limit, Loading, Stripes, Study};
 use super::survey::Configuration;
 pub use super::sweep_table::{Parameter, ParameterLists, SweepTable};
-use super::toml_file;
 use crate::error::{InputError, Result};
 use crate::sampling::Sampling;
+use mrbd_files::toml_file;
 
 /// A named set of assumptions under which the whole study is run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -149,7 +149,7 @@ fn variants(path: &Path, common: Changes, tables: Vec<VariantTable>) -> Result<V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::ImpactLaw;
+    use mrbd_kernel::model::ImpactLaw;
 
     const SWEEP: &str = include_str!("../../pipelines/sweep.toml");
 

@@ -9,8 +9,8 @@ use super::pipeline::Variant;
 use super::survey::Configuration;
 use super::sweep_table::SweepTable;
 use crate::error::{InputError, Result};
-use crate::ground::ScaledMeasure;
 use crate::sampling::Sampling;
+use mrbd_records::ScaledMeasure;
 
 /// The `kind` of a pipeline file, and of the manifest of its results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::toml_file;
 use crate::error::{InputError, Result};
+use mrbd_files::toml_file;
 
 /// A parameter at μ − σ, μ and μ + σ of its log-normal distribution, in that order.
 pub type ThreeLevels = [f64; 3];

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::study::Study;
 use crate::error::{Error, Result};
-use crate::model::{G_M_S2, Wall};
-use crate::simulate::{Accuracy, Outcome, Response, Shaking, simulate};
+use mrbd_kernel::model::{G_M_S2, Wall};
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking, simulate};
 
 /// One pulse and what it did.
 #[derive(Debug, Clone, Copy, PartialEq)]

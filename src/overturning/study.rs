@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use crate::error::{InputError, Result};
-use crate::ground::Pulse;
 use crate::input::pipeline::check_name;
-use crate::input::{load_wall, toml_file};
-use crate::model::Wall;
+use mrbd_files::{load_wall, toml_file};
+use mrbd_kernel::model::Wall;
+use mrbd_records::Pulse;
 
 /// The `kind` of a pipeline file that is such a study.
 pub const KIND: &str = "overturning_spectrum";

@@ -1,7 +1,7 @@
 //! What a study assumes, in words.
 
 use super::study::{Range, Study};
-use crate::model::{Effect, WallParameters};
+use mrbd_kernel::model::{Effect, WallParameters};
 
 /// Names and sentences, for the files of a spectrum and its page.
 pub fn assumptions(study: &Study) -> Vec<(String, String)> {

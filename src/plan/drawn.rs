@@ -9,11 +9,11 @@ use super::id::Fingerprint;
 use super::run::{Growth, Origin, Scaling};
 use super::setting::Setting;
 use crate::error::{InputError, Result};
-use crate::ground::{Suite, SuiteRecord};
 use crate::input::assumptions::Assumptions;
 use crate::input::pipeline::{Drawn, Loading, Pipeline};
 use crate::input::survey::{Configuration, Survey};
 use crate::sampling::{FacadeSampler, Refused, Variable};
+use mrbd_records::{Suite, SuiteRecord};
 
 /// The settings of a study of drawn façades.
 #[derive(Debug, Clone)]

@@ -3,7 +3,7 @@
 //! The source's section 4.1: slenderness and mass ratios give size and masses, and masonry that crushes
 //! at the corners moves them inwards.
 
-use crate::model::{ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
+use mrbd_kernel::model::{ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
 
 /// A strip of façade and the floor it carries, in the quantities of the survey.
 #[derive(Debug, Clone, Copy, PartialEq)]

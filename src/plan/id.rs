@@ -2,8 +2,8 @@
 
 use sha2::{Digest, Sha256};
 
-use crate::ground::Accelerogram;
-use crate::model::{Effect, WallParameters};
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{Effect, WallParameters};
 
 /// Digits of an id: 64 bits, so that two of 10⁶ runs share one with a chance of 3e-8.
 const ID_DIGITS: usize = 16;

@@ -2,9 +2,9 @@
 
 use super::facade::Facade;
 use crate::input::assumptions::Assumptions;
-use crate::input::coefficients::CoefficientSets;
 use crate::input::pipeline::Parameter;
 use crate::input::survey::{Configuration, Survey};
+use mrbd_files::coefficients::CoefficientSets;
 
 /// One of the three levels of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -10,12 +10,12 @@ use super::run::Run;
 use super::setting::Setting;
 use super::sweep::Sweep;
 use crate::error::{InputError, Result};
-use crate::ground::Suite;
-use crate::input::coefficients::CoefficientSets;
 use crate::input::pipeline::{Drawn, Kind, Pipeline, Study, Variant};
 use crate::input::survey::{Configuration, Survey};
-use crate::model::Restitution;
 use crate::sampling::Variable;
+use mrbd_files::coefficients::CoefficientSets;
+use mrbd_kernel::model::Restitution;
+use mrbd_records::Suite;
 
 /// Drawn façades whose runs go into the hash of a plan, beside the definition of all of them.
 const HASHED_DRAWS: u64 = 16;

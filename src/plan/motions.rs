@@ -1,7 +1,7 @@
 //! The records of a plan and the hashes that tell them.
 
 use super::id::Fingerprint;
-use crate::ground::{Accelerogram, Suite, SuiteRecord};
+use mrbd_records::{Accelerogram, Suite, SuiteRecord};
 
 /// The ground motions of a plan, and a hash of the samples of each.
 #[derive(Debug, Clone)]

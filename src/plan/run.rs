@@ -6,11 +6,11 @@ use super::facade::{Facade, ImpossibleFacade};
 use super::id::Fingerprint;
 use super::level::Level;
 use super::motions::{Motions, RecordHash};
-use crate::ground::{Accelerogram, IntensityMeasures, ScaledMeasure, SuiteRecord};
 use crate::input::pipeline::{Limit, Parameter, Variant};
 use crate::input::survey::Configuration;
-use crate::model::{Restitution, Wall};
-use crate::simulate::{Accuracy, Shaking};
+use mrbd_kernel::model::{Restitution, Wall};
+use mrbd_kernel::simulate::{Accuracy, Shaking};
+use mrbd_records::{Accelerogram, IntensityMeasures, ScaledMeasure, SuiteRecord};
 
 /// How the plan came to a façade.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::facade::Facade;
 use super::run::{Origin, Scaling};
-use crate::ground::SuiteRecord;
 use crate::input::survey::Configuration;
+use mrbd_records::SuiteRecord;
 
 /// A façade and how it is shaken.
 pub(super) struct Setting {

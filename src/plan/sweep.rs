@@ -6,9 +6,9 @@ use super::level::{Level, coefficients, facade};
 use super::run::{Origin, Scaling};
 use super::setting::Setting;
 use crate::input::assumptions::Assumptions;
-use crate::input::coefficients::CoefficientSets;
 use crate::input::pipeline::{Parameter, SweepTable};
 use crate::input::survey::{Configuration, Survey};
+use mrbd_files::coefficients::CoefficientSets;
 
 /// The settings of a sweep.
 #[derive(Debug, Clone)]

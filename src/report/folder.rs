@@ -8,8 +8,9 @@ use super::page::Page;
 use super::provenance::read_json;
 use super::{calibration, comparison, diagnosis, drawn, history, overturning, sweep};
 use crate::error::{Error, InputError, Result};
-use crate::ground::Site;
+use crate::results;
 use crate::store::{Manifest, write_durably};
+use mrbd_records::Site;
 
 /// Name of a page in the folder of its results.
 pub const PAGE_NAME: &str = "report.html";
@@ -59,8 +60,8 @@ fn page_of(folder: &Path, site: Option<&Site>) -> Result<Page> {
     }
     let Kind { kind } = read_json(&path, "a manifest as mrbd writes it beside its results")?;
     match kind.as_deref() {
-        Some(crate::calibrate::KIND) => calibration::page(folder),
-        Some(crate::diagnose::KIND) => diagnosis::page(folder),
+        Some(results::calibration::KIND) => calibration::page(folder),
+        Some(results::diagnosis::KIND) => diagnosis::page(folder),
         Some(crate::comparison::KIND) => comparison::page(folder),
         _ => study(folder, &path, site),
     }

@@ -10,7 +10,7 @@
 use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
 
 use super::refused::Refused;
-use crate::fragility::normal;
+use mrbd_statistics::normal;
 
 /// Rank correlation of two variables by position.
 pub(super) type Pair = (usize, usize, f64);

@@ -140,7 +140,7 @@ mod tests {
     use super::super::design::Design;
     use super::super::spec::HIGHEST_CRACK;
     use super::*;
-    use crate::model::Restitution;
+    use mrbd_kernel::model::Restitution;
 
     fn survey() -> Survey {
         let text = include_str!("../../inputs/survey.toml");

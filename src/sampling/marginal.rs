@@ -1,6 +1,6 @@
 //! Distributions of single variables: log-normal, truncated log-normal, constant.
 
-use crate::fragility::normal;
+use mrbd_statistics::normal;
 
 use super::refused::Refused;
 

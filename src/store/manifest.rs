@@ -1,16 +1,16 @@
 //! Where a study's results come from, written before the first result.
 
-use std::path::{Component, Path, PathBuf, absolute};
+use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use super::checksum::file_sha256;
 use super::durable::{folder_of, write_durably, write_durably_if_absent};
 use super::schema::SCHEMA_VERSION;
 use crate::error::{Error, InputError, Result};
-use crate::ground::SuiteRecord;
 use crate::input::pipeline::{Kind, Pipeline, Variant};
-use crate::model::G_M_S2;
 use crate::plan::{Plan, RecordHash};
+use mrbd_files::FileNote;
+use mrbd_kernel::model::G_M_S2;
+use mrbd_records::SuiteRecord;
 use serde::{Deserialize, Serialize};
 
 /// Provenance of an output folder: tool, plan, inputs, assumptions.
@@ -78,20 +78,6 @@ pub struct RecordNote {
     pub vertical_sha256: Option<String>,
 }
 
-/// A file that was read.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct FileNote {
-    /// What it is.
-    pub role: String,
-    /// Where it was, from the root.
-    pub path: String,
-    /// Where it was, from the output folder: found again where both were moved together.
-    #[serde(default)]
-    pub path_from_folder: Option<String>,
-    /// SHA-256 of its contents.
-    pub sha256: String,
-}
-
 impl Manifest {
     /// The manifest of a plan stored in blocks of `block_runs`, begun now; `suite_path` is the suite file that was read.
     ///
@@ -116,7 +102,10 @@ impl Manifest {
             seed: plan.drawn().map(|drawn| drawn.sampling.seed),
             study: study_note(plan),
             suite: SuiteNote::of(plan),
-            inputs: files.into_iter().map(|(role, path)| FileNote::of(role, path)).collect::<Result<_>>()?,
+            inputs: files
+                .into_iter()
+                .map(|(role, path)| FileNote::of(role, path))
+                .collect::<Result<_, _>>()?,
             gravity_m_s2: G_M_S2,
             variants: serde_json::json!(variants),
             started_unix_s: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
@@ -234,36 +223,4 @@ impl SuiteNote {
             records: motions.suite.records.iter().zip(&motions.hashes).map(record).collect(),
         }
     }
-}
-
-impl FileNote {
-    /// The note of a file that plays a role.
-    ///
-    /// # Errors
-    /// An input error if the file cannot be read.
-    pub(crate) fn of(role: &str, path: &Path) -> Result<Self> {
-        let from_root = absolute(path).map_err(|e| Error::io("find", path, e))?;
-        Ok(Self {
-            role: role.to_owned(),
-            path: from_root.display().to_string(),
-            path_from_folder: None,
-            sha256: file_sha256(path)?,
-        })
-    }
-
-    /// With the way to the file from the folder of the results.
-    pub(crate) fn seen_from(self, folder: &Path) -> Self {
-        Self { path_from_folder: path_from(folder, &self.path), ..self }
-    }
-}
-
-/// The way from a folder to a file; none where one of them is not there, or they have no root in common.
-fn path_from(folder: &Path, file: &str) -> Option<String> {
-    // Without links: `..` leads up the real way.
-    let (folder, file) = (folder.canonicalize().ok()?, Path::new(file).canonicalize().ok()?);
-    let (from, to): (Vec<_>, Vec<_>) = (folder.components().collect(), file.components().collect());
-    let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
-    let up = from[common..].iter().map(|_| Component::ParentDir);
-    let way: PathBuf = up.chain(to[common..].iter().copied()).collect();
-    (common > 0).then(|| way.display().to_string())
 }

@@ -1,6 +1,5 @@
 //! Results on disk, written whole or not at all: Parquet files with one row a run, where they came from, histories.
 
-mod checksum;
 mod column;
 mod durable;
 mod folder;
@@ -12,12 +11,11 @@ mod parts;
 mod schema;
 mod whole_folder;
 
-pub use checksum::file_sha256;
 pub use column::{Column, Encoding, Read, Stage, print_csv};
 pub use durable::write_durably;
 pub use folder::{Earlier, OutputFolder};
 pub use history::{HistoryWriter, write_history};
-pub use manifest::{FileNote, Manifest, RecordNote, SuiteNote};
+pub use manifest::{Manifest, RecordNote, SuiteNote};
 pub use parquet_file::{ParquetFile, write_table};
 pub use parts::{RunFile, listed_run_files, run_files};
 pub use schema::{COLUMNS, SCHEMA_VERSION};

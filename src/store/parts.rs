@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
-use super::checksum::sha256;
 use super::column::Column;
 use super::durable::{UNFINISHED, write_durably};
 use super::folder::{OutputFolder, as_folder_name};
@@ -23,6 +22,7 @@ use super::parquet_file::{Pages, ParquetFile};
 use super::schema::COLUMNS;
 use crate::batch::Finished;
 use crate::error::{Error, InputError, Result};
+use mrbd_files::checksum::sha256;
 
 /// Digits of a checksum in a file's name: a damaged file passes once in 10¹⁹.
 const DIGITS: usize = 16;

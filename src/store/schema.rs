@@ -8,10 +8,10 @@ use std::borrow::Cow;
 
 use super::column::{Column, Read};
 use crate::batch::Finished;
-use crate::ground::SuiteRecord;
 use crate::input::assumptions::Assumptions;
-use crate::model::{Restitution, Wall, WallParameters};
-use crate::simulate::Outcome;
+use mrbd_kernel::model::{Restitution, Wall, WallParameters};
+use mrbd_kernel::simulate::Outcome;
+use mrbd_records::SuiteRecord;
 
 /// Version of the columns; it changes whenever one is added, removed or changes its meaning.
 pub const SCHEMA_VERSION: u32 = 2;

@@ -10,10 +10,11 @@ use mrbd::aggregate::aggregate;
 use mrbd::batch::Simulate;
 use mrbd::batch::Tally;
 use mrbd::campaign::{Layout, Shard, Standing, Work, compact, run_missing};
-use mrbd::model::Wall;
 use mrbd::plan::Plan;
-use mrbd::simulate::{Accuracy, Shaking};
-use mrbd::store::{Earlier, Manifest, OutputFolder, file_sha256, run_files};
+use mrbd::store::{Earlier, Manifest, OutputFolder, run_files};
+use mrbd_files::file_sha256;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Shaking};
 
 use crate::pipeline_support::{SMALL, pipeline, plan, stand_in};
 

@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use mrbd::ground::Suite;
+use mrbd_records::Suite;
 
 fn mrbd(arguments: &[&str]) -> Output {
     let root = env!("CARGO_MANIFEST_DIR");

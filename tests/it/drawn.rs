@@ -11,10 +11,10 @@ use mrbd::batch::run_one;
 use mrbd::campaign::Shard;
 use mrbd::input::pipeline::Kind;
 use mrbd::input::survey::Configuration;
-use mrbd::model::Wall;
 use mrbd::plan::Plan;
-use mrbd::simulate::{Accuracy, Outcome, Response, Shaking};
 use mrbd::store::{Earlier, run_files};
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 use crate::campaign::{contents, do_missing, merge, prepare};

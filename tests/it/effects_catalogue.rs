@@ -2,10 +2,10 @@
 
 use std::collections::HashSet;
 
-use mrbd::model::{Effect, Wall};
+use mrbd_kernel::model::{Effect, Wall};
 
 use crate::walls::{bare_wall, effect, table_wall};
-use mrbd::model::ImpactLaw;
+use mrbd_kernel::model::ImpactLaw;
 
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct File {

@@ -1,7 +1,7 @@
 //! Whole runs with every effect: energy, mirror, tolerance, and no input that fails.
 
-use mrbd::model::{Effect, G_M_S2, WallParameters};
-use mrbd::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate, simulate_observed};
+use mrbd_kernel::model::{Effect, G_M_S2, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate, simulate_observed};
 use rand::RngExt;
 
 use crate::walls::{

@@ -1,6 +1,6 @@
 //! Real files of every format: step, count and peak as checked by hand elsewhere.
 
-use mrbd::ground::{Format, ReadOptions, Unit, read};
+use mrbd_records::{Format, ReadOptions, Unit, read};
 
 use crate::shared;
 

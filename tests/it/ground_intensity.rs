@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use mrbd::ground::{
+use mrbd_records::{
     Accelerogram, CODE_DAMPING, COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, IntensityMeasures, Site, Soil,
     Suite, SuiteCheck, Topography, spectral_acceleration_m_s2,
 };

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use mrbd::ground::{Format, ReadOptions, Record, Unit, read_bytes};
+use mrbd_records::{Format, ReadOptions, Record, Unit, read_bytes};
 
 /// Samples that every small file holds, in its own unit.
 pub const SAMPLES: [f64; 7] = [0.0, 1.5, -2.5, 3.0, 0.5, -0.5, 0.25];

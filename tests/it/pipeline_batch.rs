@@ -7,10 +7,10 @@ use mrbd::batch::Tally;
 use mrbd::campaign::Shard;
 use mrbd::input::pipeline::Parameter;
 use mrbd::input::survey::Configuration;
-use mrbd::model::{ImpactLaw, Wall};
 use mrbd::plan::{Level, Plan};
-use mrbd::simulate::{Accuracy, Outcome, Response, Shaking};
 use mrbd::store::{COLUMNS, Earlier, run_files};
+use mrbd_kernel::model::{ImpactLaw, Wall};
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking};
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder};
 
 use crate::campaign::{do_missing, merge, prepare};

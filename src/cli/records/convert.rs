@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::ReadArgs;
 use crate::error::{InputError, Result};
-use crate::ground::write_two_columns;
+use mrbd_records::write_two_columns;
 
 /// Convert a record of any format to two-column CSV.
 ///

@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::print_table;
 use crate::error::{InputError, Result};
-use crate::ground::{IntensityMeasures, RecordTable, Site, generate, write_suite};
+use mrbd_records::{IntensityMeasures, RecordTable, Site, generate, write_suite};
 
 /// Generate records with the peaks of a published table, and the suite that lists them.
 ///
@@ -44,7 +44,7 @@ pub(super) fn execute(args: &GenerateArgs) -> Result<()> {
     let site = args.site.as_deref().map(Site::load).transpose()?;
     let records = generate(&table, site.as_ref(), args.seed);
     write_suite(&args.out, &args.name, &table, &records, args.seed)?;
-    let row = |(row, record): (&crate::ground::TableRow, &crate::ground::Accelerogram)| {
+    let row = |(row, record): (&mrbd_records::TableRow, &mrbd_kernel::accelerogram::Accelerogram)| {
         let found = IntensityMeasures::of(record);
         let pair = |found: f64, said: f64| format!("{found:.4} for {said:.4}");
         let duration = format!("{:.1}", found.duration_5_95_s);

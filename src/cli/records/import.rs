@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::{ReadArgs, percent, print_table};
 use crate::error::{InputError, Result};
-use crate::ground::{Import, IntensityMeasures, RecordTable, read_imports, write_imports};
+use mrbd_records::{Import, IntensityMeasures, RecordTable, read_imports, write_imports};
 
 /// Import records of a published table: check their peaks against it and write a suite.
 ///

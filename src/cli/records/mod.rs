@@ -14,7 +14,7 @@ use clap::{Args, Subcommand};
 
 use super::output::print;
 use crate::error::Result;
-use crate::ground::{ReadOptions, Record, Unit, read};
+use mrbd_records::{ReadOptions, Record, Unit, read};
 
 /// Read, convert, describe, generate and select accelerograms.
 ///
@@ -74,7 +74,7 @@ impl ReadArgs {
     }
 
     fn read(&self, path: &Path) -> Result<Record> {
-        read(path, &self.options())
+        Ok(read(path, &self.options())?)
     }
 }
 

@@ -7,7 +7,7 @@ use clap::Args;
 use super::check::PeriodArgs;
 use super::{ReadArgs, percent, print_table};
 use crate::error::{InputError, Result};
-use crate::ground::{Criteria, Selection, Site, SuiteSource, select};
+use mrbd_records::{Criteria, Selection, Site, SuiteSource, select};
 
 /// Select suites whose mean spectrum fits the code spectrum of a site, as REXEL does.
 ///

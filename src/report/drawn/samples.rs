@@ -13,7 +13,8 @@ use crate::error::Result;
 use crate::fragility::Table;
 use crate::input::survey::{Configuration, Survey};
 use crate::sampling::{FacadeSampler, Marginal, Sampling, Variable};
-use crate::store::{Manifest, file_sha256};
+use crate::store::Manifest;
+use mrbd_files::file_sha256;
 
 /// Bars of a histogram.
 const BARS: usize = 24;
