@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::error::{InputError, Result};
-use crate::input::pipeline::check_name;
+use crate::study::pipeline::check_name;
 use mrbd_files::FileNote;
 use mrbd_files::coefficients::CoefficientSets;
 use mrbd_files::{load_wall, toml_file};

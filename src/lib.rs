@@ -59,21 +59,18 @@
 //! | [`cli`] | the command line | the above, and messages for people |
 
 pub mod aggregate;
-pub mod batch;
-pub mod campaign;
 pub mod check;
 pub mod cli;
 pub mod comparison;
 pub mod error;
 pub mod findings;
 pub mod fragility;
-pub mod input;
 pub mod overturning;
-pub mod plan;
 pub mod report;
 pub mod results;
-pub mod sampling;
 pub mod starter;
 pub mod store;
+pub mod study;
+pub mod survey;
 
 pub use error::{Error, InputError, Result};

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use mrbd::input::assumptions::Assumptions;
-use mrbd::input::survey::{Configuration, Survey};
-use mrbd::sampling::{FacadeSampler, Sampling};
+use mrbd::survey::Assumptions;
+use mrbd::survey::sampling::{FacadeSampler, Sampling};
+use mrbd::survey::{Configuration, Survey};
 use mrbd_files::coefficients::CoefficientSets;
 use mrbd_kernel::model::{Restitution, Wall};
 use mrbd_kernel::simulate::Shaking;

@@ -7,10 +7,10 @@ use polars::prelude::*;
 use super::medians::{Measure, Middle};
 use super::scan::{count, named, number, scan, text};
 use crate::error::{Error, Result};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
-use crate::store::run_files;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::study::runs::run_files;
+use crate::survey::Configuration;
 
 /// A run of a façade whose parameters are all at their means.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,8 +9,8 @@ use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
 use super::scan::{count, list, outcome_is, scan, text, variant_notes};
 use crate::error::{Error, Result};
-use crate::input::pipeline::Kind;
-use crate::store::run_files;
+use crate::study::pipeline::Kind;
+use crate::study::runs::run_files;
 
 /// What is told of runs at given intensities.
 const ROTATIONS: &[&str] = &[

@@ -6,7 +6,7 @@ use polars::prelude::*;
 
 use super::scan::{count, scan, text};
 use crate::error::{Error, Result};
-use crate::store::run_files;
+use crate::study::runs::run_files;
 
 /// Runs that ended alike.
 #[derive(Debug, Clone, PartialEq, Eq)]

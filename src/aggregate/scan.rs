@@ -8,10 +8,10 @@ use super::medians::{Case, Measure, Median, Medians, VariantNote};
 use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
 use crate::error::{Error, Result};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
-use crate::store::run_files;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::study::runs::run_files;
+use crate::survey::Configuration;
 
 /// Columns that tell the cases apart; records are what the quantiles run over.
 const CASE: [&str; 5] = ["variant", "configuration", "parameter", "level", "slenderness"];

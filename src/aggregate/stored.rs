@@ -8,7 +8,7 @@ use polars::prelude::*;
 use super::answer::{Answer, Compared};
 use super::scan::{count, scan};
 use crate::error::{Error, Result};
-use crate::store::{listed_run_files, run_files};
+use crate::study::runs::{listed_run_files, run_files};
 
 /// Numbers of the run at a position of the plan, by column; none for a run that is not stored, and for values that
 /// do not exist.

@@ -6,11 +6,12 @@ use clap::Args;
 
 use super::{output, simulate};
 use crate::aggregate::stored_numbers;
-use crate::batch::{Finished, run_one};
 use crate::error::{Error, InputError, Result};
-use crate::input::pipeline::Pipeline;
-use crate::plan::{Plan, Run};
-use crate::store::{COLUMNS, Manifest, OutputFolder, Read, write_history};
+use crate::store::{Read, write_history};
+use crate::study::batch::{Finished, run_one};
+use crate::study::pipeline::Pipeline;
+use crate::study::plan::{Plan, Run};
+use crate::study::runs::{COLUMNS, Manifest, OutputFolder};
 use mrbd_files::file_sha256;
 use mrbd_kernel::simulate::{FREE_RELEASE_STEP_S, History, simulate_observed};
 

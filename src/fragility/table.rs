@@ -38,7 +38,7 @@ impl Table {
         names.sort_unstable();
         names.dedup();
         let table = match path.extension().and_then(|e| e.to_str()) {
-            _ if path.is_dir() => read_parquet(path, &crate::store::run_files(path)?, names)?,
+            _ if path.is_dir() => read_parquet(path, &crate::study::runs::run_files(path)?, names)?,
             Some("csv") => read_csv(path, names)?,
             Some("parquet") => read_parquet(path, &[path.to_path_buf()], names)?,
             other => {

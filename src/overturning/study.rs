@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use crate::error::{InputError, Result};
-use crate::input::pipeline::check_name;
+use crate::study::pipeline::check_name;
 use mrbd_files::{load_wall, toml_file};
 use mrbd_kernel::model::Wall;
 use mrbd_records::Pulse;

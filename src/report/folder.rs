@@ -9,11 +9,10 @@ use super::provenance::read_json;
 use super::{calibration, comparison, diagnosis, drawn, history, overturning, sweep};
 use crate::error::{Error, InputError, Result};
 use crate::results;
-use crate::store::{Manifest, write_durably};
+use crate::store::PAGE_NAME;
+use crate::store::write_durably;
+use crate::study::runs::Manifest;
 use mrbd_records::Site;
-
-/// Name of a page in the folder of its results.
-pub const PAGE_NAME: &str = "report.html";
 
 /// Makes the page of the results in a folder, or of a history file; gives where it is. Records are held against the code
 /// of a site.

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use mrbd::input::pipeline::Parameter;
-use mrbd::input::survey::Configuration;
-use mrbd::plan::{Facade, Level, Plan};
+use mrbd::study::pipeline::Parameter;
+use mrbd::study::plan::{Level, Plan};
+use mrbd::survey::Configuration;
+use mrbd::survey::Facade;
 use mrbd_files::load_wall;
 use mrbd_kernel::model::Restitution;
 

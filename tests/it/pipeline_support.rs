@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use mrbd::input::pipeline::Pipeline;
-use mrbd::input::survey::Survey;
-use mrbd::plan::Plan;
+use mrbd::study::pipeline::Pipeline;
+use mrbd::study::plan::Plan;
+use mrbd::survey::Survey;
 use mrbd_files::coefficients::CoefficientSets;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{

@@ -55,7 +55,7 @@ impl OutputNames {
     pub(super) fn clear(&self) -> Result<()> {
         let tables = TABLES.map(|name| self.folder.join(name));
         let own = [&self.diagnosis, &self.wall, &self.manifest].into_iter().chain(&tables);
-        let page = self.folder.join(crate::report::PAGE_NAME);
+        let page = self.folder.join(crate::store::PAGE_NAME);
         own.chain([&page]).try_for_each(|path| match std::fs::remove_file(path) {
             Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
                 Err(Error::io("remove earlier results", path, e))
