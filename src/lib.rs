@@ -60,12 +60,11 @@
 
 pub mod aggregate;
 pub mod check;
+pub mod classics;
 pub mod cli;
-pub mod comparison;
 pub mod error;
 pub mod findings;
 pub mod fragility;
-pub mod overturning;
 pub mod report;
 pub mod results;
 pub mod starter;

@@ -8,8 +8,8 @@ use std::time::Instant;
 use clap::Args;
 
 use super::{output, stop};
+use crate::classics::overturning;
 use crate::error::{Error, InputError, Result};
-use crate::overturning;
 use crate::study::batch::{self, Finished, SideBySide, Tally};
 use crate::study::campaign::{BLOCK_RUNS, Block, Layout, Shard, Standing, Work, run_missing};
 use crate::study::pipeline::Pipeline;
@@ -64,7 +64,7 @@ impl RunCommand {
         if let Some(study) = overturning::Study::load(&self.pipeline)? {
             return self.overturning(&study);
         }
-        if crate::comparison::is_comparison(&self.pipeline)? {
+        if crate::classics::comparison::is_comparison(&self.pipeline)? {
             self.refuse_parts("a comparison of models has a few runs, done at once")?;
             let out = self.out.as_deref();
             let compare =

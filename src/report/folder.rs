@@ -61,7 +61,7 @@ fn page_of(folder: &Path, site: Option<&Site>) -> Result<Page> {
     match kind.as_deref() {
         Some(results::calibration::KIND) => calibration::page(folder),
         Some(results::diagnosis::KIND) => diagnosis::page(folder),
-        Some(crate::comparison::KIND) => comparison::page(folder),
+        Some(crate::classics::comparison::KIND) => comparison::page(folder),
         _ => study(folder, &path, site),
     }
 }
