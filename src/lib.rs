@@ -69,6 +69,7 @@ pub mod diagnose;
 pub mod error;
 pub mod findings;
 pub mod fragility;
+mod frame;
 mod fused;
 pub mod ground;
 pub mod input;
