@@ -2,15 +2,30 @@
 
 use std::path::Path;
 
-use polars::prelude::*;
+use polars::prelude::PolarsResult;
 
 use super::medians::{Measure, Middle};
-use super::scan::{count, named, number, scan, text};
+use super::row::Row;
 use crate::error::{Error, Result};
+use crate::store::frame::read;
 use crate::study::pipeline::Parameter;
 use crate::study::plan::Level;
 use crate::study::runs::run_files;
 use crate::survey::Configuration;
+
+const COLUMNS: [&str; 11] = [
+    "variant",
+    "configuration",
+    "parameter",
+    "level",
+    "record",
+    "record_id",
+    "record_event",
+    "slenderness",
+    "outcome",
+    "theta1_max_over_alpha1",
+    "theta2_max_over_alpha2",
+];
 
 /// A run of a façade whose parameters are all at their means.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,11 +57,18 @@ pub fn reference_runs(
 ) -> Result<Vec<ReferenceRun>> {
     let files = run_files(folder)?;
     let read = || -> PolarsResult<Vec<ReferenceRun>> {
+        let frame = read(&files, &COLUMNS)?;
         let mut runs = Vec::new();
         for &(configuration, parameter) in among {
-            let frame = select(scan(&files)?, variant, configuration, parameter)?;
-            for i in 0..frame.height() {
-                runs.push(run(&frame, configuration, i)?);
+            let wanted = [
+                ("variant", variant),
+                ("configuration", configuration.name()),
+                ("parameter", parameter.name()),
+                ("level", Level::Mean.name(parameter)),
+            ];
+            let frame = &frame.with_texts(&wanted)?.sorted_by(&["record_id", "slenderness"])?;
+            for row in 0..frame.height() {
+                runs.push(reference_run(Row { frame, row }, configuration)?);
             }
         }
         Ok(runs)
@@ -54,35 +76,8 @@ pub fn reference_runs(
     read().map_err(|e| Error::table(folder, e))
 }
 
-fn select(
-    runs: LazyFrame,
-    variant: &str,
-    configuration: Configuration,
-    parameter: Parameter,
-) -> PolarsResult<DataFrame> {
-    let is = |name: &str, value: &str| col(name).cast(DataType::String).eq(lit(value));
-    let label = |name: &str| col(name).cast(DataType::String);
-    runs.filter(
-        is("variant", variant)
-            .and(is("configuration", configuration.name()))
-            .and(is("parameter", parameter.name()))
-            .and(is("level", Level::Mean.name(parameter))),
-    )
-    .select([
-        col("record_id"),
-        col("slenderness"),
-        label("record"),
-        label("record_event"),
-        label("outcome"),
-        col(Measure::LowerOwn.column()),
-        col(Measure::UpperOwn.column()),
-    ])
-    .sort(["record_id", "slenderness"], SortMultipleOptions::default())
-    .collect()
-}
-
-fn run(frame: &DataFrame, configuration: Configuration, i: usize) -> PolarsResult<ReferenceRun> {
-    let outcome = named(frame, "outcome", i, |name| match name {
+fn reference_run(run: Row<'_>, configuration: Configuration) -> PolarsResult<ReferenceRun> {
+    let outcome = run.named("outcome", |name| match name {
         "stood" => Some(Some(false)),
         "collapsed" => Some(Some(true)),
         "failed" => Some(None),
@@ -92,15 +87,15 @@ fn run(frame: &DataFrame, configuration: Configuration, i: usize) -> PolarsResul
         match outcome {
             None => Ok(None),
             Some(true) => Ok(Some(Middle::Collapsed)),
-            Some(false) => Ok(Some(Middle::Rotation(number(frame, measure.column(), i)?))),
+            Some(false) => Ok(Some(Middle::Rotation(run.number(measure.column())?))),
         }
     };
     Ok(ReferenceRun {
-        record: text(frame, "record", i)?,
-        record_id: count(frame, "record_id", i)?,
-        event: text(frame, "record_event", i)?,
+        record: run.text("record")?,
+        record_id: run.count("record_id")?,
+        event: run.text("record_event")?,
         configuration,
-        slenderness: number(frame, "slenderness", i)?,
+        slenderness: run.number("slenderness")?,
         rotation: [rotation(Measure::LowerOwn)?, rotation(Measure::UpperOwn)?],
     })
 }

@@ -2,13 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use polars::prelude::*;
+use polars::prelude::PolarsResult;
 
 use super::distributions::{Distribution, Distributions};
+use super::group::{Group, in_plan_order};
 use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
-use super::scan::{count, list, outcome_is, scan, text, variant_notes};
+use super::variants::variant_notes;
 use crate::error::{Error, Result};
+use crate::store::frame::{self, Frame};
 use crate::study::pipeline::Kind;
 use crate::study::runs::run_files;
 
@@ -54,81 +56,101 @@ pub fn distributions(folder: &Path, kind: Kind) -> Result<Distributions> {
 fn read(files: &[PathBuf], kind: Kind) -> PolarsResult<Distributions> {
     let variants = variant_notes(files)?;
     let comparison = if kind == Kind::Incremental { &BY_CAPACITY } else { &BY_ROTATION };
-    let moved = match &variants[..] {
-        [base, _, ..] => moved(files, &base.name, comparison)?,
-        _ => Vec::new(),
-    };
+    let moved = moved(files, &variants, comparison)?;
+    let measure = measure(files)?;
+    Ok(Distributions { kind, variants, moved, measure, rows: rows(files, kind)? })
+}
+
+fn rows(files: &[PathBuf], kind: Kind) -> PolarsResult<Vec<Distribution>> {
+    let told = Told::of(kind);
+    let frame = frame::read(files, &told.columns())?;
     let mut rows = Vec::new();
-    for record in [false, true] {
-        let frame = grouped(scan(files)?, kind, record)?;
-        for i in 0..frame.height() {
-            rows.extend(distributions_of(&frame, i, kind)?);
+    for by_record in [false, true] {
+        for group in in_plan_order(&frame, &told.keys(by_record))? {
+            rows.extend(told.distributions(&frame, &group, by_record)?);
         }
     }
-    Ok(Distributions { kind, variants, moved, measure: measure(files)?, rows })
+    Ok(rows)
 }
 
-fn quantities(kind: Kind) -> &'static [&'static str] {
-    if kind == Kind::Incremental { CAPACITIES } else { ROTATIONS }
+/// What is told of the runs of a study, and the columns that it is read off.
+struct Told {
+    /// Column that tells runs apart beside variant, configuration and record.
+    stratum: Option<&'static str>,
+    quantities: &'static [&'static str],
+    /// How a run ended, its value where the numbers exist, and its value where they lie above all numbers.
+    ended: [&'static str; 3],
 }
 
-/// One row a group: counts, and the sorted numbers of the runs that have them as lists.
-fn grouped(runs: LazyFrame, kind: Kind, by_record: bool) -> PolarsResult<DataFrame> {
-    let label = |name: &str| col(name).cast(DataType::String).alias(name);
-    let mut keys = vec![label("variant"), label("configuration")];
-    keys.extend(by_record.then(|| label("record")));
-    match kind {
-        Kind::Stripes => keys.push(col("intensity").alias("stripe")),
-        Kind::Incremental => keys.push(label("limit")),
-        _ => {}
+impl Told {
+    fn of(kind: Kind) -> Self {
+        let rotations =
+            |stratum| Self { stratum, quantities: ROTATIONS, ended: ["outcome", "stood", "collapsed"] };
+        match kind {
+            Kind::Incremental => Self {
+                stratum: Some("limit"),
+                quantities: CAPACITIES,
+                // Null for a failed run, which has no answer.
+                ended: ["limit_exceeded", "true", "false"],
+            },
+            Kind::Stripes => rotations(Some("intensity")),
+            _ => rotations(None),
+        }
     }
-    let exceeded = || col("limit_exceeded").fill_null(lit(false));
-    let (numbered, beyond) = match kind {
-        // A failed run has no answer.
-        Kind::Incremental => (exceeded(), col("limit_exceeded").eq(lit(false)).fill_null(lit(false))),
-        _ => (outcome_is("stood"), outcome_is("collapsed")),
-    };
-    let mut columns = vec![
-        col("run").min().alias("first_run"),
-        len().cast(DataType::UInt64).alias("runs"),
-        outcome_is("failed").sum().cast(DataType::UInt64).alias("failed"),
-        beyond.sum().cast(DataType::UInt64).alias("beyond"),
-    ];
-    let sorted =
-        |&name: &&'static str| col(name).filter(numbered.clone()).sort(SortOptions::default()).alias(name);
-    columns.extend(quantities(kind).iter().map(sorted));
-    runs.group_by(keys).agg(columns).sort(["first_run"], SortMultipleOptions::default()).collect()
-}
 
-fn distributions_of(frame: &DataFrame, i: usize, kind: Kind) -> PolarsResult<Vec<Distribution>> {
-    let optional = |name: &str| match frame.get_column_index(name) {
-        Some(_) => text(frame, name, i).map(Some),
-        None => Ok(None),
-    };
-    let intensity = match frame.column("stripe") {
-        Ok(stripe) => stripe.f64()?.get(i),
-        Err(_) => None,
-    };
-    let beyond = count(frame, "beyond", i)?;
-    let one = |&quantity: &&'static str| {
-        Ok(Distribution {
-            variant: text(frame, "variant", i)?,
-            configuration: text(frame, "configuration", i)?,
-            record: optional("record")?,
-            intensity,
-            limit: optional("limit")?,
-            quantity,
-            runs: count(frame, "runs", i)?,
-            failed: count(frame, "failed", i)?,
-            beyond,
-            quantiles: quantiles(&list(frame, quantity, i)?, beyond as usize),
-        })
-    };
-    quantities(kind).iter().map(one).collect()
+    fn keys(&self, by_record: bool) -> Vec<&'static str> {
+        let record = by_record.then_some("record");
+        ["variant", "configuration"].into_iter().chain(record).chain(self.stratum).collect()
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
+        let mut columns = self.keys(true);
+        columns.extend(["run", "outcome"]);
+        columns.extend(self.quantities);
+        columns.push(self.ended[0]);
+        columns.sort_unstable();
+        columns.dedup();
+        columns
+    }
+
+    /// One row a quantity.
+    fn distributions(
+        &self,
+        frame: &Frame,
+        group: &Group,
+        by_record: bool,
+    ) -> PolarsResult<Vec<Distribution>> {
+        let first = group.first(frame);
+        let [ended, numbered, beyond] = self.ended;
+        let ended = frame.texts(ended)?;
+        let beyond = group.how_many(ended, beyond);
+        let one = |&quantity: &&'static str| {
+            let numbers = group.sorted(frame.numbers(quantity)?, ended, numbered);
+            Ok(Distribution {
+                variant: first.text("variant")?,
+                configuration: first.text("configuration")?,
+                record: by_record.then(|| first.text("record")).transpose()?,
+                intensity: match self.stratum {
+                    Some("intensity") => first.optional_number("intensity")?,
+                    _ => None,
+                },
+                limit: match self.stratum {
+                    Some("limit") => Some(first.text("limit")?),
+                    _ => None,
+                },
+                quantity,
+                runs: group.len(),
+                failed: group.how_many(frame.texts("outcome")?, "failed"),
+                beyond,
+                quantiles: quantiles(&numbers, beyond as usize),
+            })
+        };
+        self.quantities.iter().map(one).collect()
+    }
 }
 
 /// The measure that records are scaled by, the same in all runs.
 fn measure(files: &[PathBuf]) -> PolarsResult<Option<String>> {
-    let first = scan(files)?.select([col("intensity_measure").cast(DataType::String)]).first().collect()?;
-    Ok(first.column("intensity_measure")?.str()?.get(0).map(str::to_owned))
+    let first = frame::read(files.get(..1).unwrap_or_default(), &["intensity_measure"])?;
+    Ok(first.texts("intensity_measure")?.get(0).map(str::to_owned))
 }

@@ -3,12 +3,13 @@
 //! Where two variants differ in the tolerance alone, these are the ill-conditioned runs: two impacts nearly coincide
 //! in them, and a tiny change of step decides the later motion.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use polars::prelude::*;
+use polars::prelude::{Float64Chunked, PolarsResult, UInt64Chunked};
 
-use super::medians::Moved;
-use super::scan::{count, scan, text};
+use super::medians::{Moved, VariantNote};
+use crate::store::frame::{Frame, Texts, read};
 
 /// A largest rotation has moved if it differs by more than this share: what an engineer would call another result.
 pub const MOVED_SHARE: f64 = 0.01;
@@ -28,55 +29,104 @@ pub(super) struct Comparison {
     pub compared: &'static [&'static str],
 }
 
-/// Runs of each variant but `base`, and those that moved: a number by more than [`MOVED_SHARE`], or the outcome.
-pub(super) fn moved(files: &[PathBuf], base: &str, comparison: &Comparison) -> PolarsResult<Vec<Moved>> {
-    let is_base = || col("variant").eq(lit(base.to_owned()));
-    let before = runs(files, comparison)?.filter(is_base());
-    let after = runs(files, comparison)?.filter(is_base().not());
-    let keys = ["configuration", "record"].iter().chain(comparison.labels).chain(comparison.numbers);
-    let keys: Vec<Expr> = keys.map(|&name| col(name)).collect();
-    let frame = after
-        .join(before, keys.clone(), keys, JoinArgs::new(JoinType::Inner))
-        .group_by(["variant", "configuration"].map(col))
-        .agg([
-            len().cast(DataType::UInt64).alias("runs"),
-            differs(comparison).sum().cast(DataType::UInt64).alias("moved"),
-            col("run").min(),
-        ])
-        .sort(["run"], SortMultipleOptions::default())
-        .collect()?;
-    (0..frame.height())
-        .map(|i| {
-            Ok(Moved {
-                variant: text(&frame, "variant", i)?,
-                configuration: text(&frame, "configuration", i)?,
-                runs: count(&frame, "runs", i)?,
-                moved: count(&frame, "moved", i)?,
-            })
+/// Runs of each variant but the first, and those that moved: a number by more than [`MOVED_SHARE`], or the outcome; in
+/// the order of the plan.
+///
+/// # Errors
+/// Files that cannot be read.
+pub(super) fn moved(
+    files: &[PathBuf],
+    variants: &[VariantNote],
+    comparison: &Comparison,
+) -> PolarsResult<Vec<Moved>> {
+    let [base, _, ..] = variants else {
+        return Ok(Vec::new());
+    };
+    let keys = comparison.keys();
+    // A run that lacks what tells it apart is the same as no other.
+    let frame = read(files, &comparison.columns())?.without_nulls(&keys)?;
+    let runs = Runs::of(&frame, comparison)?;
+    let mut tallies = Tallies::new();
+    for same in frame.groups(&keys)?.iter() {
+        let is_base = |&row: &usize| runs.variants.get(row) == Some(base.name.as_str());
+        let (before, after): (Vec<usize>, Vec<usize>) = same.into_iter().partition(is_base);
+        for (&after, &before) in
+            after.iter().flat_map(|after| before.iter().map(move |before| (after, before)))
+        {
+            runs.tell(after, before, comparison.usable, &mut tallies);
+        }
+    }
+    let mut moved: Vec<_> = tallies.into_values().collect();
+    moved.sort_by_key(|&(first_run, _)| first_run);
+    Ok(moved.into_iter().map(|(_, moved)| moved).collect())
+}
+
+/// By variant and configuration: the position in the plan of the first run compared, and how many moved.
+type Tallies<'a> = BTreeMap<(&'a str, &'a str), (u64, Moved)>;
+
+impl Comparison {
+    /// Columns that tell the runs of a variant apart.
+    fn keys(&self) -> Vec<&'static str> {
+        ["configuration", "record"].iter().chain(self.labels).chain(self.numbers).copied().collect()
+    }
+
+    fn columns(&self) -> Vec<&'static str> {
+        let mut columns = self.keys();
+        columns.extend(["run", "variant", self.outcome]);
+        columns.extend(self.compared);
+        columns
+    }
+}
+
+/// The columns that are compared.
+struct Runs<'a> {
+    runs: &'a UInt64Chunked,
+    variants: Texts<'a>,
+    configurations: Texts<'a>,
+    outcomes: Texts<'a>,
+    compared: Vec<&'a Float64Chunked>,
+}
+
+impl<'a> Runs<'a> {
+    fn of(frame: &'a Frame, comparison: &Comparison) -> PolarsResult<Self> {
+        Ok(Self {
+            runs: frame.counts("run")?,
+            variants: frame.texts("variant")?,
+            configurations: frame.texts("configuration")?,
+            outcomes: frame.texts(comparison.outcome)?,
+            compared: comparison
+                .compared
+                .iter()
+                .map(|name| frame.numbers(name))
+                .collect::<PolarsResult<_>>()?,
         })
-        .collect()
-}
+    }
 
-fn runs(files: &[PathBuf], comparison: &Comparison) -> PolarsResult<LazyFrame> {
-    let mut columns = vec![col("run")];
-    let labels = ["variant", "configuration", "record", comparison.outcome];
-    let labels = labels.iter().chain(comparison.labels);
-    columns.extend(labels.map(|&label| col(label).cast(DataType::String)));
-    columns.extend(comparison.numbers.iter().chain(comparison.compared).map(|&name| col(name)));
-    Ok(scan(files)?.select(columns))
-}
+    /// Counts a run in a row as compared with the same run in another row.
+    fn tell(&self, after: usize, before: usize, usable: &str, tallies: &mut Tallies<'a>) {
+        let key = (self.variants.get(after), self.configurations.get(after), self.runs.get(after));
+        let (Some(variant), Some(configuration), Some(run)) = key else {
+            return;
+        };
+        let none = || Moved {
+            variant: variant.to_owned(),
+            configuration: configuration.to_owned(),
+            runs: 0,
+            moved: 0,
+        };
+        let (first_run, moved) = tallies.entry((variant, configuration)).or_insert_with(|| (run, none()));
+        *first_run = run.min(*first_run);
+        moved.runs += 1;
+        moved.moved += u64::from(self.differ(after, before, usable));
+    }
 
-/// Another outcome, or two usable ones with another number; the rotation of a collapsed wall is its bound.
-fn differs(comparison: &Comparison) -> Expr {
-    let there = |name: &str| col(format!("{name}_right"));
-    let Comparison { outcome, usable, compared, .. } = *comparison;
-    let other_outcome = col(outcome).neq_missing(there(outcome));
-    let both = col(outcome).eq(lit(usable)).and(there(outcome).eq(lit(usable)));
-    let further = compared.iter().map(|&name| {
-        let distance = col(name) - there(name);
-        let allowed = lit(MOVED_SHARE) * there(name);
-        distance.clone().gt(allowed.clone()).or((lit(0.0) - distance).gt(allowed))
-    });
-    let any = further.reduce(Expr::or).unwrap_or(lit(false));
-    other_outcome.or(both.and(any))
+    /// Another outcome, or two usable ones with another number; the rotation of a collapsed wall is its bound.
+    fn differ(&self, after: usize, before: usize, usable: &str) -> bool {
+        let [now, then] = [after, before].map(|row| self.outcomes.get(row));
+        let further = |numbers: &&Float64Chunked| match (numbers.get(after), numbers.get(before)) {
+            (Some(now), Some(then)) => (now - then).abs() > MOVED_SHARE * then,
+            _ => false,
+        };
+        now != then || (now == Some(usable) && self.compared.iter().any(further))
+    }
 }

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
-use polars::prelude::*;
+use polars::prelude::PolarsResult;
 
-use super::scan::{count, scan, text};
+use super::group::{Group, in_plan_order};
 use crate::error::{Error, Result};
+use crate::store::frame::read;
 use crate::study::runs::run_files;
 
 /// Runs that ended alike.
@@ -28,20 +29,17 @@ pub struct Ending {
 pub fn endings(folder: &Path) -> Result<Vec<Ending>> {
     let files = run_files(folder)?;
     let read = || -> PolarsResult<Vec<Ending>> {
-        let keys = ["outcome", "reason"].map(|name| col(name).cast(DataType::String));
-        let columns = [len().cast(DataType::UInt64).alias("runs"), col("run").min().alias("first_run")];
-        let ends = scan(&files)?.group_by(keys).agg(columns);
-        let frame = ends.sort(["first_run"], SortMultipleOptions::default()).collect()?;
-        (0..frame.height())
-            .map(|i| {
-                Ok(Ending {
-                    outcome: text(&frame, "outcome", i)?,
-                    reason: frame.column("reason")?.str()?.get(i).map(str::to_owned),
-                    runs: count(&frame, "runs", i)?,
-                    first_run: count(&frame, "first_run", i)?,
-                })
+        let frame = read(&files, &["run", "outcome", "reason"])?;
+        let ending = |group: &Group| {
+            let first = group.first(&frame);
+            Ok(Ending {
+                outcome: first.text("outcome")?,
+                reason: first.optional_text("reason")?,
+                runs: group.len(),
+                first_run: group.first_run,
             })
-            .collect()
+        };
+        in_plan_order(&frame, &["outcome", "reason"])?.iter().map(ending).collect()
     };
     read().map_err(|e| Error::table(folder, e))
 }

@@ -1,13 +1,14 @@
 //! What is stored of single runs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use polars::prelude::*;
+use polars::prelude::PolarsResult;
 
 use super::answer::{Answer, Compared};
-use super::scan::{count, scan};
+use super::row::Row;
 use crate::error::{Error, Result};
+use crate::store::frame::read;
 use crate::study::runs::{listed_run_files, run_files};
 
 /// Numbers of the run at a position of the plan, by column; none for a run that is not stored, and for values that
@@ -25,13 +26,14 @@ pub fn stored_numbers<const N: usize>(
     }
     let files = run_files(folder)?;
     let read = || -> PolarsResult<Option<[Option<f64>; N]>> {
-        let rows = scan(&files)?.filter(col("run").eq(lit(position))).select(columns.map(col)).collect()?;
-        if rows.height() == 0 {
+        let frame = read(&files, &[&["run"], &columns[..]].concat())?;
+        let runs = frame.counts("run")?;
+        let Some(row) = (0..frame.height()).find(|&row| runs.get(row) == Some(position)) else {
             return Ok(None);
-        }
+        };
         let mut values = [None; N];
         for (value, name) in values.iter_mut().zip(columns) {
-            *value = rows.column(name)?.f64()?.get(0);
+            *value = Row { frame: &frame, row }.optional_number(name)?;
         }
         Ok(Some(values))
     };
@@ -49,19 +51,21 @@ pub fn stored_answers(
 ) -> Result<BTreeMap<u64, Answer>> {
     let files = run_files(folder)?;
     let read = || -> PolarsResult<BTreeMap<u64, Answer>> {
-        let wanted = DataFrame::new_infer_height(vec![Column::new("run".into(), positions)])?.lazy();
-        let mut columns = vec![col("run"), col(compared.outcome).cast(DataType::String).alias("ended")];
-        columns.extend(compared.numbers.iter().map(|&name| col(name)));
-        let runs = scan(&files)?.select(columns);
-        let frame =
-            wanted.join(runs, [col("run")], [col("run")], JoinArgs::new(JoinType::Inner)).collect()?;
-        let answer = |i: usize| {
-            let number = |&name: &&'static str| Ok(frame.column(name)?.f64()?.get(i));
-            let outcome = frame.column("ended")?.str()?.get(i).unwrap_or_default().to_owned();
-            let numbers = compared.numbers.iter().map(number).collect::<PolarsResult<_>>()?;
-            Ok((count(&frame, "run", i)?, Answer { outcome, numbers }))
-        };
-        (0..frame.height()).map(answer).collect()
+        let frame = read(&files, &[&["run", compared.outcome], compared.numbers].concat())?;
+        let wanted: BTreeSet<u64> = positions.iter().copied().collect();
+        let mut answers = BTreeMap::new();
+        for (row, run) in frame.counts("run")?.iter().enumerate() {
+            if let Some(run) = run.filter(|run| wanted.contains(run)) {
+                answers.insert(run, answer(Row { frame: &frame, row }, compared)?);
+            }
+        }
+        Ok(answers)
     };
     read().map_err(|e| Error::table(folder, e))
+}
+
+fn answer(run: Row<'_>, compared: &Compared) -> PolarsResult<Answer> {
+    let numbers =
+        compared.numbers.iter().map(|&name| run.optional_number(name)).collect::<PolarsResult<_>>()?;
+    Ok(Answer { outcome: run.optional_text(compared.outcome)?.unwrap_or_default(), numbers })
 }

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use polars::prelude::*;
+use polars::prelude::{PolarsError, PolarsResult};
 
 use crate::error::{Error, InputError, Result};
+use crate::store::frame::{self, Frame};
 use mrbd_files::suggestion::with_suggestion;
 
 /// A column as it stands in the table; an empty cell or a null is none.
@@ -168,37 +169,24 @@ fn find(path: &Path, names: &[String], known: &[&str]) -> Result<Vec<usize>> {
 fn read_parquet(path: &Path, files: &[PathBuf], names: Vec<String>) -> Result<Table> {
     let unreadable =
         |e: PolarsError| InputError::file(path, e.to_string(), "a Parquet table that can be read");
-    let mut frame = scan(files).map_err(unreadable)?;
-    let schema = frame.collect_schema().map_err(unreadable)?;
-    let known: Vec<&str> = schema.iter_names().map(|name| name.as_str()).collect();
+    let known = match files.first() {
+        Some(first) => frame::column_names(first).map_err(unreadable)?,
+        None => Vec::new(),
+    };
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
     find(path, &names, &known)?;
-    let chosen: Vec<Expr> = names.iter().map(|name| as_cells(name, schema.get(name))).collect();
-    let frame = frame.select(chosen).collect().map_err(unreadable)?;
+    let frame = frame::read(files, &names).map_err(unreadable)?;
     let columns: PolarsResult<Vec<Cells>> = names.iter().map(|name| cells(&frame, name)).collect();
     let columns = columns.map_err(|e| Error::table(path, e))?;
     Ok(Table { path: path.to_path_buf(), names, columns, rows: frame.height(), lines: None })
 }
 
-fn scan(files: &[PathBuf]) -> PolarsResult<LazyFrame> {
-    let paths: PolarsResult<Vec<_>> = files.iter().map(|path| PlRefPath::try_from_path(path)).collect();
-    // Names of records may hold what a pattern would read as a wildcard, and stand in the files themselves.
-    let hive_options = HiveOptions { enabled: Some(false), ..Default::default() };
-    let arguments = ScanArgsParquet { hive_options, glob: false, ..Default::default() };
-    LazyFrame::scan_parquet_files(paths?.into(), arguments)
-}
-
-/// Numbers and truth values as f64, everything else as text.
-fn as_cells(name: &str, kind: Option<&DataType>) -> Expr {
-    let numeric = kind.is_some_and(|kind| kind.is_primitive_numeric() || kind.is_bool());
-    col(name).cast(if numeric { DataType::Float64 } else { DataType::String })
-}
-
-fn cells(frame: &DataFrame, name: &str) -> PolarsResult<Cells> {
-    let column = frame.column(name)?;
-    if column.dtype() == &DataType::Float64 {
-        return Ok(Cells::Numbers(column.f64()?.iter().collect()));
+fn cells(frame: &Frame, name: &str) -> PolarsResult<Cells> {
+    if let Some(numbers) = frame.as_numbers(name)? {
+        return Ok(Cells::Numbers(numbers.iter().collect()));
     }
-    Ok(Cells::Texts(column.str()?.iter().map(|text| text.map(str::to_owned)).collect()))
+    let texts = frame.texts(name)?;
+    Ok(Cells::Texts((0..frame.height()).map(|row| texts.get(row).map(str::to_owned)).collect()))
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! A drawing of plotters made into PNG.
 //!
-//! The four chunks of a PNG are written here, over libraries that are in the tree already: the crates that write them
-//! would change features that polars is built with.
+//! The four chunks of a PNG are written here: deflate and a checksum are all that they need of other libraries.
 
 use std::io::{self, Write};
 

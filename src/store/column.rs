@@ -4,8 +4,10 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use arrow::array::{ArrayRef, BooleanArray, Float64Array, StringArray, StringDictionaryBuilder, UInt64Array};
-use arrow::datatypes::{DataType, Field, Int32Type};
+use arrow_array::builder::StringDictionaryBuilder;
+use arrow_array::types::Int32Type;
+use arrow_array::{ArrayRef, BooleanArray, Float64Array, StringArray, UInt64Array};
+use arrow_schema::{DataType, Field};
 
 /// How a column is read off a row; `None` where the value does not exist.
 pub enum Read<R> {

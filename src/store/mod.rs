@@ -2,6 +2,7 @@
 
 pub(crate) mod column;
 pub(crate) mod durable;
+pub(crate) mod frame;
 mod history;
 pub(crate) mod parquet_file;
 mod whole_folder;

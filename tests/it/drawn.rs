@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use arrow::array::{Array, AsArray};
-use arrow::datatypes::UInt64Type;
-use arrow::record_batch::RecordBatch;
+use arrow_array::cast::AsArray;
+use arrow_array::types::UInt64Type;
+use arrow_array::{Array, RecordBatch};
 use mrbd::aggregate::{Distribution, distributions};
 use mrbd::study::batch::run_one;
 use mrbd::study::campaign::Shard;

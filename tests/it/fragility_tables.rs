@@ -114,7 +114,7 @@ fn regress_groups_clusters_curves_and_what_is_unknown() {
 
 #[test]
 fn analytic_the_same_table_as_parquet_gives_the_same_numbers() {
-    use arrow::array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray};
+    use arrow_array::{ArrayRef, BooleanArray, Float64Array, RecordBatch, StringArray};
     use std::sync::Arc;
     let folder = tempfile::tempdir().expect("a temporary folder");
     let outcomes =

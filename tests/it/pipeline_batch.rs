@@ -102,7 +102,7 @@ fn regress_files_tell_units_meanings_and_assumptions() {
 
 #[test]
 fn regress_values_that_do_not_exist_are_null() {
-    use arrow::array::Array;
+    use arrow_array::Array;
     let (folder, _) = study(10);
     let nulls = |record: u32, column: &str| {
         let path = folder.path().join(format!("runs/record=record%20{record}/part-1.parquet"));
