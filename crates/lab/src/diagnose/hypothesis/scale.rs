@@ -74,6 +74,18 @@ fn largest_rad(theta_rad: &[f64], alpha_rad: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::hypothesis::example::SCALES;
+    use mrbd_kernel::model::EffectKind;
+
+    #[test]
+    fn analytic_every_number_of_the_catalogue_has_a_size_that_matters() {
+        for kind in EffectKind::ALL {
+            for parameter in kind.entry().parameters {
+                let size = SCALES.size(parameter.quantity);
+                assert!(size.is_finite() && size > 0.0, "{} {}: {size}", kind.name(), parameter.key);
+            }
+        }
+    }
 
     #[test]
     fn analytic_the_swing_in_which_a_wall_falls_tells_no_size() {
