@@ -48,13 +48,15 @@
 //! use mrbd_kernel::model::{Wall, WallParameters};
 //! use mrbd_kernel::simulate::{Accuracy, Shaking, simulate};
 //!
-//! let facade = WallParameters { crack_height_m: Some(2.2), stiffness_n_per_m: 40e3, ..WallParameters::strip(0.3, 4.0, 1800.0) };
-//! let wall = Wall::new(facade)?;
+//! let strip = WallParameters::strip(0.3, 4.0, 1800.0);
+//! let wall = Wall::new(WallParameters { crack_height_m: Some(2.2), stiffness_n_per_m: 40e3, ..strip })?;
 //! let step_s = 0.005;
 //! let pulse = (0..200).map(|k| 3.0 * (2.0 * std::f64::consts::PI * k as f64 * step_s).sin()).collect();
 //! let shaking = Shaking { horizontal: Some(Accelerogram::new(step_s, pulse)?), vertical: None, tail_s: 5.0 };
 //! let response = simulate(&wall, &shaking, Accuracy::default());
-//! println!("θ_1 {:.4} rad, θ_2 {:.4} rad", response.peaks[0].theta_rad, response.peaks[1].theta_rad);
+//! let [lower, upper] = response.theta_max_rad;
+//! assert!(lower.value.abs() > 0.0, "the wall rocks");
+//! println!("θ_1 {:.4} rad, θ_2 {:.4} rad", lower.value, upper.value);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

@@ -27,7 +27,7 @@ pub fn assumptions(study: &Study) -> Vec<(String, String)> {
     ];
     if !p.effects.is_empty() {
         let effect = |e: &Effect| {
-            let values = e.kind().parameters.iter().zip(e.parameters());
+            let values = e.entry().parameters.iter().zip(e.parameters());
             let values = values.map(|(p, value)| format!("{} = {value}", p.key)).collect::<Vec<_>>();
             format!("{} ({})", e.variant().name(), values.join(", "))
         };

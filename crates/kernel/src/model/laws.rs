@@ -2,7 +2,7 @@
 
 use wide::f64x2;
 
-use super::effect::EffectSums;
+use super::effect::{EffectSums, Lanes};
 use crate::fused::fused;
 
 /// Everything that acts on the wall beyond its own masses, summed over the wall's spring and its effects.
@@ -24,6 +24,8 @@ pub(crate) struct Laws {
     pub drag_n: f64,
     /// c at the ground and at the crack, N m s/rad.
     pub joint_damping_n_m_s: [f64; 2],
+    /// What the lanes do of these laws, as the catalogue says of the effects they are made of.
+    pub lanes: Lanes,
 }
 
 impl Laws {
@@ -38,6 +40,17 @@ impl Laws {
             viscous_n_s_per_m: effects.viscous_n_s_per_m,
             drag_n: 0.0,
             joint_damping_n_m_s: effects.joint_damping_n_m_s,
+            lanes: effects.lanes,
+        }
+    }
+
+    /// Whether the lanes do all sums of these laws.
+    #[inline]
+    pub fn known_to_lanes(&self) -> bool {
+        match self.lanes {
+            Lanes::Known => true,
+            Lanes::WhileElastic => self.drag_n == 0.0,
+            Lanes::Unknown => false,
         }
     }
 

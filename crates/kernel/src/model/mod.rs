@@ -30,7 +30,8 @@ pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub use crushing::crushed_widths_m;
 pub(crate) use effect::GroundChange;
 pub use effect::{
-    Effect, EffectChoice, EffectError, EffectKind, EffectParameter, EffectVariant, Place, Reading,
+    Effect, EffectChoice, EffectEntry, EffectError, EffectKind, EffectParameter, EffectVariant, Lanes, Place,
+    Quantity, Reading, Role,
 };
 pub use impact::Impact;
 pub use joint::{JointForce, JointForces};

@@ -86,20 +86,29 @@ pub(crate) struct Restraint {
 
 impl Restraint {
     /// The laws of a wall, if any has a kink.
+    ///
+    /// Every sum by its name: a new one does not compile here until somebody says whether its law has kinks.
     pub fn new(smooth: Laws, effects: &EffectSums) -> Option<Self> {
-        let restraint = Self {
-            smooth,
-            floor_n_per_m: smooth.stiffness_n_per_m,
-            friction_n: effects.friction_n,
-            gap_m: effects.gap_half_width_m,
-            one_sided_n_per_m: effects.one_sided_n_per_m,
-            yielding: effects.yielding,
-        };
-        let kinks = effects.friction_n > 0.0
-            || effects.gap_half_width_m > 0.0
-            || effects.one_sided_n_per_m != [0.0; 2]
-            || effects.yielding.is_some();
-        kinks.then_some(restraint)
+        let EffectSums {
+            friction_n,
+            gap_half_width_m: gap_m,
+            one_sided_n_per_m,
+            yielding,
+            // In the smooth laws.
+            carriage_mass_kg: _,
+            viscous_n_s_per_m: _,
+            cubic_n_per_m3: _,
+            joint_damping_n_m_s: _,
+            lanes: _,
+            // In the widths, at impacts, in the ground motion, in the reading.
+            indentation_m: _,
+            impact_factors: _,
+            ground: _,
+            reading: _,
+        } = *effects;
+        let kinks = friction_n > 0.0 || gap_m > 0.0 || one_sided_n_per_m != [0.0; 2] || yielding.is_some();
+        let floor_n_per_m = smooth.stiffness_n_per_m;
+        kinks.then_some(Self { smooth, floor_n_per_m, friction_n, gap_m, one_sided_n_per_m, yielding })
     }
 
     /// F_c, N.

@@ -1,7 +1,7 @@
 //! The equations of motion of several walls side by side, in the lanes of vector registers.
 //!
 //! The same sums in the same order as in [`super::motion`] and [`super::balance`], lane by lane: a wall moves the same to the
-//! bit alone and beside others. Only for walls without dampers, held tops and cubic springs; the others move alone.
+//! bit alone and beside others. Only for walls whose effects the lanes know, as the catalogue says; the others move alone.
 //!
 //! What works on lanes is `#[inline(always)]`, closures are avoided: only so does all of it become part of the one function
 //! that is compiled for the vector instructions of a processor.
@@ -12,6 +12,7 @@ use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4}
 
 use super::balance::Aftermath;
 use super::joint::{JointForce, JointForces};
+use super::laws::Laws;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
 use super::vector::{COS, SIN, sin_cos};
@@ -90,11 +91,40 @@ pub(crate) struct AftermathLanes<S: Simd> {
 }
 
 impl Motion {
-    /// How this motion may go side by side with others: none, or whether it turns as one.
+    /// Whether this motion turns as one, where it may go side by side with others; `None` where it moves alone.
     #[inline]
     pub fn side_by_side(&self) -> Option<bool> {
-        let plain = !self.damped && !self.held && self.laws.cubic_n_per_m3 == 0.0;
-        plain.then(|| self.freedom == Freedom::Monolithic)
+        self.laws.known_to_lanes().then(|| self.freedom == Freedom::Monolithic)
+    }
+}
+
+/// The laws of which the lanes do the sums.
+#[derive(Clone, Copy)]
+struct LaneLaws {
+    m_dp: f64,
+    stiffness: f64,
+    offset: f64,
+}
+
+impl LaneLaws {
+    /// Every law by its name: a new one does not compile here until the lanes do its sums, or the catalogue says of its
+    /// effect that they do not.
+    #[inline(always)]
+    fn of(motion: &Motion) -> Self {
+        let Laws {
+            carriage_mass_kg: m_dp,
+            stiffness_n_per_m: stiffness,
+            spring_offset_n: offset,
+            // Energy, of which a step needs none.
+            stored_offset_j: _,
+            // Of effects that the catalogue calls unknown to the lanes.
+            cubic_n_per_m3: _,
+            viscous_n_s_per_m: _,
+            drag_n: _,
+            joint_damping_n_m_s: _,
+            lanes: _,
+        } = motion.laws;
+        Self { m_dp, stiffness, offset }
     }
 }
 
@@ -162,9 +192,9 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
             lower_mass: lanes(|m| m.lower_mass),
             upper_mass: lanes(|m| m.upper_mass),
             lower_inertia: lanes(|m| m.lower_inertia),
-            m_dp: lanes(|m| m.laws.carriage_mass_kg),
-            stiffness: lanes(|m| m.laws.stiffness_n_per_m),
-            offset: lanes(|m| m.laws.spring_offset_n),
+            m_dp: lanes(|m| LaneLaws::of(m).m_dp),
+            stiffness: lanes(|m| LaneLaws::of(m).stiffness),
+            offset: lanes(|m| LaneLaws::of(m).offset),
         }
     }
 

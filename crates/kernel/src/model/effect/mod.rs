@@ -1,24 +1,25 @@
 //! Further effects: named additions to the model, each with its place, parameters, units and bounds.
 //!
 //! The wall is the model of the paper; an effect adds one physical law to it without touching the rest.
-//! The carriage mass is the paper's own example of an effect that the first model lacked. Each kind is one entry of the
-//! catalogue, in the file of the place where it acts; what all effects of a wall come to is one [`EffectSums`].
+//! The carriage mass is the paper's own example of an effect that the first model lacked.
+//!
+//! Each kind is one line of the catalogue and one [`EffectEntry`], which says what it is and holds its law.
+//! What all effects of a wall come to is one [`EffectSums`].
+//! A new kind does not compile until its entry is whole; the tests over the catalogue then run it.
 
 use std::fmt;
 
-mod at_impacts;
-mod at_joints;
-mod at_top;
 mod catalogue;
-mod check;
-mod in_ground;
-mod in_sensor;
+mod entry;
+mod signal;
+mod structural;
 mod sums;
 mod toml_form;
 
-pub use catalogue::{EffectChoice, EffectKind, EffectParameter, EffectVariant, Place};
-pub(super) use check::check;
+pub use catalogue::{EffectKind, EffectVariant};
+pub use entry::{EffectChoice, EffectEntry, EffectParameter, Lanes, Place, Quantity, Role};
 pub use sums::Reading;
+pub(super) use sums::check;
 pub(crate) use sums::{EffectSums, GroundChange, Yielding};
 
 /// Parameters of the kind that has most: one a coefficient of Table 2.
@@ -63,7 +64,7 @@ pub enum EffectError {
         allowed: String,
     },
     /// A value outside the bounds of its parameter.
-    #[error("{value} for `{key}` of {kind}, expected {} to {} {}", allowed.least, allowed.most, allowed.unit)]
+    #[error("{value} for `{key}` of {kind}, expected {} to {} {}", allowed.least, allowed.most, allowed.unit())]
     Bounds {
         /// The kind.
         kind: &'static str,
@@ -81,26 +82,14 @@ fn listed<'a>(names: impl Iterator<Item = &'a &'static str>) -> String {
 }
 
 fn names() -> String {
-    listed(Effect::kinds().iter().map(|kind| &kind.name))
+    listed(EffectKind::ALL.iter().map(|kind| &kind.entry().name))
 }
 
 impl Effect {
-    /// The catalogue: every kind of effect.
-    pub fn kinds() -> &'static [EffectKind] {
-        &catalogue::KINDS
-    }
-
-    /// A kind by the name it has in wall files.
+    /// An effect with the values of its parameters in the order of [`EffectEntry::parameters`].
     ///
-    /// # Errors
-    /// [`EffectError::UnknownKind`], with the names there are.
-    pub fn kind_named(name: &str) -> Result<&'static EffectKind, EffectError> {
-        let found = Self::kinds().iter().find(|kind| kind.name == name);
-        found.ok_or_else(|| EffectError::UnknownKind { found: name.to_owned() })
-    }
-
-    /// An effect with the values of its parameters in the order of [`EffectKind::parameters`]; the name is that of a
-    /// kind, followed by a dot and the choice where the kind has one ([`EffectVariant::name`]): `joint_damping.crack`.
+    /// The name is that of a kind, with a dot and the choice where the kind has one: `joint_damping.crack`
+    /// ([`EffectVariant::name`]).
     ///
     /// # Errors
     /// A kind or choice there is not; not as many values as parameters; a value outside its bounds.
@@ -109,12 +98,17 @@ impl Effect {
             Some((kind, choice)) => (kind, Some(choice)),
             None => (name, None),
         };
-        Self::kind_named(kind)?.variant(choice)?.with_parameters(values)
+        EffectKind::named(kind)?.variant(choice)?.with_parameters(values)
     }
 
-    /// The entry of the catalogue.
-    pub fn kind(&self) -> &'static EffectKind {
+    /// Its kind.
+    pub fn kind(&self) -> EffectKind {
         self.variant.kind
+    }
+
+    /// What the catalogue says of its kind.
+    pub fn entry(&self) -> &'static EffectEntry {
+        self.variant.entry()
     }
 
     /// The kind together with the choice made of it.
@@ -122,13 +116,18 @@ impl Effect {
         self.variant
     }
 
-    /// The values of the parameters, in the order of [`EffectKind::parameters`].
+    /// The values of the parameters, in the order of [`EffectEntry::parameters`].
     pub fn parameters(&self) -> Vec<f64> {
         self.values().to_vec()
     }
 
+    /// Whether it does nothing: all its values are the neutral ones of the catalogue.
+    pub fn is_neutral(&self) -> bool {
+        *self == self.variant.neutral()
+    }
+
     fn values(&self) -> &[f64] {
-        &self.values[..self.kind().parameters.len()]
+        &self.values[..self.entry().parameters.len()]
     }
 
     /// The `i`-th parameter.
@@ -138,9 +137,7 @@ impl Effect {
 
     /// Position of the choice among the options of its kind; 0 where there is none.
     fn choice_index(&self) -> usize {
-        let chosen =
-            |choice: &EffectChoice| choice.options.iter().position(|o| Some(*o) == self.variant.choice);
-        self.kind().choice.as_ref().and_then(chosen).unwrap_or(0)
+        self.variant.choice_index()
     }
 }
 

@@ -1,6 +1,10 @@
-//! What all effects of a wall come to.
+//! What all effects of a wall come to, and which effects a wall can have.
 
-use super::Effect;
+use std::borrow::Cow;
+
+use super::super::contact::Joint;
+use super::super::wall::{ImpossibleWall, WallParameters};
+use super::{Effect, EffectKind, Lanes};
 
 /// Everything the effects of a wall add to it; without effects, nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +33,8 @@ pub(crate) struct EffectSums {
     pub ground: GroundChange,
     /// What becomes of the rotations when they are read.
     pub reading: Reading,
+    /// What the lanes do of all these sums together.
+    pub lanes: Lanes,
 }
 
 /// An elastic spring of limited force.
@@ -104,11 +110,59 @@ impl EffectSums {
         impact_factors: [1.0; 8],
         ground: GroundChange::NONE,
         reading: Reading::TRUE,
+        lanes: Lanes::Known,
     };
 
     pub fn of(effects: &[Effect]) -> Self {
         let mut sums = Self::NONE;
-        effects.iter().for_each(|effect| (effect.kind().add)(effect, &mut sums));
+        for effect in effects {
+            (effect.entry().add)(effect, &mut sums);
+            if !effect.is_neutral() {
+                sums.lanes = sums.lanes.max(effect.entry().lanes);
+            }
+        }
         sums
     }
+}
+
+/// Refuses effects that a wall cannot have: bounds of single values are checked already.
+///
+/// # Errors
+/// [`ImpossibleWall`] with the key of the effect.
+pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(), ImpossibleWall> {
+    for (i, effect) in p.effects.iter().enumerate() {
+        let kind = effect.entry();
+        let again = p.effects[..i].iter().any(|earlier| earlier.kind() == effect.kind());
+        if again && !kind.may_repeat {
+            let found = format!("{} again", kind.name);
+            return Err(refused(i, found, "one effect of this kind: two have no common law".to_owned()));
+        }
+        if effect.variant().joint() == Some(Joint::Crack) && p.crack_height_m.is_none() {
+            let found = format!("{} at the crack of a wall without one", kind.name);
+            return Err(refused(i, found, "joint = \"ground\"".to_owned()));
+        }
+    }
+    let widths = [("lower", p.lower_width_m), ("upper", p.upper_width_m)];
+    for ((body, width_m), indentation_m) in widths.into_iter().zip(sums.indentation_m) {
+        if indentation_m >= width_m {
+            let found = format!("corners that lie {indentation_m} m inwards");
+            let i = last(&p.effects, EffectKind::CornerIndentation);
+            return Err(refused(i, found, format!("below corners.{body}_width_m = {width_m}")));
+        }
+    }
+    for (c_l, factor) in p.restitution.coefficients.into_iter().zip(sums.impact_factors) {
+        if c_l * factor > 2.0 {
+            let i = last(&p.effects, EffectKind::ImpactDissipation);
+            return Err(refused(i, format!("C_l times factor = {}", c_l * factor), "0 to 2".to_owned()));
+        }
+    }
+    Ok(())
+}
+
+fn last(effects: &[Effect], kind: EffectKind) -> usize {
+    effects.iter().rposition(|effect| effect.kind() == kind).unwrap_or(0)
+}
+
+fn refused(i: usize, found: String, allowed: String) -> ImpossibleWall {
+    ImpossibleWall { key: Cow::Owned(format!("effects.{i}")), found, allowed }
 }

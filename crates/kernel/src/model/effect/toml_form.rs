@@ -6,17 +6,17 @@ use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::{Effect, EffectError, EffectKind};
+use super::{Effect, EffectEntry, EffectError, EffectKind};
 
 impl Serialize for Effect {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
-        map.serialize_entry("kind", self.kind().name)?;
-        if let (Some(choice), Some(word)) = (self.kind().choice, self.variant().choice) {
+        map.serialize_entry("kind", self.entry().name)?;
+        if let (Some(choice), Some(word)) = (self.entry().choice, self.variant().choice) {
             map.serialize_entry(choice.key, word)?;
         }
         let mut values = self.values();
-        for (key, count) in self.kind().keys() {
+        for (key, count) in self.entry().keys() {
             let (of_key, others) = values.split_at(count.unwrap_or(1));
             values = others;
             match count {
@@ -28,7 +28,7 @@ impl Serialize for Effect {
     }
 }
 
-impl EffectKind {
+impl EffectEntry {
     /// The keys of the numbers in wall files: one number each, or a list of so many.
     fn keys(&self) -> Vec<(&'static str, Option<usize>)> {
         let mut keys: Vec<(&'static str, Option<usize>)> = Vec::new();
@@ -42,7 +42,7 @@ impl EffectKind {
         keys
     }
 
-    fn told_keys(&self) -> String {
+    fn listed_keys(&self) -> String {
         let numbers = self.keys().into_iter().map(|(key, _)| key);
         let keys = self.choice.iter().map(|choice| choice.key).chain(numbers);
         keys.map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ")
@@ -98,16 +98,17 @@ impl<'de> Visitor<'de> for EffectVisitor {
 }
 
 fn from_items(name: &str, mut items: Vec<(String, Item)>) -> Result<Effect, EffectError> {
-    let kind = Effect::kind_named(name)?;
-    let refused = |found: String, allowed: String| EffectError::Keys { kind: kind.name, found, allowed };
+    let kind = EffectKind::named(name)?;
+    let entry = kind.entry();
+    let refused = |found: String, allowed: String| EffectError::Keys { kind: entry.name, found, allowed };
     let mut take = |key: &str| items.iter().position(|(k, _)| k == key).map(|at| items.remove(at).1);
-    let word = match kind.choice.and_then(|choice| take(choice.key)) {
+    let word = match entry.choice.and_then(|choice| take(choice.key)) {
         None => None,
         Some(Item::Word(word)) => Some(word),
         Some(other) => Some(other.to_string()),
     };
     let mut values = Vec::new();
-    for (key, count) in kind.keys() {
+    for (key, count) in entry.keys() {
         match (take(key), count) {
             (Some(Item::Number(value)), None) => values.push(value),
             (Some(Item::List(list)), Some(count)) if list.len() == count => values.extend(list),
@@ -121,7 +122,7 @@ fn from_items(name: &str, mut items: Vec<(String, Item)>) -> Result<Effect, Effe
         }
     }
     if let Some((key, _)) = items.first() {
-        return Err(refused(format!("unknown key `{key}`"), format!("one of {}", kind.told_keys())));
+        return Err(refused(format!("unknown key `{key}`"), format!("one of {}", entry.listed_keys())));
     }
     kind.variant(word.as_deref())?.with_parameters(&values)
 }

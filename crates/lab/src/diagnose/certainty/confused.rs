@@ -116,7 +116,7 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
         // Half the square of the size over its standard deviation is what speaks for one and against the other.
         told_apart: (2.0 * EQUIVALENT / left).sqrt(),
         matters: unknown.scale,
-        told_by: variant.kind.told_by,
+        told_by: variant.entry().told_by,
     })
 }
 

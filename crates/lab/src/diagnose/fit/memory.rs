@@ -6,7 +6,7 @@
 
 use crate::diagnose::hypothesis::Physics;
 use crate::diagnose::measured::TestData;
-use mrbd_kernel::model::{Contact, Effect, Pair, RockingWall};
+use mrbd_kernel::model::{Contact, Effect, Pair, RockingWall, Role};
 
 /// Stretch of a yielding spring along a test.
 #[derive(Debug)]
@@ -18,7 +18,7 @@ pub struct SpringMemory {
 impl SpringMemory {
     /// Carries the spring of a wall along a test.
     pub fn new(test: &TestData, physics: &Physics) -> Self {
-        let yields = |effect: &Effect| effect.kind().name == "yielding_spring";
+        let yields = |effect: &Effect| effect.entry().role == Role::Memory;
         if !physics.wall.parameters().effects.iter().any(yields) {
             return Self { elastic_m: Vec::new() };
         }

@@ -2,7 +2,9 @@
 
 use super::unknown::Slot;
 use super::{Scales, Unknown, WallNumber};
-use mrbd_kernel::model::{EffectParameter, EffectVariant, Place, WallParameters};
+use mrbd_kernel::model::{
+    EffectKind, EffectParameter, EffectVariant, Joint, Place, Quantity, Role, WallParameters,
+};
 
 /// Coefficients that impacts under the law `contact` can act with; C_7 and C_8 belong to impacts that end in sticking.
 pub const ACTING: usize = 6;
@@ -29,19 +31,24 @@ impl Addition {
     pub fn name(&self) -> String {
         match self {
             Addition::Effect(variant) => variant.name(),
-            Addition::LumpedCarriage => "carriage_mass.lumped".into(),
+            Addition::LumpedCarriage => format!("{}.lumped", EffectKind::CarriageMass.name()),
             Addition::Number(number) => number.key.into(),
             Addition::Placebo => "placebo".into(),
         }
     }
 
-    /// Kind of effect it is called by in answers; none for what is no answer.
-    pub fn kind(&self) -> Option<&'static str> {
+    /// Kind of effect it is called by in answers; `None` for what is no answer.
+    pub fn kind(&self) -> Option<EffectKind> {
         match self {
-            Addition::Effect(variant) => Some(variant.kind.name),
-            Addition::LumpedCarriage => Some("carriage_mass"),
+            Addition::Effect(variant) => Some(variant.kind),
+            Addition::LumpedCarriage => Some(EffectKind::CarriageMass),
             Addition::Number(_) | Addition::Placebo => None,
         }
+    }
+
+    /// Its role in the mechanics of the wall; `None` for what is no answer.
+    pub fn role(&self) -> Option<Role> {
+        self.kind().map(|kind| kind.entry().role)
     }
 
     /// Where it acts.
@@ -58,13 +65,12 @@ impl Addition {
 
     /// The numbers to be found of the addition with this index.
     pub(super) fn unknowns(&self, base: &WallParameters, scales: &Scales, index: usize) -> Vec<Unknown> {
-        let alone = |key: &str, unit, start, lower, upper| {
-            let scale = scales.of_unit(unit, key);
+        let alone = |key: &str, quantity: Quantity, start, lower, upper| {
             vec![Unknown {
                 key: key.into(),
-                unit,
+                unit: quantity.unit(),
                 start,
-                scale,
+                scale: scales.size(quantity),
                 lower,
                 upper,
                 prior_sd: None,
@@ -73,28 +79,28 @@ impl Addition {
         };
         match self {
             Addition::Effect(variant) => effect_unknowns(*variant, scales, index),
-            Addition::LumpedCarriage => alone("mass_kg", "kg", 0.0, 0.0, base.diaphragm_mass_kg),
+            Addition::LumpedCarriage => alone("mass_kg", Quantity::TopMass, 0.0, 0.0, base.diaphragm_mass_kg),
             Addition::Number(number) => {
                 let value = (number.get)(base);
-                let reach = if value == 0.0 { scales.of_unit(number.unit, number.key) } else { value.abs() };
+                let reach = if value == 0.0 { scales.size(number.quantity) } else { value.abs() };
                 let mut unknowns =
-                    alone(number.key, number.unit, value, value - 0.9 * reach, value + 4.0 * reach);
+                    alone(number.key, number.quantity, value, value - 0.9 * reach, value + 4.0 * reach);
                 unknowns[0].scale = reach;
                 unknowns
             }
-            Addition::Placebo => alone("ratio", "", 0.0, -2.0, 2.0),
+            Addition::Placebo => alone("ratio", Quantity::Ratio, 0.0, -2.0, 2.0),
         }
     }
 }
 
 /// Name of the place of a kind in answers.
 fn place_name(variant: &EffectVariant) -> &'static str {
-    match variant.kind.place {
+    match variant.entry().place {
         Place::Top => "top",
-        Place::Joint => match variant.choice {
-            Some("ground") => "ground",
-            Some("crack") => "crack",
-            _ => "joint",
+        Place::Joint => match variant.joint() {
+            Some(Joint::Ground) => "ground",
+            Some(Joint::Crack) => "crack",
+            None => "joint",
         },
         Place::Impacts => "impacts",
         Place::GroundMotion => "ground motion",
@@ -103,26 +109,21 @@ fn place_name(variant: &EffectVariant) -> &'static str {
 }
 
 fn effect_unknowns(variant: EffectVariant, scales: &Scales, index: usize) -> Vec<Unknown> {
-    let parameters = variant.kind.parameters.iter().enumerate();
-    let acting = |(i, _): &(usize, _)| variant.kind.name != "impact_dissipation" || *i < ACTING;
+    let parameters = variant.entry().parameters.iter().enumerate();
+    let acting = |(i, _): &(usize, _)| variant.entry().role != Role::Impact || *i < ACTING;
     let unknown = |(i, parameter): (usize, &EffectParameter)| {
-        let scale = scales.of_unit(parameter.unit, parameter.key);
-        let damper = matches!(parameter.unit, "N s/m" | "N m s/rad");
+        let scale = scales.size(parameter.quantity);
+        let damper = variant.entry().role == Role::Damper;
         Unknown {
             key: parameter.key.into(),
-            unit: parameter.unit,
-            start: neutral(parameter.key).clamp(parameter.least, parameter.most),
+            unit: parameter.unit(),
+            start: parameter.neutral,
             scale,
             lower: parameter.least,
             upper: if damper { parameter.most.min(STRONGEST_DAMPER * scale) } else { parameter.most },
-            prior_sd: parameter.key.starts_with("factor").then_some(FACTOR_SD),
+            prior_sd: (parameter.quantity == Quantity::ImpactFactor).then_some(FACTOR_SD),
             slot: Slot::Added(index, i),
         }
     };
     parameters.filter(acting).map(unknown).collect()
-}
-
-/// The value of a number at which its effect does nothing.
-pub fn neutral(key: &str) -> f64 {
-    if key.starts_with("gain") || key.starts_with("factor") { 1.0 } else { 0.0 }
 }

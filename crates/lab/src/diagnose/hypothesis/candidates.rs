@@ -2,7 +2,7 @@
 
 use super::Addition;
 use super::wall_number::wall_number;
-use mrbd_kernel::model::{Effect, WallParameters};
+use mrbd_kernel::model::{EffectKind, WallParameters};
 
 /// Numbers of the wall that stand beside the effects as rivals: what a wrong drawing or a wrong weight would do.
 const RIVAL_NUMBERS: [&str; 5] = [
@@ -17,7 +17,7 @@ const RIVAL_NUMBERS: [&str; 5] = [
 /// them, and a placebo.
 pub fn candidates(wall: &WallParameters) -> Vec<Addition> {
     let mut all =
-        Effect::kinds().iter().flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();
+        EffectKind::ALL.iter().flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();
     if wall.diaphragm_mass_kg > 0.0 {
         all.push(Addition::LumpedCarriage);
     }

@@ -8,7 +8,7 @@ use super::scale::Scales;
 use mrbd_files::parse_wall;
 
 /// Sizes as in a test of some strength.
-const SCALES: Scales = Scales {
+pub const SCALES: Scales = Scales {
     displacement_m: 0.05,
     rotation_rad: 0.02,
     frequency_rad_s: 5.0,

@@ -9,7 +9,7 @@ mod scale;
 mod unknown;
 mod wall_number;
 
-pub use addition::{ACTING, Addition, neutral};
+pub use addition::{ACTING, Addition};
 pub use candidates::candidates;
 pub use nuisance::{Nuisance, PRIOR_REACH};
 pub use scale::Scales;
@@ -18,7 +18,7 @@ pub use wall_number::{WALL_NUMBERS, WallNumber, wall_number};
 
 use nalgebra::{DMatrix, DVector};
 
-use mrbd_kernel::model::{Effect, EffectVariant, Wall, WallParameters};
+use mrbd_kernel::model::{Effect, EffectKind, EffectVariant, Role, Wall, WallParameters};
 use unknown::Slot;
 
 /// The wall under a hypothesis, and the share of the reversed record that a placebo shakes it with upwards.
@@ -53,7 +53,7 @@ impl Hypothesis {
         // A number that an addition sets free has no prior.
         let freed = |n: &&Nuisance| match n {
             Nuisance::Number(number, _) => !additions.contains(&Addition::Number(number)),
-            Nuisance::Coefficient(..) => !additions.iter().any(|a| a.kind() == Some("impact_dissipation")),
+            Nuisance::Coefficient(..) => !additions.iter().any(|a| a.role() == Some(Role::Impact)),
         };
         let mut unknowns = nuisances.iter().filter(freed).map(|n| n.unknown(base)).collect::<Vec<_>>();
         let count = unknowns.len();
@@ -109,7 +109,8 @@ impl Hypothesis {
                 }
                 Addition::LumpedCarriage => {
                     let mass_kg = self.added(index, 0, values)?;
-                    effects.push(Effect::with_parameters("carriage_mass", &[mass_kg]).ok()?);
+                    let carriage = EffectKind::CarriageMass.variant(None).ok()?;
+                    effects.push(carriage.with_parameters(&[mass_kg]).ok()?);
                 }
                 Addition::Number(_) | Addition::Placebo => {}
             }
@@ -149,7 +150,7 @@ impl Hypothesis {
     }
 
     fn parameters(&self, variant: EffectVariant, index: usize, values: &[f64]) -> Vec<f64> {
-        let parameters = variant.kind.parameters.iter().enumerate();
-        parameters.map(|(i, p)| self.added(index, i, values).unwrap_or(neutral(p.key))).collect()
+        let parameters = variant.entry().parameters.iter().enumerate();
+        parameters.map(|(i, p)| self.added(index, i, values).unwrap_or(p.neutral)).collect()
     }
 }

@@ -44,7 +44,7 @@ impl Nuisance {
     /// The number to be found.
     pub(super) fn unknown(&self, base: &WallParameters) -> Unknown {
         let (unit, relative, slot) = match *self {
-            Nuisance::Number(number, sd) => (number.unit, sd, Slot::Number(number)),
+            Nuisance::Number(number, sd) => (number.quantity.unit(), sd, Slot::Number(number)),
             Nuisance::Coefficient(l, sd) => ("", sd, Slot::Coefficient(l)),
         };
         let value = self.value(base);

@@ -1,7 +1,7 @@
-//! How large an effect would have to be to matter in these tests, by the unit of its number.
+//! How large an effect would have to be to matter in these tests, by the quantity of its number.
 
 use crate::diagnose::measured::TestData;
-use mrbd_kernel::model::{RockingWall, Wall};
+use mrbd_kernel::model::{Quantity, RockingWall, Wall};
 
 /// Sizes of the measured motion of the top and of the forces there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,26 +41,22 @@ impl Scales {
         }
     }
 
-    /// A size that would matter, of a number with this unit.
-    pub fn of_unit(&self, unit: &str, key: &str) -> f64 {
+    /// A size of this quantity that would matter.
+    pub fn size(&self, quantity: Quantity) -> f64 {
         let velocity_m_s = self.displacement_m * self.frequency_rad_s;
-        match unit {
-            "N" => self.force_n,
-            "N/m" => self.force_n / self.displacement_m,
-            "N/m³" => self.force_n / self.displacement_m.powi(3),
-            "N s/m" => self.force_n / velocity_m_s,
-            "kg" => self.force_n / (velocity_m_s * self.frequency_rad_s),
+        match quantity {
+            Quantity::TopForce => self.force_n,
+            Quantity::TopStiffness => self.force_n / self.displacement_m,
+            Quantity::TopCubicStiffness => self.force_n / self.displacement_m.powi(3),
+            Quantity::TopDamping => self.force_n / velocity_m_s,
+            Quantity::TopMass => self.force_n / (velocity_m_s * self.frequency_rad_s),
+            Quantity::TopDisplacement => self.displacement_m,
             // A quarter of the moment that opens a joint: beside it a damper there is as large as the others at the top.
-            "N m s/rad" => 0.25 * self.moment_n_m / (self.rotation_rad * self.frequency_rad_s),
-            // A depth is one of corners, any other length one of the top's displacement.
-            "m" if key.contains("depth") || key.contains("width_m") && !key.contains("half") => {
-                0.1 * self.width_m
-            }
-            "m" => self.displacement_m,
-            "rad" => 0.1 * self.rotation_rad,
-            "s" => 0.05 / self.frequency_rad_s,
-            // Gains, factors and ratios.
-            _ => 1.0,
+            Quantity::JointDamping => 0.25 * self.moment_n_m / (self.rotation_rad * self.frequency_rad_s),
+            Quantity::CornerWidth => 0.1 * self.width_m,
+            Quantity::Rotation => 0.1 * self.rotation_rad,
+            Quantity::Time => 0.05 / self.frequency_rad_s,
+            Quantity::Ratio | Quantity::ImpactFactor => 1.0,
         }
     }
 }
@@ -78,6 +74,18 @@ fn largest_rad(theta_rad: &[f64], alpha_rad: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::hypothesis::example::SCALES;
+    use mrbd_kernel::model::EffectKind;
+
+    #[test]
+    fn analytic_every_number_of_the_catalogue_has_a_size_that_matters() {
+        for kind in EffectKind::ALL {
+            for parameter in kind.entry().parameters {
+                let size = SCALES.size(parameter.quantity);
+                assert!(size.is_finite() && size > 0.0, "{} {}: {size}", kind.name(), parameter.key);
+            }
+        }
+    }
 
     #[test]
     fn analytic_the_swing_in_which_a_wall_falls_tells_no_size() {

@@ -2,6 +2,7 @@
 
 use super::{Data, Tried, kind_of};
 use crate::diagnose::fit::{WindowFit, more_poor_held_out_sd, poor_share, windowed_error};
+use mrbd_kernel::model::EffectKind;
 
 /// Windowed error, in standard deviations of the noise, that is noise. Some twenty null experiments, at noises of 1e-5 to
 /// 3e-4 rad, lie between 0.96 and 1.00.
@@ -72,11 +73,11 @@ pub fn closes(tried: &Tried, before: f64) -> bool {
 }
 
 /// Kinds of a hypothesis' additions, sorted; none if one is no answer.
-pub fn kinds(tried: &Tried) -> Option<Vec<&'static str>> {
+pub fn kinds(tried: &Tried) -> Option<Vec<EffectKind>> {
     let h = &tried.hypothesis;
     let kind = |index| kind_of(h, &tried.fit.values, index);
     let mut kinds = (0..h.additions.len()).map(kind).collect::<Option<Vec<_>>>()?;
-    kinds.sort_unstable();
+    kinds.sort_unstable_by_key(|kind| kind.name());
     Some(kinds)
 }
 

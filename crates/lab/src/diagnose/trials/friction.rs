@@ -14,11 +14,12 @@ use super::search::refit;
 use super::{Trials, is_noise, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, candidates};
+use mrbd_kernel::model::EffectKind;
 
-/// Name of the spring that yields in the catalogue.
-const SPRING: &str = "yielding_spring";
-/// Name of friction in the catalogue.
-pub const FRICTION: &str = "coulomb_friction";
+/// The spring that yields.
+const SPRING: EffectKind = EffectKind::YieldingSpring;
+/// Friction.
+pub const FRICTION: EffectKind = EffectKind::CoulombFriction;
 /// Share of the largest displacement of the top within which a spring yields that is friction. Chosen: a tie or a nail that
 /// yields gives by tens of percent of it, friction by hundredths of one.
 const AT_ONCE: f64 = 0.01;
@@ -52,12 +53,12 @@ fn number(h: &Hypothesis, index: usize, key: &str) -> Option<usize> {
 }
 
 /// Which addition of a hypothesis is of a kind.
-fn position(additions: &[Addition], kind: &str) -> Option<usize> {
+fn position(additions: &[Addition], kind: EffectKind) -> Option<usize> {
     additions.iter().position(|a| a.kind() == Some(kind))
 }
 
-/// Kind that an addition of a fitted hypothesis goes by in answers; none for what is no answer.
-pub fn kind_of(h: &Hypothesis, values: &[f64], index: usize) -> Option<&'static str> {
+/// Kind that an addition of a fitted hypothesis goes by in answers; `None` for what is no answer.
+pub fn kind_of(h: &Hypothesis, values: &[f64], index: usize) -> Option<EffectKind> {
     let friction = giving_friction(h, values, index).map(|_| FRICTION);
     friction.or_else(|| h.additions[index].kind())
 }
@@ -125,16 +126,16 @@ mod tests {
         let found = giving_friction(&h, &values(4e-4), 1).expect("friction");
         assert_eq!(found.force, 2);
         assert!((found.onset_m - 4e-4).abs() < 1e-18, "{found:?}");
-        assert_eq!(kind_of(&h, &values(4e-4), 1), Some("coulomb_friction"));
-        assert_eq!(kind_of(&h, &values(6e-4), 1), Some("yielding_spring"));
-        assert_eq!(kind_of(&h, &values(4e-4), 0), Some("viscous_damping"));
+        assert_eq!(kind_of(&h, &values(4e-4), 1), Some(FRICTION));
+        assert_eq!(kind_of(&h, &values(6e-4), 1), Some(SPRING));
+        assert_eq!(kind_of(&h, &values(4e-4), 0), Some(EffectKind::ViscousDamping));
         // A spring that holds nothing, or is none.
-        assert_eq!(kind_of(&h, &[0.0, 1e6, 0.0], 1), Some("yielding_spring"));
-        assert_eq!(kind_of(&h, &[0.0, 0.0, 0.0], 1), Some("yielding_spring"));
+        assert_eq!(kind_of(&h, &[0.0, 1e6, 0.0], 1), Some(SPRING));
+        assert_eq!(kind_of(&h, &[0.0, 0.0, 0.0], 1), Some(SPRING));
     }
 
     #[test]
     fn analytic_other_effects_keep_their_names() {
-        assert_eq!(kind_of(&with("gap"), &[0.0, 1e-6], 1), Some("gap"));
+        assert_eq!(kind_of(&with("gap"), &[0.0, 1e-6], 1), Some(EffectKind::Gap));
     }
 }

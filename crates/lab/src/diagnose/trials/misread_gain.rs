@@ -6,7 +6,7 @@
 use super::Tried;
 use crate::diagnose::fit::nats;
 use crate::diagnose::measured::TestData;
-use mrbd_kernel::model::Pair;
+use mrbd_kernel::model::{EffectKind, Pair};
 
 /// The gain of each channel that the best single effect names, where taking it out could change how a pattern is read.
 pub fn gain_misread(tests: &[TestData], best: &Tried) -> Option<Pair> {
@@ -28,7 +28,7 @@ pub fn set_gain(tests: &mut [TestData], gain: Pair) -> Pair {
 
 /// Whether the best single effect is a gain again, and leaves less of its windows than it left of those before.
 pub fn reads_better(before: &[Tried], after: &[Tried]) -> bool {
-    let is_gain = |t: &Tried| t.hypothesis.additions.iter().any(|a| a.kind() == Some("sensor_gain"));
+    let is_gain = |t: &Tried| t.hypothesis.additions.iter().any(|a| a.kind() == Some(EffectKind::SensorGain));
     let [Some(before), Some(after)] = [before, after].map(<[Tried]>::first) else { return false };
     is_gain(after) && left(after) < left(before)
 }

@@ -7,6 +7,7 @@ use super::search::{promise, try_second};
 use super::{Trials, Tried, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
+use mrbd_kernel::model::Role;
 
 /// Effects fitted beside the best single one because a linear look says that they take away most.
 const BESIDE: usize = 4;
@@ -49,7 +50,7 @@ impl<P: Progress> Trials<'_, P> {
         let effects = candidates(self.experiment.wall.parameters());
         // Factors on the coefficients of impact would free these of what was known of them.
         let known = self.experiment.nuisances.iter().any(|n| matches!(n, Nuisance::Coefficient(..)));
-        let effect = |a: &Addition| a.kind().is_some_and(|kind| !known || kind != "impact_dissipation");
+        let effect = |a: &Addition| a.role().is_some_and(|role| !known || role != Role::Impact);
         let effects = effects.into_iter().filter(effect).collect::<Vec<_>>();
         let Some(found) = seconds(&self.data, first, &effects, hypothesis) else { return Vec::new() };
         let found = found.into_iter().take(BESIDE).collect::<Vec<_>>();

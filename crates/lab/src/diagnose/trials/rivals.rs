@@ -8,6 +8,7 @@ use super::search::{refit, shared_states};
 use super::{Trials, Tried, against, closes, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, candidates};
+use mrbd_kernel::model::Role;
 
 /// Pairs, and single effects, that are fitted because they may stand for the best. Chosen: a pair that was the truth once
 /// came eighth.
@@ -23,7 +24,7 @@ impl<P: Progress> Trials<'_, P> {
         let nuisances = &self.experiment.nuisances;
         let candidates = candidates(self.experiment.wall.parameters());
         // Factors on the coefficients of impact would free these of what was known of them.
-        let effect = |a: &Addition| a.kind().is_some_and(|kind| kind != "impact_dissipation");
+        let effect = |a: &Addition| a.role().is_some_and(|role| role != Role::Impact);
         let effects = candidates.into_iter().filter(effect).collect::<Vec<_>>();
         let hypothesis = |additions: &[Addition]| self.hypothesis(nuisances, additions);
         let Some(imitations) = imitations(&self.data, best, &effects, hypothesis) else { return tried };

@@ -13,6 +13,7 @@ use crate::diagnose::trials::{
     Alone, EQUIVALENT, HELD_OUT, Trials, Tried, against, best_answer, closes, does_something, is_noise,
     joint_error, kinds,
 };
+use mrbd_kernel::model::{EffectKind, Role};
 
 /// Gain in natural logarithms of likelihood, over the windows fitted and held out together, below which an effect is not
 /// worth its name. Chosen: the effects of the development set gain hundreds.
@@ -222,7 +223,7 @@ impl<P: Progress> Gap<'_, P> {
         let Experiment { nuisances, wall, .. } = self.trials.experiment;
         let nuisances = nuisances.iter().map(known).collect::<Vec<_>>();
         // A second spring that hardly yields is the floor's own, by another name.
-        let other_law = |a: &Addition| a.kind().is_some_and(|kind| kind != "yielding_spring");
+        let other_law = |a: &Addition| a.role().is_some_and(|role| role != Role::Memory);
         let sets = candidates(wall.parameters()).into_iter().filter(other_law).map(|a| vec![a]);
         let what = "effects in place of what was not known";
         self.trials.try_all(what, &nuisances, &[&self.before], &sets.collect::<Vec<_>>())
@@ -241,7 +242,7 @@ impl<P: Progress> Gap<'_, P> {
         }
         equivalent.extend(unknown.iter().map(|n| match n {
             Nuisance::Number(number, _) => name_of_number(number),
-            Nuisance::Coefficient(..) => "impact_dissipation".to_owned(),
+            Nuisance::Coefficient(..) => EffectKind::ImpactDissipation.name().to_owned(),
         }));
         equivalent.dedup();
         Some(Answer { verdict: Verdict::Class, after: answer.after, equivalent })

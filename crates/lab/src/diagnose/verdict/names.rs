@@ -8,7 +8,8 @@ pub fn names(tried: &Tried) -> Vec<String> {
     let h = &tried.hypothesis;
     let name = |(index, addition): (usize, &Addition)| match addition {
         Addition::Number(number) => name_of_number(number),
-        addition => kind_of(h, &tried.fit.values, index).map_or_else(|| addition.name(), str::to_owned),
+        addition => kind_of(h, &tried.fit.values, index)
+            .map_or_else(|| addition.name(), |kind| kind.name().to_owned()),
     };
     h.additions.iter().enumerate().map(name).collect()
 }
