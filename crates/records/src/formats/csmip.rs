@@ -5,14 +5,24 @@
 
 use super::channel::Channel;
 use super::source::{Source, after, count, field_width, find_any_case, first_number, step};
+use super::{Format, ReadOptions};
 use crate::Unit;
 use mrbd_files::error::InputError;
 
+pub(super) const FORMAT: Format = Format {
+    name: "CSMIP V2",
+    words: "CSMIP V2",
+    recognise: |source| source.header_has(MARK, HEADER_LINES),
+    parse,
+};
+
+/// Lines from the top among which the mark stands.
+const HEADER_LINES: usize = 80;
 const MARK: &str = "points of accel data";
 /// Width of a field, Fortran F10.x, where the line before the data ends without a format.
 const FIELD: usize = 10;
 
-pub(super) fn parse(source: &Source) -> Result<Vec<Channel>, InputError> {
+fn parse(source: &Source, _options: &ReadOptions) -> Result<Vec<Channel>, InputError> {
     let mut channels = Vec::new();
     let mut label = String::new();
     let mut index = 0;

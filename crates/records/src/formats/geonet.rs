@@ -3,8 +3,19 @@
 
 use super::channel::Channel;
 use super::source::{Source, after, count, find_any_case, first_number, step};
+use super::{Format, ReadOptions};
 use crate::Unit;
 use mrbd_files::error::InputError;
+
+pub(super) const FORMAT: Format = Format {
+    name: "GeoNet",
+    words: "GeoNet V1A/V2A",
+    recognise: |source| {
+        find_any_case(source.first_line(), "corrected accelerogram").is_some()
+            && source.header_has("component ", TEXT_LINES)
+    },
+    parse,
+};
 
 const TEXT_LINES: usize = 16;
 const HEADER_NUMBERS: usize = 100;
@@ -16,7 +27,7 @@ const STEP: usize = 65;
 /// Relative difference allowed between the step of the numbers and that of the text, which is rounded to 1 ms.
 const STEP_TOLERANCE: f64 = 0.1;
 
-pub(super) fn parse(source: &Source) -> Result<Vec<Channel>, InputError> {
+fn parse(source: &Source, _options: &ReadOptions) -> Result<Vec<Channel>, InputError> {
     let mut channels = Vec::new();
     let mut index = 0;
     while source.lines.iter().skip(index).any(|line| !line.trim().is_empty()) {
