@@ -53,7 +53,15 @@ impl RecordTable {
     /// # Errors
     /// Input errors that name the file and the key.
     pub fn load(path: &Path) -> Result<Self> {
-        let table: Self = toml_file::load(path)?;
+        Self::parse(path, &toml_file::read(path)?)
+    }
+
+    /// Checks the text of a table that came from `path`.
+    ///
+    /// # Errors
+    /// As [`RecordTable::load`].
+    pub fn parse(path: &Path, text: &str) -> Result<Self> {
+        let table: Self = toml_file::parse(path, text)?;
         if table.records.is_empty() {
             return Err(InputError::key(path, "records", "no records", "at least one `[[records]]`").into());
         }

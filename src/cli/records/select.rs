@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::check::PeriodArgs;
-use super::{ReadArgs, percent, print_table};
+use super::{ReadArgs, percent, print_table, written};
 use crate::error::{InputError, Result};
 use mrbd_records::{Criteria, Selection, Site, SuiteSource, select};
 
@@ -80,7 +80,7 @@ pub(super) fn execute(args: &SelectArgs) -> Result<()> {
     if let Some(out) = &args.out {
         let note =
             format!("mrbd records select: rms deviation {:.4} from the code spectrum", best.deviation_rms);
-        source.write_selection(best, "selected", &note, out)?;
+        written("--out", source.write_selection(best, "selected", &note, out))?;
     }
     Ok(())
 }
