@@ -7,7 +7,7 @@ use super::Accelerogram;
 
 /// Points in a period at which the response is at least looked at.
 ///
-/// A peak between two points is missed by 1 − cos(π/40) = 0.31 % at most where the oscillator swings freely. The ground
+/// Where the oscillator swings freely, a peak between two is missed by 1 − cos(π/40) = 0.31 % at most. The ground
 /// adds to the curvature of a peak, which makes it up to 1 + PGA/Sa times as much. Found: 0.25 % on the generated records
 /// of this repository, 0.55 % on a near-fault pulse of 16 samples a period.
 const POINTS_IN_PERIOD: f64 = 40.0;

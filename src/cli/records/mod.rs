@@ -56,10 +56,10 @@ enum RecordsCommand {
     Pulse(pulse::PulseArgs),
 }
 
-/// Runs the command that was asked for.
+/// Runs the chosen command.
 ///
 /// # Errors
-/// Whatever the command meets.
+/// Those of the command.
 pub fn execute(args: &RecordsArgs) -> Result<()> {
     match &args.command {
         RecordsCommand::Describe(args) => describe::execute(args),
@@ -72,13 +72,13 @@ pub fn execute(args: &RecordsArgs) -> Result<()> {
     }
 }
 
-/// What is known of files that do not tell it themselves.
+/// What is known of files that do not state it.
 #[derive(Debug, Clone, Args)]
 struct ReadArgs {
-    /// Time between samples, where files do not tell it.
+    /// Time between samples, where files do not state it.
     #[arg(long, value_name = "SECONDS")]
     dt: Option<f64>,
-    /// Unit of the samples, where files do not tell it: m/s2, g, cm/s2, gal or mm/s2.
+    /// Unit of the samples, where files do not state it: m/s2, g, cm/s2, gal or mm/s2.
     #[arg(long)]
     unit: Option<Unit>,
     /// Channel of files of several: its number from 1, or its name.
@@ -96,7 +96,7 @@ impl ReadArgs {
     }
 }
 
-/// The table of a `--table`; the paper's Table 4 where none is given.
+/// The table of a `--table`; the paper's Table 4 unless given.
 fn table_or_table_4(path: Option<&Path>) -> Result<RecordTable> {
     Ok(match path {
         Some(path) => RecordTable::load(path)?,

@@ -13,7 +13,7 @@ const STEP_TOLERANCE: f64 = 1e-3;
 
 /// One channel of a file, in the unit of the file.
 pub(super) struct Channel {
-    /// Name in the file; empty where the format has none.
+    /// Name in the file; empty where the format has no names.
     pub label: String,
     pub step_s: f64,
     /// What the file states; `None` where it states nothing.

@@ -1,9 +1,10 @@
-//! COSMOS strong-motion data format 1.20, volumes 1 and 2: per channel thirteen lines of text, blocks of integers,
-//! reals and comments, each announced by a line, then the samples under a line such as
-//! `18000 acceleration pts, approx  90 secs, units=cm/sec2 (04),Format=(8f10.6)`.
+//! COSMOS strong-motion data format 1.20, volumes 1 and 2.
 //!
-//! The step of the samples is value 62 of the real header, in milliseconds, and the length of the series is value 63,
-//! in seconds. Values 34 and 35 are those of the raw record, which processing may have sampled anew.
+//! A channel has thirteen lines of text, then blocks of integers, reals and comments, each announced by a line. The
+//! samples follow a line such as `18000 acceleration pts, approx  90 secs, units=cm/sec2 (04),Format=(8f10.6)`.
+//!
+//! Value 62 of the real header is the step of the samples, in milliseconds; value 63 is their length, in seconds.
+//! Values 34 and 35 are those of the raw record, which processing may have sampled anew.
 
 use super::channel::Channel;
 use super::source::{Source, after, count, field_width, find_any_case, first_number, step};

@@ -1,5 +1,7 @@
-//! CSMIP (CDMG) volume 2: per channel a text header, rows of integers and reals, then acceleration, velocity and
-//! displacement, each under a line such as ` 3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)`.
+//! CSMIP (CDMG) volume 2: per channel a text header, rows of integers and reals, then the samples.
+//!
+//! Acceleration, velocity and displacement each follow a line such as
+//! ` 3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)`.
 //!
 //! The line before the data is looked for, because the length of the header changed over the years.
 

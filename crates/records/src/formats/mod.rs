@@ -1,4 +1,4 @@
-//! Record files: told apart by content, read into m/s², faults named with file and line.
+//! Record files: recognised by content, read into m/s², faults named with file and line.
 //!
 //! A format is one entry of [`FORMATS`]: its name, its words for people, how it is recognised, how it is read. The
 //! entry stands in the file that reads the format; refusals, help texts and docs list what the table holds.
@@ -105,7 +105,7 @@ pub struct Record {
 ///
 /// # Errors
 /// Input errors that name file, line, what was found and what is allowed. A file is refused that is unreadable, of no
-/// known format or malformed. So is one of several channels with none chosen, and one that contradicts `options`.
+/// known format or malformed. So is one of several channels without a choice, and one that contradicts `options`.
 pub fn read(path: &Path, options: &ReadOptions) -> Result<Record> {
     let readable = "a readable record file";
     let size = std::fs::metadata(path).map_err(|e| InputError::file(path, e.to_string(), readable))?.len();

@@ -1,8 +1,8 @@
 //! PEER `.AT2`: three lines of text, one with the number of points and the step, then rows of g.
 //!
 //! Variants of the third line: `ACCELERATION TIME SERIES IN UNITS OF G`, and `The units are (g)` (examples of OpenSees).
-//! Variants of the fourth line: `NPTS=  4000, DT= .01000 SEC`, with or without a comma at its end (2000, NGA-West2),
-//! and `4096    0.0100    NPTS, DT` (2005).
+//! Variants of the fourth line: `NPTS=  4000, DT= .01000 SEC` (2000), the same with a comma at its end (NGA-West2), and
+//! `4096    0.0100    NPTS, DT` (2005).
 
 use super::channel::Channel;
 use super::source::{Source, after, count, find_any_case, first_number, step};

@@ -12,7 +12,7 @@ const QUOTE_CHARS: usize = 60;
 pub(super) struct Source<'a> {
     pub path: &'a Path,
     pub lines: Vec<&'a str>,
-    /// Index of the first line that is neither blank nor a comment; `None` where there is none.
+    /// Index of the first line that is neither blank nor a comment; `None` where all are.
     pub first: Option<usize>,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Source<'a> {
         Self { path, lines, first }
     }
 
-    /// The first line that is neither blank nor a comment; an empty one where there is none.
+    /// The first line that is neither blank nor a comment; an empty one where all are.
     pub fn first_line(&self) -> &'a str {
         self.first.map_or("", |index| self.line(index))
     }
@@ -202,7 +202,7 @@ pub(super) fn step(value: Option<f64>) -> Option<f64> {
     value.filter(|s| (1e-6..=10.0).contains(s))
 }
 
-/// Width of the fields that a Fortran format such as `(8f10.6)` after `mark` tells.
+/// Width of the fields of the Fortran format, such as `(8f10.6)`, that follows `mark`.
 pub(super) fn field_width(line: &str, mark: &str) -> Option<usize> {
     let format = after(line, mark)?;
     let width = format.split(|c: char| c.is_ascii_alphabetic()).nth(1)?;
