@@ -9,7 +9,7 @@ use mrbd_records::{
 
 use crate::shared;
 
-/// Difference allowed: peaks between 40 points in a period are missed by up to 0.3 %, durations are found to a sample.
+/// Difference allowed: of these records, peaks between 40 points in a period are missed by up to 0.23 %; durations are found to a sample.
 const TOLERANCE: f64 = 5e-3;
 
 /// The first synthetic record of tests/python/check_intensities.py.

@@ -1,14 +1,14 @@
 //! Files that people write, checked at the door.
 //!
-//! Whatever a user gives is read here or by these means, and turned into a value that is valid, or refused with the file, the
-//! key or line, what was found and what is allowed ([`InputError`]).
+//! Whatever a user gives is read here or by these means. It becomes a value that is valid, or it is refused: with the
+//! file, the key or line, what was found and what is allowed ([`InputError`]).
 //!
 //! | module | what it reads |
 //! | --- | --- |
 //! | [`toml_file`] | any TOML file, unknown keys refused, the nearest known name suggested ([`suggestion`]) |
-//! | [`wall_file`] | a wall: geometry, masses, restraint, effects |
+//! | [`wall_file`] | a wall: geometry, masses, restraint, effects; `[wall]` alone is enough |
 //! | [`coefficients`] | bounds and best fit of the impact coefficients C_l (the paper's Table 2) |
-//! | [`file_note`], [`checksum`] | nothing: what results remember of the files they were made from |
+//! | [`checksum`] | any file, for the note that results keep of what they were made from |
 //!
 //! ```
 //! use std::path::Path;
@@ -29,12 +29,10 @@
 pub mod checksum;
 pub mod coefficients;
 pub mod error;
-pub mod file_note;
 pub mod suggestion;
 pub mod toml_file;
 pub mod wall_file;
 
-pub use checksum::file_sha256;
+pub use checksum::{FileNote, file_sha256};
 pub use error::{Error, InputError, Place, Result};
-pub use file_note::FileNote;
 pub use wall_file::{load_wall, parse_wall, wall_from_table};

@@ -3,7 +3,7 @@
 /// Likeness after Jaro and Winkler below which two names are different words; a unit left out stays above it.
 const ALIKE: f64 = 0.8;
 
-/// The one among known names that is most like what was found; none if nothing is.
+/// The one among known names that is most like what was found; `None` if nothing is.
 pub fn nearest<'a>(found: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let likeness = |name: &'a str| (strsim::jaro_winkler(found, name), name);
     let alike = known.into_iter().map(likeness).filter(|(likeness, _)| *likeness >= ALIKE);

@@ -1,4 +1,4 @@
-//! TOML files: read whole, unknown keys refused, faults told with key and line.
+//! TOML files: read whole, unknown keys refused, faults named with key and line.
 
 use std::path::Path;
 

@@ -13,7 +13,10 @@ use mrbd_kernel::model::{Effect, ImpactLaw, Restitution, Wall, WallParameters, c
 #[serde(deny_unknown_fields)]
 struct WallFile {
     wall: Body,
-    corners: Corners,
+    /// `None`: the corners are the edges of the wall.
+    corners: Option<Corners>,
+    /// Left out, the top is free.
+    #[serde(default)]
     diaphragm: Diaphragm,
     #[serde(default)]
     restitution: RestitutionKeys,
@@ -44,10 +47,11 @@ struct Corners {
     compressive_strength_pa: Option<f64>,
 }
 
-#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Diaphragm {
     mass_kg: f64,
+    #[serde(default)]
     carriage_mass_kg: f64,
     stiffness_n_per_m: f64,
     #[serde(default)]
@@ -157,9 +161,9 @@ fn mass_kg(path: &Path, body: &Body) -> Result<f64, InputError> {
     }
 }
 
-/// Widths between the rocking corners, given or from the strength of the masonry.
+/// Widths between the rocking corners: the full thickness, given, or from the strength of the masonry.
 fn widths_m(path: &Path, file: &WallFile, mass_kg: f64) -> Result<[f64; 2], InputError> {
-    let c = &file.corners;
+    let Some(c) = &file.corners else { return Ok([file.wall.thickness_m; 2]) };
     let cracked = file.wall.crack_height_m.is_some();
     match (c.lower_width_m, c.upper_width_m, c.compressive_strength_pa) {
         (Some(lower), Some(upper), None) => Ok([lower, upper]),
@@ -176,7 +180,49 @@ fn widths_m(path: &Path, file: &WallFile, mass_kg: f64) -> Result<[f64; 2], Inpu
             path,
             "corners",
             "an incomplete or mixed choice",
-            "lower_width_m and upper_width_m (lower alone for an uncracked wall), or compressive_strength_pa",
+            "lower_width_m and upper_width_m (lower alone for an uncracked wall), compressive_strength_pa, or no \
+             [corners] for the full thickness",
         )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FEWEST: &str = "[wall]\nthickness_m = 0.3\nheight_m = 4.0\ncrack_height_m = 2.2\nlength_m = 1.5\n\
+        density_kg_m3 = 1800.0\n";
+
+    fn read(text: &str) -> Result<WallParameters> {
+        parse_wall(Path::new("wall.toml"), text).map(|wall| wall.parameters().clone())
+    }
+
+    #[test]
+    fn analytic_a_wall_of_the_fewest_keys_has_its_full_thickness_and_a_free_top() {
+        let in_full = format!(
+            "{FEWEST}[corners]\nlower_width_m = 0.3\nupper_width_m = 0.3\n\
+             [diaphragm]\nmass_kg = 0.0\ncarriage_mass_kg = 0.0\nstiffness_n_per_m = 0.0\neccentricity_m = 0.0\n"
+        );
+        let fewest = read(FEWEST).expect("a wall");
+        assert_eq!(fewest, read(&in_full).expect("a wall"));
+        assert_eq!([fewest.lower_width_m, fewest.upper_width_m], [0.3, 0.3]);
+        let uncracked = read(&FEWEST.replace("crack_height_m = 2.2\n", "")).expect("a wall");
+        assert_eq!([uncracked.lower_width_m, uncracked.upper_width_m], [0.3, 0.3]);
+        let floor = "[diaphragm]\nmass_kg = 200.0\nstiffness_n_per_m = 37e3\n";
+        let held = read(&format!("{FEWEST}{floor}")).expect("a wall");
+        assert_eq!((held.carriage_mass_kg, held.stiffness_n_per_m, held.lower_width_m), (0.0, 37e3, 0.3));
+    }
+
+    #[test]
+    fn rejects_tables_that_are_begun_and_left() {
+        for (table, parts) in [
+            ("[corners]\n", &["corners", "incomplete", "no [corners] for the full thickness"][..]),
+            ("[corners]\nlower_width_m = 0.28\n", &["corners", "incomplete"]),
+            ("[diaphragm]\nmass_kg = 200.0\n", &["diaphragm", "missing field `stiffness_n_per_m`"]),
+            ("[diaphragm]\nstiffness_n_per_m = 37e3\n", &["diaphragm", "missing field `mass_kg`"]),
+        ] {
+            let message = read(&format!("{FEWEST}{table}")).expect_err("must be refused").to_string();
+            assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} in: {message}");
+        }
     }
 }

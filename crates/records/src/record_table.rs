@@ -1,10 +1,13 @@
-//! A published table of records: what is known of records whose samples are not at hand.
+//! A published table of records without their samples, and the files that a user brings for its rows.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use mrbd_files::error::{InputError, Result};
+use super::suite_file::{RecordEntry, SuiteFile};
+use super::{ReadOptions, Record, Suite, read, write_two_columns};
+use mrbd_files::error::{Error, InputError, Result};
 use mrbd_files::toml_file;
 
 /// A table of records, as `inputs/table4.toml`.
@@ -53,7 +56,15 @@ impl RecordTable {
     /// # Errors
     /// Input errors that name the file and the key.
     pub fn load(path: &Path) -> Result<Self> {
-        let table: Self = toml_file::load(path)?;
+        Self::parse(path, &toml_file::read(path)?)
+    }
+
+    /// Checks the text of a table that came from `path`.
+    ///
+    /// # Errors
+    /// As [`RecordTable::load`].
+    pub fn parse(path: &Path, text: &str) -> Result<Self> {
+        let table: Self = toml_file::parse(path, text)?;
         if table.records.is_empty() {
             return Err(InputError::key(path, "records", "no records", "at least one `[[records]]`").into());
         }
@@ -93,4 +104,78 @@ impl TableRow {
         let key = format!("records[{index}].archive_id");
         Err(InputError::key(path, key, found, "letters, digits, dots, dashes and underlines"))
     }
+}
+
+/// A record that a user brings for a row of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Import {
+    /// Number of the row.
+    pub id: u32,
+    /// The record as it was read.
+    pub record: Record,
+    /// Its vertical component.
+    pub vertical: Option<Record>,
+}
+
+/// Reads the files that a user brings for rows of `table`, horizontal and vertical by the number of the row.
+///
+/// # Errors
+/// Input errors for files that cannot be read and numbers that the table does not have.
+pub fn read_imports(
+    table: &RecordTable,
+    horizontal: &BTreeMap<u32, PathBuf>,
+    vertical: &BTreeMap<u32, PathBuf>,
+    options: &ReadOptions,
+) -> Result<Vec<Import>> {
+    if let Some(id) = vertical.keys().find(|id| !horizontal.contains_key(id)) {
+        return Err(
+            InputError::option("--vertical", id.to_string(), "a number with a horizontal record").into()
+        );
+    }
+    let import = |(&id, path): (&u32, &PathBuf)| {
+        if !table.records.iter().any(|row| row.id == id) {
+            return Err(
+                InputError::option("--record", id.to_string(), "the number of a row of the table").into()
+            );
+        }
+        let vertical = vertical.get(&id).map(|path| read(path, options)).transpose()?;
+        Ok(Import { id, record: read(path, options)?, vertical })
+    };
+    horizontal.iter().map(import).collect()
+}
+
+/// Writes imported records as two columns into `folder`, and the suite that lists them with what the table says.
+///
+/// # Errors
+/// Where a file cannot be written, and input errors where a peak contradicts the table.
+pub fn write_imports(folder: &Path, name: &str, table: &RecordTable, imports: &[Import]) -> Result<Suite> {
+    std::fs::create_dir_all(folder).map_err(|e| Error::io("make the folder", folder, e))?;
+    let mut records = Vec::with_capacity(imports.len());
+    for row in &table.records {
+        let Some(import) = imports.iter().find(|import| import.id == row.id) else { continue };
+        let file = format!("{}_{}.csv", row.id, row.archive_id);
+        write_two_columns(&folder.join(&file), &import.record.accelerogram)?;
+        let mut entry = RecordEntry::of_row(row, file);
+        if let Some(vertical) = &import.vertical {
+            let file = format!("{}_{}_vertical.csv", row.id, row.archive_id);
+            write_two_columns(&folder.join(&file), &vertical.accelerogram)?;
+            entry.vertical = Some(file);
+        }
+        records.push(entry);
+    }
+    let (note, source) = (String::new(), table.source.clone());
+    let file = SuiteFile {
+        name: name.to_owned(),
+        generated: false,
+        note,
+        source,
+        unit: None,
+        step_s: None,
+        records,
+    };
+    let path = folder.join("suite.toml");
+    // Read back before it is written: peaks that contradict the table leave no suite behind.
+    let suite = Suite::from_file(&path, &file)?;
+    file.write(&path)?;
+    Ok(suite)
 }

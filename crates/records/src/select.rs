@@ -51,7 +51,7 @@ struct Candidate {
     misfit: f64,
 }
 
-/// The best suites of `records` for a site, best first; empty where none holds to the criteria.
+/// The best suites of `records` for a site, best first; empty where no suite holds to the criteria.
 ///
 /// A record is scaled by the mean logarithm of code over spectrum. Ties go to the earlier records.
 pub fn select(records: &[SuiteRecord], site: &Site, criteria: &Criteria) -> Vec<Selection> {
@@ -151,7 +151,7 @@ impl Search<'_> {
         self.forget_the_worst();
     }
 
-    /// Keeps memory bounded: half of what is found goes when it is many times what is asked for.
+    /// Keeps memory bounded: the worst suites go when many times the wanted number are found.
     fn forget_the_worst(&mut self) {
         let most = 64 * self.criteria.best.max(1);
         if self.found.len() >= most {

@@ -21,7 +21,7 @@ const LARGEST_SCALE: f64 = 100.0;
 pub struct Suite {
     /// Name of the suite.
     pub name: String,
-    /// Whether all its records are generated and none was measured.
+    /// Whether all its records are generated, not measured.
     pub generated: bool,
     /// What a reader should know.
     pub note: String,
@@ -56,7 +56,7 @@ pub struct SuiteRecord {
     pub about: About,
 }
 
-/// What a suite file says of a record beside its numbers; empty or none where it says nothing.
+/// What a suite file says of a record beside its numbers; empty or `None` where it says nothing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct About {
     /// Date of the earthquake.

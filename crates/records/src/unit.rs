@@ -23,7 +23,7 @@ pub enum Unit {
     MillimetrePerSecond2,
 }
 
-/// What may be written where a unit is asked for.
+/// What may be written for a unit.
 pub(crate) const UNIT_NAMES: &str = "\"m/s2\", \"g\", \"cm/s2\" (or \"gal\") or \"mm/s2\"";
 
 impl Unit {

@@ -57,8 +57,10 @@ fn derived(table: &Table) -> Vec<&'static str> {
     let gives = |name: &str, key: &str| table.get(name).and_then(|keys| keys.get(key)).is_some();
     let mass = gives("wall", "density_kg_m3").then_some("wall.mass_kg");
     let widths = ["corners.lower_width_m", "corners.upper_width_m"];
-    let widths = if gives("corners", "compressive_strength_pa") { &widths[..] } else { &[] };
-    mass.into_iter().chain(widths.iter().copied()).collect()
+    let widths = if gives("corners", "lower_width_m") { &[] } else { &widths[..] };
+    let floor = ["diaphragm.mass_kg", "diaphragm.stiffness_n_per_m"];
+    let floor = if table.contains_key("diaphragm") { &[] } else { &floor[..] };
+    mass.into_iter().chain(widths.iter().chain(floor).copied()).collect()
 }
 
 /// Sets a dotted key, and takes out what the new value stands in place of.
@@ -84,6 +86,26 @@ mod tests {
     const BY_DENSITY_AND_STRENGTH: &str = "[wall]\nthickness_m = 0.29\nheight_m = 4.0\ncrack_height_m = 2.2\n\
         length_m = 1.5\ndensity_kg_m3 = 1800.0\n[corners]\ncompressive_strength_pa = 3.5e6\n\
         [diaphragm]\nmass_kg = 900.0\ncarriage_mass_kg = 0.0\nstiffness_n_per_m = 37e3\n";
+
+    #[test]
+    fn analytic_a_wall_of_the_fewest_keys_is_written_as_it_was_fitted() {
+        let path = Path::new("wall.toml");
+        let fewest = BY_DENSITY_AND_STRENGTH.split("[corners]").next().expect("a beginning");
+        let given = parse_wall(path, fewest).expect("a wall").parameters().clone();
+        // The widths were those of the thickness given, and one width or a part of a floor makes no wall.
+        for found in [
+            WallParameters { thickness_m: 0.31, ..given.clone() },
+            WallParameters { lower_width_m: 0.25, ..given.clone() },
+            WallParameters { stiffness_n_per_m: 1e4, ..given.clone() },
+            WallParameters { eccentricity_m: 0.02, ..given.clone() },
+        ] {
+            let mut table: Table = toml::from_str(fewest).expect("TOML");
+            set_numbers(&mut table, &found, &given);
+            let text = toml::to_string_pretty(&table).expect("TOML");
+            let written = parse_wall(path, &text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+            assert_eq!(*written.parameters(), found, "{text}");
+        }
+    }
 
     #[test]
     fn analytic_a_wall_given_by_density_and_strength_is_written_as_it_was_fitted() {

@@ -12,6 +12,20 @@ const QUOTE_CHARS: usize = 60;
 pub(super) struct Source<'a> {
     pub path: &'a Path,
     pub lines: Vec<&'a str>,
+    /// Index of the first line that is neither blank nor a comment; `None` where all are.
+    pub first: Option<usize>,
+}
+
+/// Whether a line of a column file carries no data.
+pub(super) fn is_blank_or_comment(line: &str) -> bool {
+    let line = line.trim();
+    line.is_empty() || line.starts_with('#')
+}
+
+/// The fields of a line of numbers, between blanks, commas or semicolons.
+pub(super) fn fields(line: &str) -> Vec<&str> {
+    let fields = line.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';'));
+    fields.filter(|field| !field.is_empty()).collect()
 }
 
 /// Text of `bytes`: UTF-8, or else Latin-1, in which some agencies write station names.
@@ -25,7 +39,25 @@ pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
 
 impl<'a> Source<'a> {
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        Self { path, lines: text.lines().collect() }
+        let lines: Vec<&str> = text.lines().collect();
+        let first = lines.iter().position(|line| !is_blank_or_comment(line));
+        Self { path, lines, first }
+    }
+
+    /// The first line that is neither blank nor a comment; an empty one where all are.
+    pub fn first_line(&self) -> &'a str {
+        self.first.map_or("", |index| self.line(index))
+    }
+
+    /// Whether the first line begins with `word`, letters of any case.
+    pub fn starts_with(&self, word: &str) -> bool {
+        find_any_case(self.first_line().trim_start(), word) == Some(0)
+    }
+
+    /// Whether one of the first `lines` lines holds `word`, letters of any case.
+    pub fn header_has(&self, word: &str, lines: usize) -> bool {
+        let header = self.lines.iter().skip(self.first.unwrap_or(0)).take(lines);
+        header.into_iter().any(|line| find_any_case(line, word).is_some())
     }
 
     /// The line at `index`; past the end, an empty one.
@@ -90,7 +122,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// Appends the numbers of a line; false: the line is blank.
+    /// Appends the numbers of a line; `false` where the line is blank.
     fn append_numbers(
         &self,
         index: usize,
@@ -170,7 +202,7 @@ pub(super) fn step(value: Option<f64>) -> Option<f64> {
     value.filter(|s| (1e-6..=10.0).contains(s))
 }
 
-/// Width of the fields that a Fortran format such as `(8f10.6)` after `mark` tells.
+/// Width of the fields of the Fortran format, such as `(8f10.6)`, that follows `mark`.
 pub(super) fn field_width(line: &str, mark: &str) -> Option<usize> {
     let format = after(line, mark)?;
     let width = format.split(|c: char| c.is_ascii_alphabetic()).nth(1)?;

@@ -4,10 +4,18 @@
 
 use super::channel::Channel;
 use super::source::{Source, after, count, first_number, step};
+use super::{Format, ReadOptions};
 use crate::Unit;
 use mrbd_files::error::InputError;
 
-pub(super) fn parse(source: &Source) -> Result<Vec<Channel>, InputError> {
+pub(super) const FORMAT: Format = Format {
+    name: "K-NET",
+    words: "K-NET/KiK-net",
+    recognise: |source| source.starts_with("origin time"),
+    parse,
+};
+
+fn parse(source: &Source, _options: &ReadOptions) -> Result<Vec<Channel>, InputError> {
     let memo = source.lines.iter().position(|l| l.starts_with("Memo."));
     let Some(memo) = memo else {
         return Err(source.fault_file("no line `Memo.`", "a K-NET header of 17 lines that ends with it"));

@@ -2,10 +2,18 @@
 
 use super::channel::Channel;
 use super::source::{Source, count, first_number, step};
+use super::{Format, ReadOptions};
 use crate::Unit;
 use mrbd_files::error::InputError;
 
-pub(super) fn parse(source: &Source) -> Result<Vec<Channel>, InputError> {
+pub(super) const FORMAT: Format = Format {
+    name: "ESM/ITACA DYNA",
+    words: "ESM/ITACA DYNA",
+    recognise: |source| source.starts_with("event_name:"),
+    parse,
+};
+
+fn parse(source: &Source, _options: &ReadOptions) -> Result<Vec<Channel>, InputError> {
     let header = source.lines.iter().position(|l| !l.contains(':')).unwrap_or(source.lines.len());
     check_quantity(source, header)?;
     let (index, text) = value(source, header, "SAMPLING_INTERVAL_S")?;

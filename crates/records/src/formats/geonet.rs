@@ -1,10 +1,23 @@
-//! GeoNet (GNS Science) `.V1A` and `.V2A`: per component 16 lines of text, four rows of ten integers, six of ten
-//! reals, then acceleration in mm/s² and, in volume 2, velocity and displacement, ten to a row in fields of 8.
+//! GeoNet (GNS Science) `.V1A` and `.V2A`.
+//!
+//! A component has 16 lines of text, four rows of ten integers and six of ten reals. Acceleration in mm/s² follows, in
+//! volume 2 with velocity and displacement, ten to a row in fields of 8.
 
 use super::channel::Channel;
 use super::source::{Source, after, count, find_any_case, first_number, step};
+use super::{Format, ReadOptions};
 use crate::Unit;
 use mrbd_files::error::InputError;
+
+pub(super) const FORMAT: Format = Format {
+    name: "GeoNet",
+    words: "GeoNet V1A/V2A",
+    recognise: |source| {
+        find_any_case(source.first_line(), "corrected accelerogram").is_some()
+            && source.header_has("component ", TEXT_LINES)
+    },
+    parse,
+};
 
 const TEXT_LINES: usize = 16;
 const HEADER_NUMBERS: usize = 100;
@@ -16,7 +29,7 @@ const STEP: usize = 65;
 /// Relative difference allowed between the step of the numbers and that of the text, which is rounded to 1 ms.
 const STEP_TOLERANCE: f64 = 0.1;
 
-pub(super) fn parse(source: &Source) -> Result<Vec<Channel>, InputError> {
+fn parse(source: &Source, _options: &ReadOptions) -> Result<Vec<Channel>, InputError> {
     let mut channels = Vec::new();
     let mut index = 0;
     while source.lines.iter().skip(index).any(|line| !line.trim().is_empty()) {
@@ -53,7 +66,7 @@ fn is_raw(source: &Source, start: usize) -> Result<bool, InputError> {
     }
 }
 
-/// Acceleration, and the line after velocity and displacement, of which there may be none.
+/// Acceleration, and the line after velocity and displacement, which volume 1 leaves out.
 fn quantities(
     source: &Source,
     start: usize,
@@ -76,7 +89,9 @@ fn quantities(
     Ok((samples, next))
 }
 
-/// The step of the numbers, once it agrees with `… data at 0.020 sec intervals` or `… at intervals of 0.005 s` of the text.
+/// The step of the numbers, once it agrees with the text.
+///
+/// The text says `… data at 0.020 sec intervals` or `… at intervals of 0.005 s`.
 fn read_step(source: &Source, start: usize, stated: f64) -> Result<f64, InputError> {
     let mut lines = (start..start + TEXT_LINES)
         .map(|i| source.line(i))

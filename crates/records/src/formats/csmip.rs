@@ -1,18 +1,30 @@
-//! CSMIP (CDMG) volume 2: per channel a text header, rows of integers and reals, then acceleration, velocity and
-//! displacement, each under a line such as ` 3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)`.
+//! CSMIP (CDMG) volume 2: per channel a text header, rows of integers and reals, then the samples.
+//!
+//! Acceleration, velocity and displacement each follow a line such as
+//! ` 3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)`.
 //!
 //! The line before the data is looked for, because the length of the header changed over the years.
 
 use super::channel::Channel;
 use super::source::{Source, after, count, field_width, find_any_case, first_number, step};
+use super::{Format, ReadOptions};
 use crate::Unit;
 use mrbd_files::error::InputError;
 
+pub(super) const FORMAT: Format = Format {
+    name: "CSMIP V2",
+    words: "CSMIP V2",
+    recognise: |source| source.header_has(MARK, HEADER_LINES),
+    parse,
+};
+
+/// Lines from the top among which the mark stands.
+const HEADER_LINES: usize = 80;
 const MARK: &str = "points of accel data";
 /// Width of a field, Fortran F10.x, where the line before the data ends without a format.
 const FIELD: usize = 10;
 
-pub(super) fn parse(source: &Source) -> Result<Vec<Channel>, InputError> {
+fn parse(source: &Source, _options: &ReadOptions) -> Result<Vec<Channel>, InputError> {
     let mut channels = Vec::new();
     let mut label = String::new();
     let mut index = 0;

@@ -13,15 +13,15 @@ const STEP_TOLERANCE: f64 = 1e-3;
 
 /// One channel of a file, in the unit of the file.
 pub(super) struct Channel {
-    /// Name in the file; empty where the format has none.
+    /// Name in the file; empty where the format has no names.
     pub label: String,
     pub step_s: f64,
-    /// What the file says; none where it says nothing.
+    /// What the file states; `None` where it states nothing.
     pub unit: Option<Unit>,
     pub samples: Vec<f64>,
 }
 
-/// The channel that was asked for; none asked for: the only one there is.
+/// The channel `wanted`; the only one there is where that is `None`.
 pub(super) fn choose(
     source: &Source,
     mut channels: Vec<Channel>,
@@ -66,7 +66,7 @@ impl Channel {
     pub fn into_record(
         self,
         source: &Source,
-        format: Format,
+        format: &'static Format,
         options: &ReadOptions,
     ) -> Result<Record, InputError> {
         self.check_step(source, options)?;
