@@ -4,8 +4,8 @@ use fearless_simd::{Level, Simd};
 use mrbd_kernel::model::State;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{
-    Accuracy, History, Outcome, Response, Shaking, Simulator, Start, simulate, simulate_side_by_side,
-    simulate_side_by_side_at,
+    Accuracy, History, Outcome, Response, Shaking, Simulator, Start, simulate, simulate_side_by_side_at,
+    simulate_watched_side_by_side,
 };
 use rand::RngExt;
 
@@ -36,12 +36,12 @@ fn side_by_side_at<'a>(
     runs: impl Iterator<Item = &'a (Wall, Shaking, Accuracy)>,
 ) -> Vec<Response> {
     let mut runs = runs.enumerate();
-    let next = || {
+    let mut next = || {
         let (index, (wall, shaking, accuracy)) = runs.next()?;
         Some((index, Simulator::new(wall, shaking, *accuracy).prepared()))
     };
     let mut told = Vec::new();
-    simulate_side_by_side_at(level, next, |index, response| told.push((index, response)));
+    simulate_side_by_side_at(level, &mut next, &mut |index, response| told.push((index, response)));
     told.sort_by_key(|(index, _)| *index);
     told.into_iter().map(|(_, response)| response).collect()
 }
@@ -101,11 +101,11 @@ fn analytic_windows_side_by_side_are_seen_as_alone_to_the_bit() {
     let mut histories = vec![History::starting(0.5, 0.01); simulators.len()];
     let mut responses = vec![None; simulators.len()];
     let mut waiting = simulators.iter().zip(&mut histories).enumerate();
-    let next = || {
+    let mut next = || {
         let (index, (simulator, history)) = waiting.next()?;
-        Some((index, simulator.prepared_from(&start(index), 1.5, history)))
+        Some((index, simulator.watched_from(&start(index), 1.5, history)))
     };
-    simulate_side_by_side(next, |index, response| responses[index] = Some(response));
+    simulate_watched_side_by_side(&mut next, &mut |index, response| responses[index] = Some(response));
     let told = responses.into_iter().map(|response| response.expect("told once"));
     for (index, (found, alone)) in told.zip(histories.into_iter().map(|h| h.rows)).zip(alone).enumerate() {
         if index == 7 {

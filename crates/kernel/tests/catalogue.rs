@@ -69,12 +69,12 @@ fn alone(effects: &[Effect]) -> (Response, History) {
 /// The runs of walls with these effects, beside each other.
 fn side_by_side(walls: &[Vec<Effect>]) -> Vec<Response> {
     let mut waiting = walls.iter().enumerate();
-    let next = || {
+    let mut next = || {
         let (index, effects) = waiting.next()?;
         Some((index, Simulator::new(&table_wall(effects), &shaking(), ACCURACY).prepared()))
     };
     let mut responses = vec![None; walls.len()];
-    simulate_side_by_side(next, |index, response| responses[index] = Some(response));
+    simulate_side_by_side(&mut next, &mut |index, response| responses[index] = Some(response));
     responses.into_iter().map(|response| response.expect("every run ends")).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Runs of a plan side by side: every thread takes the next run as soon as a lane is free.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -37,39 +37,40 @@ struct Thread<'a> {
 impl Thread<'_> {
     fn run(&self) {
         loop {
-            // Runs that have begun and not ended.
-            let at_work = RefCell::new(BTreeSet::new());
+            // Runs that have begun and not ended, by their index.
+            let at_work = RefCell::new(BTreeMap::new());
             let all = catch_unwind(AssertUnwindSafe(|| self.run_side_by_side(&at_work)));
             if all.is_ok() {
                 return;
             }
             // One of them panics: each once more, alone, to tell which; the thread then goes on.
-            for index in at_work.into_inner() {
-                self.finish(index, run_one(self.plan.run(self.positions[index]), &SideBySide));
+            for (index, finished) in at_work.into_inner() {
+                self.finish(index, run_one(finished.run, &SideBySide));
             }
         }
     }
 
-    fn run_side_by_side(&self, at_work: &RefCell<BTreeSet<usize>>) {
+    fn run_side_by_side(&self, at_work: &RefCell<BTreeMap<usize, Finished>>) {
         let mut ready: Option<(Shaking, Simulator)> = None;
-        let next = || {
+        let mut next = || {
             loop {
                 let index = self.next.fetch_add(1, Ordering::Relaxed);
                 let run = self.plan.run(*self.positions.get(index)?);
-                at_work.borrow_mut().insert(index);
                 if run.growth().is_some() || run.wall.is_err() {
                     // Searches go step by step; a façade that is no wall has nothing to run.
-                    at_work.borrow_mut().remove(&index);
                     self.finish(index, run_one(run, &SideBySide));
                     continue;
                 }
-                let prepared = prepare(&run, &mut ready)?;
-                return Some(((index, Finished::planned(run)), prepared));
+                // Noted before it is made ready, which may panic.
+                let mut at_work = at_work.borrow_mut();
+                let planned = at_work.entry(index).or_insert(Finished::planned(run));
+                return Some((index, prepare(&planned.run, &mut ready)?));
             }
         };
-        simulate_side_by_side(next, |(index, finished), response| {
-            at_work.borrow_mut().remove(&index);
-            self.finish(index, answered(finished, response));
+        simulate_side_by_side(&mut next, &mut |index, response| {
+            if let Some(finished) = at_work.borrow_mut().remove(&index) {
+                self.finish(index, answered(finished, response));
+            }
         });
     }
 

@@ -18,7 +18,7 @@ pub trait Observer {
     }
 }
 
-impl<O: Observer> Observer for &mut O {
+impl<O: Observer + ?Sized> Observer for &mut O {
     fn moved(&mut self, start_s: f64, contact: Contact, motion: &Quintic) {
         (**self).moved(start_s, contact, motion);
     }

@@ -14,7 +14,9 @@ mod tally;
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
 pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
-pub use side_by_side::{Prepared, simulate_side_by_side, simulate_side_by_side_at};
+pub use side_by_side::{
+    Prepared, simulate_side_by_side, simulate_side_by_side_at, simulate_watched_side_by_side,
+};
 pub use simulator::{Simulator, Start};
 
 use crate::accelerogram::Accelerogram;
@@ -59,7 +61,7 @@ impl Default for Accuracy {
 
 /// Runs one wall; pure: the same inputs give the same bits on any thread.
 pub fn simulate(wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
-    simulate_observed(wall, shaking, accuracy, &mut ())
+    Simulator::new(wall, shaking, accuracy).prepared().alone()
 }
 
 /// Runs one wall and tells an observer every stretch of it; the response has the same bits as without.
@@ -67,7 +69,7 @@ pub fn simulate_observed(
     wall: &Wall,
     shaking: &Shaking,
     accuracy: Accuracy,
-    observer: &mut impl Observer,
+    observer: &mut dyn Observer,
 ) -> Response {
     Simulator::new(wall, shaking, accuracy).run(observer)
 }

@@ -249,42 +249,38 @@ impl<O: Observer> Prepared<O> {
     }
 }
 
-/// Runs what `next` gives side by side until it gives no more, and tells `done` each response, as they end.
+/// Runs what `next` gives side by side until it gives no more, and hands `done` each response with its number, as they end.
 ///
 /// A response is that of [`super::simulate`] to the bit, whatever runs beside it.
-pub fn simulate_side_by_side<T, O: Observer>(
-    next: impl FnMut() -> Option<(T, Prepared<O>)>,
-    done: impl FnMut(T, Response),
+pub fn simulate_side_by_side(
+    next: &mut dyn FnMut() -> Option<(usize, Prepared)>,
+    done: &mut dyn FnMut(usize, Response),
 ) {
     simulate_side_by_side_at(Level::new(), next, done);
 }
 
 /// The same by given vector instructions, which change nothing but the time it takes.
-pub fn simulate_side_by_side_at<T, O: Observer>(
+pub fn simulate_side_by_side_at(
     level: Level,
-    next: impl FnMut() -> Option<(T, Prepared<O>)>,
-    done: impl FnMut(T, Response),
+    next: &mut dyn FnMut() -> Option<(usize, Prepared)>,
+    done: &mut dyn FnMut(usize, Response),
 ) {
-    let mut work = Work {
-        next,
-        done,
-        slots: Vec::with_capacity(AT_ONCE),
-        as_one: Vec::with_capacity(AT_ONCE),
-        apart: Vec::with_capacity(AT_ONCE),
-        level,
-    };
-    while work.slots.len() < AT_ONCE {
-        let Some(run) = work.begin_next() else { break };
-        work.slots.push(Some(run));
-        work.go_on(work.slots.len() - 1);
-    }
-    while work.step() {}
+    Work::new(level, next, done).all();
 }
 
-struct Work<T, O, N, D> {
-    next: N,
-    done: D,
-    slots: Vec<Option<(T, Run<O>)>>,
+/// The same of runs that are watched.
+pub fn simulate_watched_side_by_side<'o>(
+    next: &mut dyn FnMut() -> Option<(usize, Prepared<&'o mut dyn Observer>)>,
+    done: &mut dyn FnMut(usize, Response),
+) {
+    Work::new(Level::new(), next, done).all();
+}
+
+/// Runs at work. Its loop is compiled here, in one unit with the motion, for runs that are watched and that are not.
+struct Work<'w, O> {
+    next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
+    done: &'w mut dyn FnMut(usize, Response),
+    slots: Vec<Option<(usize, Run<O>)>>,
     /// Slots that ask for a step of a wall that turns as one, and of one whose bodies turn apart.
     as_one: Vec<usize>,
     apart: Vec<usize>,
@@ -292,11 +288,29 @@ struct Work<T, O, N, D> {
     level: Level,
 }
 
-impl<T, O: Observer, N: FnMut() -> Option<(T, Prepared<O>)>, D: FnMut(T, Response)> Work<T, O, N, D> {
+impl<'w, O: Observer> Work<'w, O> {
+    fn new(
+        level: Level,
+        next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
+        done: &'w mut dyn FnMut(usize, Response),
+    ) -> Self {
+        let [as_one, apart] = [(); 2].map(|()| Vec::with_capacity(AT_ONCE));
+        Self { next, done, slots: Vec::with_capacity(AT_ONCE), as_one, apart, level }
+    }
+
+    fn all(&mut self) {
+        while self.slots.len() < AT_ONCE {
+            let Some(run) = self.begin_next() else { break };
+            self.slots.push(Some(run));
+            self.go_on(self.slots.len() - 1);
+        }
+        while self.step() {}
+    }
+
     #[inline(never)]
-    fn begin_next(&mut self) -> Option<(T, Run<O>)> {
-        let (tag, prepared) = (self.next)()?;
-        Some((tag, prepared.begun()))
+    fn begin_next(&mut self) -> Option<(usize, Run<O>)> {
+        let (number, prepared) = (self.next)()?;
+        Some((number, prepared.begun()))
     }
 
     /// Brings the run in a slot, or the next one in its place, to where it asks for a step that others may share.
@@ -321,8 +335,8 @@ impl<T, O: Observer, N: FnMut() -> Option<(T, Prepared<O>)>, D: FnMut(T, Respons
     /// Ends the run in a slot and begins the next one there.
     #[inline(never)]
     fn replace(&mut self, slot: usize) {
-        if let Some((tag, run)) = self.slots[slot].take() {
-            (self.done)(tag, run.end());
+        if let Some((number, run)) = self.slots[slot].take() {
+            (self.done)(number, run.end());
         }
         self.slots[slot] = self.begin_next();
     }

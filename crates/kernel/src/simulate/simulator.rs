@@ -93,7 +93,7 @@ impl Simulator {
     }
 
     /// The whole run, from the wall's initial rotations at rest.
-    pub fn run(&self, observer: &mut impl Observer) -> Response {
+    pub fn run(&self, observer: &mut dyn Observer) -> Response {
         self.run_from(&self.release(), self.end_s(), observer)
     }
 
@@ -106,8 +106,8 @@ impl Simulator {
     /// A window of a run: from a given start to `end_s`, or to a collapse. A window after the record is free motion.
     ///
     /// A start that is no time from 0 on with finite rotations and velocities gives a run that failed.
-    pub fn run_from(&self, start: &Start, end_s: f64, observer: &mut impl Observer) -> Response {
-        self.prepared_from(start, end_s, observer).alone()
+    pub fn run_from(&self, start: &Start, end_s: f64, observer: &mut dyn Observer) -> Response {
+        self.watched_from(start, end_s, observer).alone()
     }
 
     /// The whole run, to be run beside others.
@@ -116,7 +116,16 @@ impl Simulator {
     }
 
     /// A window as [`Simulator::run_from`] runs it, to be run beside others.
-    pub fn prepared_from<O: Observer>(&self, start: &Start, end_s: f64, observer: O) -> Prepared<O> {
+    pub fn watched_from<'o>(
+        &self,
+        start: &Start,
+        end_s: f64,
+        observer: &'o mut dyn Observer,
+    ) -> Prepared<&'o mut dyn Observer> {
+        self.prepared_from(start, end_s, observer)
+    }
+
+    fn prepared_from<O: Observer>(&self, start: &Start, end_s: f64, observer: O) -> Prepared<O> {
         let run = Run::new(self, &self.placed(start), self.ground.until(end_s), observer);
         let State { theta, omega } = start.state;
         let finite = theta.iter().chain(&omega).all(|x| x.is_finite());

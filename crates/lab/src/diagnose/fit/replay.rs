@@ -7,7 +7,7 @@ use crate::diagnose::hypothesis::Physics;
 use crate::diagnose::measured::{TestData, Window};
 use mrbd_kernel::model::{Contact, Pair};
 use mrbd_kernel::simulate::{
-    Accuracy, Observer, Prepared, Response, Shaking, Simulator, Start, simulate_side_by_side,
+    Accuracy, Observer, Prepared, Response, Shaking, Simulator, Start, simulate_watched_side_by_side,
 };
 use mrbd_kernel::solver::Quintic;
 
@@ -44,8 +44,8 @@ impl<'a> Replay<'a> {
         };
         let mut samplers = asked.iter().map(sampler).collect::<Vec<_>>();
         let mut waiting = asked.iter().zip(&mut samplers);
-        let next = || waiting.next().map(|((window, x), sampler)| ((), self.prepared(window, x, sampler)));
-        simulate_side_by_side(next, |(), _| ());
+        let mut next = || waiting.next().map(|((window, x), sampler)| (0, self.prepared(window, x, sampler)));
+        simulate_watched_side_by_side(&mut next, &mut |_, _| ());
         asked.iter().zip(samplers).map(|((window, _), sampler)| self.left(window, sampler)).collect()
     }
 
@@ -55,14 +55,19 @@ impl<'a> Replay<'a> {
     }
 
     /// Runs a window from a state to its last sample.
-    pub fn run(&self, window: &Window, x: &[f64], observer: &mut impl Observer) -> Response {
+    pub fn run(&self, window: &Window, x: &[f64], observer: &mut dyn Observer) -> Response {
         let (start, end_s) = self.ends(window, x);
         self.simulators[window.test].run_from(&start, end_s, observer)
     }
 
-    fn prepared<O: Observer>(&self, window: &Window, x: &[f64], observer: O) -> Prepared<O> {
+    fn prepared<'o>(
+        &self,
+        window: &Window,
+        x: &[f64],
+        observer: &'o mut dyn Observer,
+    ) -> Prepared<&'o mut dyn Observer> {
         let (start, end_s) = self.ends(window, x);
-        self.simulators[window.test].prepared_from(&start, end_s, observer)
+        self.simulators[window.test].watched_from(&start, end_s, observer)
     }
 
     /// Where a window starts from a state, and its end, s.
