@@ -31,8 +31,8 @@ check: ## run a smaller sweep and compare its medians with the accepted ones
 	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null
 	cargo run --release --locked --bin mrbd -- check outputs/check --baseline tests/baselines/emilia7.csv
 
-test: ## all tests
-	cargo test --release --locked
+test: ## all tests, of the program and of its crates
+	cargo test --release --locked --workspace
 
 test-browser: ## the pages in a real headless Chromium: no errors, figures present, interactions work
 ifeq ($(shell command -v chromium),)
@@ -55,11 +55,11 @@ blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: FIRST=0 CAS
 		$(if $(RECORDED),--recorded $(RECORDED))
 
 lint: ## formatting and lints, warnings denied
-	cargo fmt --check
-	cargo clippy --release --locked --all-targets -- -D warnings
+	cargo fmt --all --check
+	cargo clippy --release --locked --workspace --all-targets -- -D warnings
 
 docs: ## the library's documentation, warnings denied
-	RUSTDOCFLAGS="--deny warnings" cargo doc --release --no-deps --locked
+	RUSTDOCFLAGS="--deny warnings" cargo doc --release --no-deps --locked --workspace
 
 clean:
 	cargo clean

@@ -7,9 +7,9 @@ use std::fmt;
 use std::hint::black_box;
 
 use divan::{Bencher, counter::ItemsCount};
-use mrbd::ground::Accelerogram;
-use mrbd::model::{Contact, ImpactLaw, Pivot, RockingWall, State, Vector};
-use mrbd::simulate::{Accuracy, Shaking, simulate};
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{Contact, ImpactLaw, Pivot, RockingWall, State, Vector};
+use mrbd_kernel::simulate::{Accuracy, Shaking, simulate};
 
 use table_wall::{earthquake, table_wall};
 

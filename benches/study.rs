@@ -10,13 +10,13 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
-use mrbd::batch::{SideBySide, Simulate, run_all};
-use mrbd::campaign::{BLOCK_RUNS, Layout, Shard, Standing, Work, run_missing};
-use mrbd::input::pipeline::Pipeline;
-use mrbd::model::{Contact, ImpactLaw, Pivot, RockingWall, State, Vector, Wall};
-use mrbd::plan::Plan;
-use mrbd::simulate::{Accuracy, Response, Shaking, simulate};
-use mrbd::store::{Earlier, Manifest, OutputFolder};
+use mrbd::study::batch::{SideBySide, Simulate, run_all};
+use mrbd::study::campaign::{BLOCK_RUNS, Layout, Shard, Standing, Work, run_missing};
+use mrbd::study::pipeline::Pipeline;
+use mrbd::study::plan::Plan;
+use mrbd::study::runs::{Earlier, Manifest, OutputFolder};
+use mrbd_kernel::model::{Contact, ImpactLaw, Pivot, RockingWall, State, Vector, Wall};
+use mrbd_kernel::simulate::{Accuracy, Response, Shaking, simulate};
 
 use table_wall::{earthquake, table_wall};
 
@@ -168,7 +168,7 @@ fn main() {
     study.spent(2, &counted);
     let evaluations = evaluations.into_inner() as f64 / study.runs();
     let told = |_: &Wall, _: &Shaking, _: Accuracy| once.clone();
-    let pools = [1, 2].map(|threads| mrbd::batch::threads(threads).expect("threads"));
+    let pools = [1, 2].map(|threads| mrbd::study::batch::threads(threads).expect("threads"));
     let rocking = RockingWall::new(&wall);
     let mut times = Times::default();
     for _ in 0..TURNS {

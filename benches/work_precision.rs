@@ -4,9 +4,9 @@
 //! four. Its error is that against the finest method in thirty-two steps, as the solver scales it: rotations over α_i,
 //! velocities times the time of response. Every method is written as a Nyström method, by its weights of accelerations.
 
-use mrbd::model::{Contact, Pair, RockingWall, State, Vector};
-use mrbd::simulate::{Accuracy, Observer, simulate_observed};
-use mrbd::solver::Quintic;
+use mrbd_kernel::model::{Contact, Pair, RockingWall, State, Vector};
+use mrbd_kernel::simulate::{Accuracy, Observer, simulate_observed};
+use mrbd_kernel::solver::Quintic;
 
 mod walls;
 

@@ -7,9 +7,9 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use mrbd::ground::{ReadOptions, read};
-use mrbd::input::load_wall;
-use mrbd::simulate::{Accuracy, Shaking, simulate};
+use mrbd_files::load_wall;
+use mrbd_kernel::simulate::{Accuracy, Shaking, simulate};
+use mrbd_records::{ReadOptions, read};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments = std::env::args().skip(1).collect::<Vec<_>>();

@@ -59,29 +59,17 @@
 //! | [`cli`] | the command line | the above, and messages for people |
 
 pub mod aggregate;
-pub mod batch;
-pub mod calibrate;
-pub mod campaign;
 pub mod check;
+pub mod classics;
 pub mod cli;
-pub mod comparison;
-pub mod diagnose;
 pub mod error;
 pub mod findings;
 pub mod fragility;
-mod frame;
-mod fused;
-pub mod ground;
-pub mod input;
-pub mod model;
-pub mod overturning;
-pub mod plan;
 pub mod report;
-pub mod sampling;
-pub mod simulate;
-pub mod solver;
+pub mod results;
 pub mod starter;
 pub mod store;
-mod suggestion;
+pub mod study;
+pub mod survey;
 
 pub use error::{Error, InputError, Result};

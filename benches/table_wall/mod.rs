@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use mrbd::ground::{Accelerogram, Suite};
-use mrbd::model::{ImpactLaw, Restitution, Wall, WallParameters};
+use mrbd_kernel::model::{ImpactLaw, Restitution, Wall, WallParameters};
+use mrbd_records::{Accelerogram, Suite};
 
 /// The calibrated wall of the shaking-table tests (Tables 1 and 2 of the paper).
 pub fn table_wall(law: ImpactLaw, capture_velocity_rad_s: f64) -> Wall {

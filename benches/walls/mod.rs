@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use mrbd::ground::{Accelerogram, Suite};
-use mrbd::input::assumptions::Assumptions;
-use mrbd::input::coefficients::CoefficientSets;
-use mrbd::input::survey::{Configuration, Survey};
-use mrbd::model::{Restitution, Wall};
-use mrbd::sampling::{FacadeSampler, Sampling};
-use mrbd::simulate::Shaking;
+use mrbd::survey::Assumptions;
+use mrbd::survey::sampling::{FacadeSampler, Sampling};
+use mrbd::survey::{Configuration, Survey};
+use mrbd_files::coefficients::CoefficientSets;
+use mrbd_kernel::model::{Restitution, Wall};
+use mrbd_kernel::simulate::Shaking;
+use mrbd_records::{Accelerogram, Suite};
 
 fn shipped(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)

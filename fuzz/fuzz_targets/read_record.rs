@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use mrbd::ground::{ReadOptions, read_bytes};
+use mrbd_records::{ReadOptions, read_bytes};
 
 fuzz_target!(|bytes: &[u8]| {
     for options in [ReadOptions::default(), ReadOptions { step_s: Some(0.005), ..ReadOptions::default() }] {

@@ -4,7 +4,7 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use mrbd::ground::Suite;
+use mrbd_records::Suite;
 
 fuzz_target!(|bytes: &[u8]| {
     let folder = std::env::temp_dir().join(format!("mrbd-fuzz-{}", std::process::id()));

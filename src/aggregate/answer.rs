@@ -1,8 +1,9 @@
 //! What came of a run, as far as one compares it with the same run under other circumstances.
 
-use crate::batch::Finished;
-use crate::input::pipeline::Kind;
-use crate::store::{COLUMNS, Read};
+use crate::store::Read;
+use crate::study::batch::Finished;
+use crate::study::pipeline::Kind;
+use crate::study::runs::COLUMNS;
 
 /// What of a run is compared: numbers, and the column that says whether they exist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,11 +7,11 @@ use polars::prelude::PolarsResult;
 use super::medians::{Measure, Middle};
 use super::row::Row;
 use crate::error::{Error, Result};
-use crate::frame::read;
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
-use crate::store::run_files;
+use crate::store::frame::read;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::study::runs::run_files;
+use crate::survey::Configuration;
 
 const COLUMNS: [&str; 11] = [
     "variant",

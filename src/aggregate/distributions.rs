@@ -7,8 +7,8 @@ use std::path::Path;
 use super::medians::{Moved, VariantNote};
 use super::quantile::MEDIAN;
 use crate::error::Result;
-use crate::input::pipeline::Kind;
 use crate::store::{Column, Read, write_table};
+use crate::study::pipeline::Kind;
 
 /// Quantiles of one quantity over the runs of a group.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,9 +10,9 @@ use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
 use super::variants::variant_notes;
 use crate::error::{Error, Result};
-use crate::frame::{self, Frame};
-use crate::input::pipeline::Kind;
-use crate::store::run_files;
+use crate::store::frame::{self, Frame};
+use crate::study::pipeline::Kind;
+use crate::study::runs::run_files;
 
 /// What is told of runs at given intensities.
 const ROTATIONS: &[&str] = &[

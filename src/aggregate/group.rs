@@ -3,7 +3,7 @@
 use polars::prelude::{Float64Chunked, PolarsResult};
 
 use super::row::{Row, absent};
-use crate::frame::{Frame, Texts};
+use crate::store::frame::{Frame, Texts};
 
 /// Runs that are alike in some columns.
 pub(super) struct Group {
@@ -62,8 +62,8 @@ mod tests {
     use arrow_array::{ArrayRef, DictionaryArray, Float64Array, UInt64Array};
 
     use super::*;
-    use crate::frame::read;
-    use crate::frame::testing::write;
+    use crate::store::frame::read;
+    use crate::store::frame::testing::write;
 
     fn labels(texts: [&str; 5]) -> ArrayRef {
         Arc::new(texts.into_iter().collect::<DictionaryArray<Int32Type>>())

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::quantile::MEDIAN;
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::survey::Configuration;
 
 /// A normalised largest rotation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

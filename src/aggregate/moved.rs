@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use polars::prelude::{Float64Chunked, PolarsResult, UInt64Chunked};
 
 use super::medians::{Moved, VariantNote};
-use crate::frame::{Frame, Texts, read};
+use crate::store::frame::{Frame, Texts, read};
 
 /// A largest rotation has moved if it differs by more than this share: what an engineer would call another result.
 pub const MOVED_SHARE: f64 = 0.01;
@@ -137,7 +137,7 @@ mod tests {
     use arrow_array::{ArrayRef, BooleanArray, DictionaryArray, Float64Array, UInt64Array};
 
     use super::*;
-    use crate::frame::testing::write;
+    use crate::store::frame::testing::write;
 
     const COMPARISON: Comparison =
         Comparison { labels: &[], numbers: &["draw"], outcome: "exceeded", usable: "true", compared: &["x"] };

@@ -6,8 +6,8 @@ use polars::prelude::PolarsResult;
 
 use super::group::{Group, in_plan_order};
 use crate::error::{Error, Result};
-use crate::frame::read;
-use crate::store::run_files;
+use crate::store::frame::read;
+use crate::study::runs::run_files;
 
 /// Runs that ended alike.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use polars::prelude::{PolarsError, PolarsResult, polars_err};
 
-use crate::frame::Frame;
+use crate::store::frame::Frame;
 
 /// A run in a frame.
 #[derive(Clone, Copy)]

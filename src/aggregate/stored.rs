@@ -8,8 +8,8 @@ use polars::prelude::PolarsResult;
 use super::answer::{Answer, Compared};
 use super::row::Row;
 use crate::error::{Error, Result};
-use crate::frame::read;
-use crate::store::{listed_run_files, run_files};
+use crate::store::frame::read;
+use crate::study::runs::{listed_run_files, run_files};
 
 /// Numbers of the run at a position of the plan, by column; none for a run that is not stored, and for values that
 /// do not exist.

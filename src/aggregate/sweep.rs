@@ -11,11 +11,11 @@ use super::quantile::quantiles;
 use super::row::Row;
 use super::variants::variant_notes;
 use crate::error::{Error, Result};
-use crate::frame::{Frame, read};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
-use crate::store::run_files;
+use crate::store::frame::{Frame, read};
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::study::runs::run_files;
+use crate::survey::Configuration;
 
 /// Columns that tell the cases apart; records are what the quantiles run over.
 const CASE: [&str; 5] = ["variant", "configuration", "parameter", "level", "slenderness"];

@@ -6,7 +6,7 @@ use polars::prelude::PolarsResult;
 
 use super::group::{Group, in_plan_order};
 use super::medians::VariantNote;
-use crate::frame::{Frame, read};
+use crate::store::frame::{Frame, read};
 
 const COLUMNS: [&str; 11] = [
     "run",

@@ -129,7 +129,7 @@ fn moved(compared: &Compared, again: &Again) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::pipeline::Kind;
+    use crate::study::pipeline::Kind;
 
     fn again(stored: (&str, f64), tighter: (&str, f64)) -> Again {
         let answer = |(outcome, x): (&str, f64)| Answer {

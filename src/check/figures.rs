@@ -2,7 +2,7 @@
 
 use super::baseline::Entry;
 use crate::aggregate::{Distribution, Distributions, Measure, Median, Medians, Middle};
-use crate::input::pipeline::Kind;
+use crate::study::pipeline::Kind;
 
 /// The medians of θ_i/α_i of a sweep.
 pub fn figures_of_sweep(medians: &Medians) -> Vec<Entry> {

@@ -10,8 +10,8 @@ use crate::aggregate::{
 };
 use crate::error::Result;
 use crate::findings::{report, report_distributions, write_findings};
-use crate::input::pipeline::Kind;
-use crate::store::{Manifest, OutputFolder};
+use crate::study::pipeline::Kind;
+use crate::study::runs::{Manifest, OutputFolder};
 
 /// Read the runs of a study, write medians.parquet (and findings.csv of a sweep) beside them, print tables and findings.
 #[derive(Debug, Args)]

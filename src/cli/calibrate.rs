@@ -5,13 +5,13 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
 use super::output;
-use crate::calibrate::{
-    Archive, Experiment, OutputNames, calibrate, print_parameters, simulate, summary, write_results,
-};
 use crate::error::{InputError, Result};
+use crate::results::calibration::{OutputNames, write_results};
+use mrbd_lab::Progress;
+use mrbd_lab::calibrate::{Archive, Experiment, calibrate, print_parameters, simulate, summary};
 
 /// Calibrate a wall to measured tests.
 ///
@@ -59,12 +59,29 @@ pub fn execute(args: &CalibrateArgs) -> Result<()> {
     })?;
     let Some(out) = args.out.as_ref().filter(|_| !args.evaluate) else { return evaluate(&experiment) };
     let names = OutputNames::prepare(out, &experiment, args.resume)?;
-    let progress = ProgressBar::new_spinner().with_style(style());
-    let archive = Archive::open(&names.journal, &experiment.request, args.resume, progress)?;
+    let progress = ProgressBar::new_spinner().with_style(style()).with_finish(ProgressFinish::AndClear);
+    let archive =
+        Archive::open(&names.journal, &experiment.request, args.resume, Box::new(Counter(progress)))?;
     let calibration = pool.install(|| calibrate(&experiment, &archive))?;
     write_results(&names, &experiment, &calibration, archive)?;
     eprintln!("{}", summary(&calibration));
     output::to_stdout(|out| print_parameters(out, &calibration).map_err(output::failed))
+}
+
+/// Counts simulations, whose number nobody knows beforehand.
+#[derive(Debug)]
+struct Counter(ProgressBar);
+
+impl Progress for Counter {
+    fn begin(&self, _what: &str, _parts: usize) {}
+
+    fn advance(&self, parts: usize) {
+        self.0.inc(parts as u64);
+    }
+
+    fn note(&self, text: &str) {
+        self.0.set_message(text.to_owned());
+    }
 }
 
 fn style() -> ProgressStyle {

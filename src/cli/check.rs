@@ -10,7 +10,7 @@ use super::output;
 use crate::aggregate::{aggregate, distributions};
 use crate::check::{Baseline, Change, compare, figures_of_drawn, figures_of_sweep};
 use crate::error::{Error, InputError, Result};
-use crate::input::pipeline::Kind;
+use crate::study::pipeline::Kind;
 
 /// Compare the medians of a study with a baseline and fail with a table of what moved.
 #[derive(Debug, Args)]

@@ -7,14 +7,14 @@ use clap::Args;
 
 use super::{output, replay};
 use crate::aggregate::{Compared, MOVED_SHARE, stored_answers};
-use crate::batch;
 use crate::check::{Again, Conditioning, conditioning, sampled};
 use crate::error::{InputError, Result};
 use crate::findings::aligned;
-use crate::model::Wall;
-use crate::plan::Plan;
-use crate::simulate::{Accuracy, Shaking, simulate};
-use crate::store::OutputFolder;
+use crate::study::batch;
+use crate::study::plan::Plan;
+use crate::study::runs::OutputFolder;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Shaking, simulate};
 
 /// The tolerance of the runs again, over that of the study, if none is asked for.
 const TIGHTER: f64 = 1e-2;

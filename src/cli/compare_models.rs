@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::output;
-use crate::comparison::{self, Finding, ModelComparison, compare, print_rows, write_histories};
+use crate::classics::comparison::{self, Finding, ModelComparison, compare, print_rows, write_histories};
 use crate::error::{Error, Result};
 use crate::store::{WholeFolder, write_durably};
 
@@ -46,7 +46,7 @@ fn write(comparison: &ModelComparison, folder: &Path, started_unix_s: u64) -> Re
 /// Kind and provenance, by which `mrbd report` knows the folder.
 fn manifest(comparison: &ModelComparison, started_unix_s: u64) -> String {
     let manifest = serde_json::json!({
-        "kind": crate::comparison::KIND,
+        "kind": crate::classics::comparison::KIND,
         "name": comparison.name,
         "tool_version": env!("CARGO_PKG_VERSION"),
         "suite": comparison.suite,

@@ -8,9 +8,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 
 use super::output;
-use crate::diagnose::{Experiment, OutputNames, Progress, check_data, diagnose, write_results};
 use crate::error::{InputError, Result};
 use crate::report::report;
+use crate::results::diagnosis::{OutputNames, write_results};
+use mrbd_lab::Progress;
+use mrbd_lab::diagnose::{Experiment, check_data, diagnose};
 
 /// Find where model and measurement disagree, and name the missing effect.
 ///
@@ -37,22 +39,25 @@ pub struct DiagnoseArgs {
     threads: Option<NonZero<usize>>,
 }
 
+#[derive(Debug)]
 struct Bar(ProgressBar);
 
 impl Progress for Bar {
-    fn step(&self, what: &str, hypotheses: usize) {
+    fn begin(&self, what: &str, parts: usize) {
         // Both at once: a bar drawn between them would show the count of one step beside the length of another.
         self.0.update(|state| {
             state.set_pos(0);
-            state.set_len(hypotheses as u64);
+            state.set_len(parts as u64);
         });
         self.0.reset_eta();
         self.0.set_message(what.to_owned());
     }
 
-    fn fitted(&self) {
-        self.0.inc(1);
+    fn advance(&self, parts: usize) {
+        self.0.inc(parts as u64);
     }
+
+    fn note(&self, _text: &str) {}
 }
 
 /// Runs the command.

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::output;
 use crate::error::{InputError, Result};
-use crate::model::{Effect, EffectKind, EffectParameter, Place};
+use mrbd_kernel::model::{Effect, EffectKind, EffectParameter, Place};
 
 /// List the further effects that a wall file may have, with an example of each.
 ///
@@ -35,13 +35,13 @@ impl EffectsCommand {
     /// # Errors
     /// A kind that there is not.
     pub fn execute(&self) -> Result<()> {
-        let named = |name: &String| Effect::kind_named(name).map_err(|e| no_kind(name, &e.to_string()));
+        let named = |name: &String| EffectKind::named(name).map_err(|e| no_kind(name, &e.to_string()));
         let kinds = match &self.kinds[..] {
-            [] => Effect::kinds().iter().collect(),
+            [] => EffectKind::ALL.to_vec(),
             names => names.iter().map(named).collect::<Result<Vec<_>, _>>()?,
         };
         output::print(&if self.json {
-            format!("{:#}", serde_json::json!(kinds))
+            format!("{:#}", serde_json::json!(kinds.into_iter().map(EffectKind::entry).collect::<Vec<_>>()))
         } else {
             kinds.into_iter().map(for_people).collect::<Vec<_>>().join("\n\n\n")
         })
@@ -63,28 +63,29 @@ fn place(place: Place) -> &'static str {
     }
 }
 
-fn for_people(kind: &EffectKind) -> String {
-    let mut lines = vec![format!("{} — {}", kind.name, place(kind.place))];
-    lines.extend(wrapped(kind.description));
-    lines.push(format!("  {}", kind.law));
-    if let Some(choice) = kind.choice {
+fn for_people(kind: EffectKind) -> String {
+    let entry = kind.entry();
+    let mut lines = vec![format!("{} — {}", entry.name, place(entry.place))];
+    lines.extend(wrapped(entry.description));
+    lines.push(format!("  {}", entry.law));
+    if let Some(choice) = entry.choice {
         lines.push(format!("  {}: {}; {}", choice.key, choice.options.join(" or "), choice.meaning));
     }
-    lines.extend(kind.parameters.iter().map(bounds));
-    lines.extend(wrapped(&format!("Known by: {}; at impacts: {}.", kind.fingerprint, kind.at_impacts)));
-    if !kind.confused_with.is_empty() {
-        lines.extend(wrapped(&format!("Easily taken for: {}.", kind.confused_with.join(", "))));
+    lines.extend(entry.parameters.iter().map(bounds));
+    lines.extend(wrapped(&format!("Known by: {}; at impacts: {}.", entry.fingerprint, entry.at_impacts)));
+    if !entry.confused_with.is_empty() {
+        lines.extend(wrapped(&format!("Easily taken for: {}.", entry.confused_with.join(", "))));
     }
-    lines.extend(wrapped(&format!("Told by itself by {}.", kind.told_by)));
-    let several = if kind.may_repeat { "several add up or multiply" } else { "at most one a wall" };
+    lines.extend(wrapped(&format!("Told by itself by {}.", entry.told_by)));
+    let several = if entry.may_repeat { "several add up or multiply" } else { "at most one a wall" };
     lines.push(format!("  In a wall file ({several}):\n"));
     lines.push(example(kind));
     lines.join("\n")
 }
 
 fn bounds(parameter: &EffectParameter) -> String {
-    let EffectParameter { key, unit, least, most, meaning, .. } = parameter;
-    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    let EffectParameter { key, quantity, least, most, meaning, .. } = parameter;
+    let unit = if quantity.unit().is_empty() { String::new() } else { format!(" {}", quantity.unit()) };
     format!("  {key}: {} to {}{unit}; {meaning}", short(*least), short(*most))
 }
 
@@ -92,8 +93,8 @@ fn short(value: f64) -> String {
     if value.abs() >= 1e4 { format!("{value:e}") } else { value.to_string() }
 }
 
-fn example(kind: &EffectKind) -> String {
-    let Some(variant) = Effect::kind_named(kind.name).ok().and_then(|kind| kind.variants().last()) else {
+fn example(kind: EffectKind) -> String {
+    let Some(variant) = kind.variants().last() else {
         return String::new();
     };
     // A table of texts and numbers can always be written.

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::campaign::{Layout, Standing, compact};
 use crate::error::Result;
-use crate::store::OutputFolder;
+use crate::study::campaign::{Layout, Standing, compact};
+use crate::study::runs::OutputFolder;
 
 /// Put the parts of a study that was run with --shard together; the same files as of an undivided study come out.
 #[derive(Debug, Args)]

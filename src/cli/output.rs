@@ -11,7 +11,9 @@ use crate::error::{Error, InputError, Result};
 /// What `print` meets, unless the reader has gone.
 pub fn to_stdout(print: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
     match print(&mut io::stdout().lock()) {
-        Err(Error::Io { source, .. }) if source.kind() == ErrorKind::BrokenPipe => Ok(()),
+        Err(Error::Files(mrbd_files::Error::Io { source, .. })) if source.kind() == ErrorKind::BrokenPipe => {
+            Ok(())
+        }
         result => result,
     }
 }

@@ -6,12 +6,14 @@ use clap::Args;
 
 use super::{output, simulate};
 use crate::aggregate::stored_numbers;
-use crate::batch::{Finished, run_one};
 use crate::error::{Error, InputError, Result};
-use crate::input::pipeline::Pipeline;
-use crate::plan::{Plan, Run};
-use crate::simulate::{FREE_RELEASE_STEP_S, History, simulate_observed};
-use crate::store::{COLUMNS, Manifest, OutputFolder, Read, file_sha256, write_history};
+use crate::store::{Read, write_history};
+use crate::study::batch::{Finished, run_one};
+use crate::study::pipeline::Pipeline;
+use crate::study::plan::{Plan, Run};
+use crate::study::runs::{COLUMNS, Manifest, OutputFolder};
+use mrbd_files::file_sha256;
+use mrbd_kernel::simulate::{FREE_RELEASE_STEP_S, History, simulate_observed};
 
 /// Results that are compared with what is stored, bit by bit: each depends on the whole run.
 const COMPARED: [&str; 4] = ["theta1_max_rad", "theta2_max_rad", "end_time_s", "energy_residual"];
@@ -81,7 +83,7 @@ impl ReplayCommand {
 
     /// The run again, and its history; that of an incremental analysis is the one of the run it ended with.
     fn rerun(&self, run: Run) -> Result<Finished> {
-        let finished = run_one(run, &crate::simulate::simulate);
+        let finished = run_one(run, &mrbd_kernel::simulate::simulate);
         if let (Some(path), Ok(wall)) = (&self.history, &finished.run.wall) {
             let (run, writer) = (&finished.run, write_history(path)?);
             let shaking = run.shaking();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::error::Result;
-use crate::ground::Site;
+use mrbd_records::Site;
 
 /// Make one HTML page of a folder of results: figures, conclusions, assumptions, provenance.
 ///

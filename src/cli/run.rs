@@ -8,15 +8,16 @@ use std::time::Instant;
 use clap::Args;
 
 use super::{output, stop};
-use crate::batch::{self, Finished, SideBySide, Tally};
-use crate::campaign::{BLOCK_RUNS, Block, Layout, Shard, Standing, Work, run_missing};
+use crate::classics::overturning;
 use crate::error::{Error, InputError, Result};
-use crate::input::pipeline::Pipeline;
-use crate::overturning;
-use crate::plan::Plan;
-use crate::sampling::Sampling;
+use crate::study::batch::{self, Finished, SideBySide, Tally};
+use crate::study::campaign::{BLOCK_RUNS, Block, Layout, Shard, Standing, Work, run_missing};
+use crate::study::pipeline::Pipeline;
+use crate::study::plan::Plan;
+use crate::survey::sampling::Sampling;
 
-use crate::store::{COLUMNS, Earlier, Manifest, OutputFolder, Stage, WholeFolder, print_csv};
+use crate::store::{Stage, WholeFolder, print_csv};
+use crate::study::runs::{COLUMNS, Earlier, Manifest, OutputFolder};
 
 /// Failed runs that are told one by one; all are counted, and stored with their reasons.
 const FAILURES_TOLD: usize = 10;
@@ -63,7 +64,7 @@ impl RunCommand {
         if let Some(study) = overturning::Study::load(&self.pipeline)? {
             return self.overturning(&study);
         }
-        if crate::comparison::is_comparison(&self.pipeline)? {
+        if crate::classics::comparison::is_comparison(&self.pipeline)? {
             self.refuse_parts("a comparison of models has a few runs, done at once")?;
             let out = self.out.as_deref();
             let compare =

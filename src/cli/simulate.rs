@@ -7,12 +7,12 @@ use serde_json::{Map, Value, json};
 
 use super::output;
 use crate::error::{Error, InputError, Result};
-use crate::ground::{Accelerogram, ReadOptions, read};
-use crate::input::load_wall;
-use crate::model::{PATTERN_NAMES, Wall};
 use crate::report::{PlotFile, RunPicture, Watch};
-use crate::simulate::{Accuracy, Outcome, Response, Shaking, simulate_observed};
 use crate::store::write_history;
+use mrbd_files::load_wall;
+use mrbd_kernel::model::{PATTERN_NAMES, Wall};
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking, simulate_observed};
+use mrbd_records::{Accelerogram, ReadOptions, read};
 
 /// Densities of masonry with room to spare, from light blocks with holes to dense stone, kg/m³.
 const MASONRY_KG_M3: std::ops::RangeInclusive<f64> = 300.0..=3500.0;
@@ -93,7 +93,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     let response = if history.is_some() || plot.is_some() {
         simulate_observed(&wall, &shaking, accuracy, &mut watch)
     } else {
-        crate::simulate::simulate(&wall, &shaking, accuracy)
+        mrbd_kernel::simulate::simulate(&wall, &shaking, accuracy)
     };
     if let Some(writer) = history {
         writer.finish(&watch.history, &wall.reading())?;
@@ -199,7 +199,7 @@ fn tell_odd_density(wall: &Wall) {
 
 /// Time between rows of the history: the record's, or for a free release what was asked for.
 fn history_step_s(args: &SimulateArgs, shaking: &Shaking) -> Result<f64> {
-    let asked_s = args.dt.unwrap_or(crate::simulate::FREE_RELEASE_STEP_S);
+    let asked_s = args.dt.unwrap_or(mrbd_kernel::simulate::FREE_RELEASE_STEP_S);
     let asked_s = number("--dt", asked_s, asked_s > 0.0, "a finite number of seconds above 0")?;
     Ok(shaking.horizontal.as_ref().map_or(asked_s, Accelerogram::step_s))
 }

@@ -7,9 +7,9 @@ use clap::Args;
 
 use super::output;
 use crate::aggregate::{Ending, endings};
-use crate::campaign::{Layout, Standing};
 use crate::error::Result;
-use crate::store::{Manifest, OutputFolder};
+use crate::study::campaign::{Layout, Standing};
+use crate::study::runs::{Manifest, OutputFolder};
 
 /// Tell how far a study is and what failed and why, check every file, and print lines that read it.
 #[derive(Debug, Args)]

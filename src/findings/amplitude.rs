@@ -5,9 +5,9 @@ use super::change::tell;
 use super::verdict::{Answer, NOTICEABLE, Verdict, Vote};
 use super::view::{Slender, View};
 use crate::aggregate::{Measure, Middle};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::survey::Configuration;
 
 /// θ/α the source calls significant (sections 4.3 and 5).
 const SIGNIFICANT: f64 = 0.05;

@@ -6,8 +6,8 @@ use super::geometry::rises;
 use super::verdict::{Answer, Verdict, Vote};
 use super::view::{Slender, View};
 use crate::aggregate::{Measure, Middle};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
+use crate::study::pipeline::Parameter;
+use crate::survey::Configuration;
 
 /// Sections 4.4 and 5 (3), Fig. 16.
 pub(super) const STIFFER_LESS: Finding = Finding {

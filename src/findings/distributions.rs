@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use super::report::{assumptions, heading};
 use super::text::{aligned, wrapped};
 use crate::aggregate::{Distribution, Distributions, MOVED_SHARE, Moved};
-use crate::input::pipeline::Kind;
+use crate::study::pipeline::Kind;
 
 /// Rows of a table by record that still can be read; more are in the file of medians.
 const MOST_ROWS: usize = 60;

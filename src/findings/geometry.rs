@@ -5,9 +5,9 @@ use super::change::{distance, increase, is_little, middle_of, tell};
 use super::verdict::{Answer, Verdict, Vote};
 use super::view::{Slender, View};
 use crate::aggregate::{Measure, Middle};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::survey::Configuration;
 
 /// Sections 4.3 and 5 (4), Figs. 12 and 13: said "especially for slender walls", so asked of those.
 pub(super) const REVERSE_SCALE: Finding = Finding {

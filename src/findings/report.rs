@@ -9,8 +9,8 @@ use super::variants::shift;
 use super::{FINDINGS, Finding, View};
 use crate::aggregate::{MOVED_SHARE, Measure, Medians, Moved, VariantNote};
 use crate::error::{Error, Result};
-use crate::input::survey::Configuration;
 use crate::store::write_durably;
+use crate::survey::Configuration;
 
 /// Prints everything; the first variant is the one whose medians are shown whole.
 ///

@@ -5,9 +5,9 @@ use super::change::{distance, is_little, middle_of, tell};
 use super::verdict::{Answer, Verdict, Vote};
 use super::view::{Point, Slender, View};
 use crate::aggregate::{Median, Middle};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::survey::Configuration;
 
 /// Sections 4.5 and 5 (6), Figs. 18 and 19: spread as the figures show it, in θ/α between records of the reference façade.
 pub(super) const RECORD_SPREAD: Finding = Finding {

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use super::view::{Slender, View};
 use crate::aggregate::{Measure, Median, Middle};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::survey::Configuration;
 
 /// Columns of the slenderness at the left of a table.
 const HEAD: usize = 5;

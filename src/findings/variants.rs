@@ -1,7 +1,7 @@
 //! How far the medians move when the assumptions change.
 
 use crate::aggregate::{Case, Measure, Medians, Middle};
-use crate::input::survey::Configuration;
+use crate::survey::Configuration;
 
 /// How the medians of a variant differ from those of the first, for one floor.
 #[derive(Debug, Clone, PartialEq)]

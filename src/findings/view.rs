@@ -1,9 +1,9 @@
 //! The medians of one variant, as the findings ask for them.
 
 use crate::aggregate::{Case, Measure, Median, Medians, Middle};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::survey::Configuration;
 
 /// Above this h_tot / b a façade is slender: where the source's last conclusion draws the line.
 const SLENDER_ABOVE: f64 = 14.0;

@@ -3,8 +3,8 @@
 //! The log-likelihood of both links is concave in (a, b), so Newton's method with halved steps finds its only maximum;
 //! whether there is one is decided before, from the data (Albert & Anderson 1984, Biometrika 71).
 
-use super::normal;
 use super::unknown::Unknown;
+use mrbd_statistics::normal;
 
 /// Newton steps before giving up; a well-posed fit takes 5 to 10.
 const MAX_STEPS: usize = 100;

@@ -7,9 +7,9 @@
 
 use super::binomial::{Line, Link};
 use super::lognormal::LogNormal;
-use super::normal;
 use super::sample::Sample;
 use super::unknown::Unknown;
+use mrbd_statistics::normal;
 
 /// A cloud's fragility for one limit of the demand.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -68,8 +68,9 @@ fn log_likelihood(sample: &Sample, fitted: &Fitted) -> f64 {
     rows.map(|((&x, k), n)| match fitted.cloud {
         None => {
             let z = (x - fitted.curve.ln_median()) / fitted.curve.beta();
-            let part =
-                |count: f64, z: f64| if count > 0.0 { count * super::normal::ln_cdf(z).0 } else { 0.0 };
+            let part = |count: f64, z: f64| {
+                if count > 0.0 { count * mrbd_statistics::normal::ln_cdf(z).0 } else { 0.0 }
+            };
             part(*k, z) + part(n - k, -z)
         }
         Some(cloud) => {

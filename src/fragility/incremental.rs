@@ -4,9 +4,9 @@
 //! to stand at the last one that was run. Olsen's (1978) parameters γ = 1/β, δ = ln θ/β make the likelihood concave.
 
 use super::lognormal::LogNormal;
-use super::normal;
 use super::sample::Sample;
 use super::unknown::Unknown;
+use mrbd_statistics::normal;
 
 /// Newton steps before giving up.
 const MAX_STEPS: usize = 200;

@@ -2,7 +2,7 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::normal;
+use mrbd_statistics::normal;
 
 /// A confidence interval; a bound the data do not set is none.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

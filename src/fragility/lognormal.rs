@@ -1,6 +1,6 @@
 //! The log-normal fragility P(failure | x) = Φ(ln(x/θ)/β) (Baker 2015, Eq. 1).
 
-use super::normal;
+use mrbd_statistics::normal;
 
 /// A log-normal fragility that exists: median and dispersion finite and above 0.
 #[derive(Debug, Clone, Copy, PartialEq)]

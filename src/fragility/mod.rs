@@ -24,7 +24,6 @@ mod incremental;
 mod interval;
 mod lognormal;
 mod method;
-pub(crate) mod normal;
 mod nrml;
 mod outcomes;
 mod profile;

@@ -9,8 +9,8 @@
 //! (a moment estimator; consistent as clusters become many). The tetrachoric series
 //! Φ₂ - p p' = Σ_n ρⁿ/n g_{n-1}(η) g_{n-1}(η'), g_m = φ He_m/√m!, makes the sum over pairs a sum over rows.
 
-use super::normal;
 use super::sample::{Clusters, Sample};
+use mrbd_statistics::normal;
 
 /// Terms of the series: at the largest share what is left out is below 0.98⁴⁰⁰/400 < 1e-6 of a probability.
 const TERMS: usize = 400;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use polars::prelude::{PolarsError, PolarsResult};
 
 use crate::error::{Error, InputError, Result};
-use crate::frame::{self, Frame};
-use crate::suggestion::with_suggestion;
+use crate::store::frame::{self, Frame};
+use mrbd_files::suggestion::with_suggestion;
 
 /// A column as it stands in the table; an empty cell or a null is none.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +39,7 @@ impl Table {
         names.sort_unstable();
         names.dedup();
         let table = match path.extension().and_then(|e| e.to_str()) {
-            _ if path.is_dir() => read_parquet(path, &crate::store::run_files(path)?, names)?,
+            _ if path.is_dir() => read_parquet(path, &crate::study::runs::run_files(path)?, names)?,
             Some("csv") => read_csv(path, names)?,
             Some("parquet") => read_parquet(path, &[path.to_path_buf()], names)?,
             other => {

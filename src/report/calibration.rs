@@ -9,9 +9,9 @@ use std::path::Path;
 
 use super::page::{Link, Number, Page};
 use super::provenance::{Note, read_json};
-use crate::calibrate::{Calibration, Identifiability, disagreement};
 use crate::error::Result;
 use histories::Again;
+use mrbd_lab::calibrate::{Calibration, Identifiability, disagreement};
 
 /// The page of the calibration in a folder.
 ///

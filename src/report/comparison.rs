@@ -12,7 +12,7 @@ use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{self, Note};
 use super::words::rounded_up;
 use crate::aggregate::Middle;
-use crate::comparison::MODELS;
+use crate::classics::comparison::MODELS;
 use crate::error::{InputError, Result};
 use histories::Histories;
 

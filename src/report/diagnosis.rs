@@ -18,8 +18,8 @@ use std::path::Path;
 use super::colours::{Colour, Mark, PALETTE};
 use super::page::{Key, Link, Number, Page, Section};
 use super::provenance::Note;
-use crate::diagnose::tables::TABLES;
 use crate::error::Result;
+use crate::results::diagnosis::tables::TABLES;
 use stored::Stored;
 use words::{number, with_sd};
 

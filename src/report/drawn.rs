@@ -12,9 +12,9 @@ use super::provenance;
 use super::sweep::{assumptions, records};
 use crate::aggregate::{Distributions, VariantNote, distributions};
 use crate::error::{InputError, Result};
-use crate::ground::Site;
-use crate::input::pipeline::Kind;
-use crate::store::Manifest;
+use crate::study::pipeline::Kind;
+use crate::study::runs::Manifest;
+use mrbd_records::Site;
 
 /// The page of the study in a folder; its table of quantiles is written there first, for the page links to it.
 ///

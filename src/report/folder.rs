@@ -8,11 +8,11 @@ use super::page::Page;
 use super::provenance::read_json;
 use super::{calibration, comparison, diagnosis, drawn, history, overturning, sweep};
 use crate::error::{Error, InputError, Result};
-use crate::ground::Site;
-use crate::store::{Manifest, write_durably};
-
-/// Name of a page in the folder of its results.
-pub const PAGE_NAME: &str = "report.html";
+use crate::results;
+use crate::store::PAGE_NAME;
+use crate::store::write_durably;
+use crate::study::runs::Manifest;
+use mrbd_records::Site;
 
 /// Makes the page of the results in a folder, or of a history file; gives where it is. Records are held against the code
 /// of a site.
@@ -59,9 +59,9 @@ fn page_of(folder: &Path, site: Option<&Site>) -> Result<Page> {
     }
     let Kind { kind } = read_json(&path, "a manifest as mrbd writes it beside its results")?;
     match kind.as_deref() {
-        Some(crate::calibrate::KIND) => calibration::page(folder),
-        Some(crate::diagnose::KIND) => diagnosis::page(folder),
-        Some(crate::comparison::KIND) => comparison::page(folder),
+        Some(results::calibration::KIND) => calibration::page(folder),
+        Some(results::diagnosis::KIND) => diagnosis::page(folder),
+        Some(crate::classics::comparison::KIND) => comparison::page(folder),
         _ => study(folder, &path, site),
     }
 }

@@ -8,7 +8,7 @@ use super::graph::{Format, Graph, Layer};
 use super::page::{Figure, Key, Link, Number, Page, Section};
 use crate::error::{InputError, Result};
 use crate::fragility::Table;
-use crate::model::PATTERN_NAMES;
+use mrbd_kernel::model::PATTERN_NAMES;
 
 /// Rotations are shown in thousandths of a radian.
 const MRAD: f64 = 1e3;

@@ -48,5 +48,5 @@ mod svg;
 mod sweep;
 mod words;
 
-pub use folder::{PAGE_NAME, report};
+pub use folder::report;
 pub use run::{ImpactMark, PlotFile, RunPicture, Watch};

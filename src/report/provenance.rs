@@ -8,7 +8,8 @@ use serde::de::DeserializeOwned;
 use super::page::{Link, address};
 use crate::aggregate::VariantNote;
 use crate::error::{InputError, Result};
-use crate::store::{FileNote, Manifest, file_sha256, listed_run_files};
+use crate::study::runs::{Manifest, listed_run_files};
+use mrbd_files::{FileNote, file_sha256};
 
 /// The manifest as names and values.
 pub fn of(manifest: &Manifest) -> Vec<(String, String)> {

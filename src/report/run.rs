@@ -10,9 +10,9 @@ pub use watch::{ImpactMark, Watch};
 
 use super::page::{Cell, Figure, Motion, Number, Page, Section, Table, script_safe};
 use crate::error::Result;
-use crate::model::{PATTERN_NAMES, Wall};
-use crate::simulate::{Accuracy, Outcome, Response, Shaking};
 use histories::Window;
+use mrbd_kernel::model::{PATTERN_NAMES, Wall};
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking};
 
 /// Everything a picture of a run is made from.
 #[derive(Debug, Clone, Copy)]

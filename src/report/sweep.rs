@@ -12,8 +12,8 @@ use super::provenance;
 use crate::aggregate::{Medians, VariantNote, aggregate, write_medians};
 use crate::error::{InputError, Result};
 use crate::findings::{FINDINGS, Verdict, View};
-use crate::ground::Site;
-use crate::store::Manifest;
+use crate::study::runs::Manifest;
+use mrbd_records::Site;
 
 /// The page of the sweep in a folder, its records held against the code of a site where one is given; its medians are written there first, for the page links to them.
 ///

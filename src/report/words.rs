@@ -1,8 +1,8 @@
 //! Numbers and names as people read them.
 
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::survey::Configuration;
 
 /// A number beside an axis: as few digits as tell it.
 pub fn tick(value: f64) -> String {

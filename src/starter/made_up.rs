@@ -9,11 +9,11 @@ use rand_distr::{Distribution, Normal};
 
 use super::{EXPERIMENT, FILES, WALL};
 use crate::error::{InputError, Result};
-use crate::ground::{Accelerogram, ReadOptions, read_bytes};
-use crate::input::experiment::{ExperimentFile, TestTable};
-use crate::input::parse_wall;
-use crate::model::Wall;
-use crate::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_files::parse_wall;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_lab::experiment_file::{ExperimentFile, TestTable};
+use mrbd_records::{Accelerogram, ReadOptions, read_bytes};
 
 /// Standard deviation of the noise, rad: that of good displacement transducers on a wall of this size.
 const NOISE_RAD: f64 = 1e-4;

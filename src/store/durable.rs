@@ -1,21 +1,21 @@
 //! Files that are whole or absent, whatever stops the program.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 use tempfile::NamedTempFile;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, InputError, Result};
 
 /// How the names of files begin that are not finished; readers of folders leave names with a dot out.
-pub(super) const UNFINISHED: &str = ".unfinished-";
+pub(crate) const UNFINISHED: &str = ".unfinished-";
 
 /// A temporary file in `folder`, to be filled and then [`put_in_place`] there.
 ///
 /// # Errors
 /// [`Error::Io`] if the folder cannot be written.
-pub(super) fn unfinished_in(folder: &Path) -> Result<NamedTempFile> {
+pub(crate) fn unfinished_in(folder: &Path) -> Result<NamedTempFile> {
     tempfile::Builder::new()
         .prefix(UNFINISHED)
         .tempfile_in(folder)
@@ -26,7 +26,7 @@ pub(super) fn unfinished_in(folder: &Path) -> Result<NamedTempFile> {
 ///
 /// # Errors
 /// [`Error::Io`] if the disk refuses.
-pub(super) fn put_in_place(mut file: NamedTempFile, path: &Path) -> Result<()> {
+pub(crate) fn put_in_place(mut file: NamedTempFile, path: &Path) -> Result<()> {
     let failed = |e| Error::io("write", path, e);
     bring_to_disk(&mut file).map_err(failed)?;
     file.persist(path).map_err(|e| failed(e.error))?;
@@ -58,7 +58,7 @@ pub fn write_durably(path: &Path, contents: &[u8]) -> Result<()> {
 ///
 /// # Errors
 /// As [`write_durably`].
-pub(super) fn write_durably_if_absent(path: &Path, contents: &[u8]) -> Result<bool> {
+pub(crate) fn write_durably_if_absent(path: &Path, contents: &[u8]) -> Result<bool> {
     let failed = |e| Error::io("write", path, e);
     let mut file = unfinished_in(folder_of(path))?;
     file.write_all(contents).and_then(|()| bring_to_disk(&mut file)).map_err(failed)?;
@@ -81,11 +81,22 @@ fn readable_by_all(_file: &File) -> std::io::Result<()> {
     Ok(())
 }
 
-pub(super) fn folder_of(path: &Path) -> &Path {
+pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     }
+}
+
+/// Makes the folder and tries a file in it.
+pub(crate) fn make_writable(path: &Path) -> Result<()> {
+    let refuse = |e: std::io::Error| {
+        let found = format!("{}, which cannot be written: {e}", path.display());
+        InputError::option("--out", found, "a folder that can be written")
+    };
+    fs::create_dir_all(path).map_err(refuse)?;
+    tempfile::tempfile_in(path).map_err(refuse)?;
+    Ok(())
 }
 
 #[cfg(test)]

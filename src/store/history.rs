@@ -13,8 +13,8 @@ use tempfile::NamedTempFile;
 
 use super::durable::put_in_place;
 use crate::error::{Error, InputError, Result};
-use crate::model::Reading;
-use crate::simulate::History;
+use mrbd_kernel::model::Reading;
+use mrbd_kernel::simulate::History;
 
 /// A place for a history, opened before the run so that a path that cannot be written is found first.
 #[derive(Debug)]

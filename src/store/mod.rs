@@ -1,24 +1,17 @@
-//! Results on disk, written whole or not at all: Parquet files with one row a run, where they came from, histories.
+//! Results on disk, written whole or not at all: tables as Parquet, histories, folders of files that belong together.
 
-mod checksum;
-mod column;
-mod durable;
-mod folder;
+pub(crate) mod column;
+pub(crate) mod durable;
+pub(crate) mod frame;
 mod history;
-mod manifest;
-mod manifest_differences;
-mod parquet_file;
-mod parts;
-mod schema;
+pub(crate) mod parquet_file;
 mod whole_folder;
 
-pub use checksum::file_sha256;
 pub use column::{Column, Encoding, Read, Stage, print_csv};
 pub use durable::write_durably;
-pub use folder::{Earlier, OutputFolder};
 pub use history::{HistoryWriter, write_history};
-pub use manifest::{FileNote, Manifest, RecordNote, SuiteNote};
 pub use parquet_file::{ParquetFile, write_table};
-pub use parts::{RunFile, listed_run_files, run_files};
-pub use schema::{COLUMNS, SCHEMA_VERSION};
 pub use whole_folder::WholeFolder;
+
+/// The page that a report makes of a folder; results that are replaced take it with them.
+pub const PAGE_NAME: &str = "report.html";

@@ -13,10 +13,10 @@ use parquet::file::properties::WriterProperties;
 use parquet::schema::types::ColumnPath;
 use tempfile::NamedTempFile;
 
-use super::checksum::sha256;
 use super::column::{Column, Encoding, Read};
 use super::durable;
 use crate::error::{Error, Result};
+use mrbd_files::checksum::sha256;
 
 /// Rows a row group: what readers such as DuckDB take as one unit of work.
 const ROWS_PER_GROUP: usize = 122_880;

@@ -3,8 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::durable::UNFINISHED;
-use super::folder::make_writable;
+use super::durable::{UNFINISHED, make_writable};
 use crate::error::{Error, InputError, Result};
 
 /// The folder of some files, of the page made of them, and of what a killed process left half-written.
@@ -22,7 +21,7 @@ impl<'a> WholeFolder<'a> {
     pub fn check(path: &'a Path, own: &[&str], replace: bool) -> Result<Self> {
         make_writable(path)?;
         for name in names(path)? {
-            let is_own = own.contains(&name.as_str()) || name == crate::report::PAGE_NAME;
+            let is_own = own.contains(&name.as_str()) || name == crate::store::PAGE_NAME;
             if !is_own && !name.starts_with(UNFINISHED) {
                 let found = format!("{}, which holds other files ({name})", path.display());
                 return Err(

@@ -37,7 +37,7 @@ impl Program {
     /// # Errors
     /// Text for people if there is no such program.
     pub fn new(path: &Path) -> Result<Self, String> {
-        let hash = mrbd::store::file_sha256(path).map_err(|e| format!("{}: {e}", path.display()))?;
+        let hash = mrbd_files::file_sha256(path).map_err(|e| format!("{}: {e}", path.display()))?;
         Ok(Self { path: path.to_path_buf(), hash })
     }
 

@@ -20,10 +20,10 @@ use cases::hidden::{Hidden, Joint};
 use cases::kind::Kind;
 use cases::walls::WallNumbers;
 use compliant::GroundMotion;
-use mrbd::calibrate::Experiment;
-use mrbd::ground::Accelerogram;
-use mrbd::input::load_wall;
-use mrbd::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_files::load_wall;
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_lab::calibrate::Experiment;
 
 const STEP_S: f64 = 0.005;
 const TAIL_S: f64 = 1.0;

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
-use mrbd::model::ImpactLaw;
+use mrbd_kernel::model::ImpactLaw;
 use serde_json::Value;
 
 use crate::calibrate_support::{TRUE, Twin};
@@ -94,7 +94,7 @@ fn regress_the_calibrated_wall_runs_and_the_table_is_csv() {
     assert!(!out.join("journal.tsv").exists(), "the journal of a finished calibration is removed");
     let manifest = std::fs::read(out.join("manifest.json")).expect("manifest.json");
     let manifest: Value = serde_json::from_slice(&manifest).expect("JSON");
-    assert_eq!(manifest["kind"], mrbd::calibrate::KIND);
+    assert_eq!(manifest["kind"], mrbd::results::calibration::KIND);
     assert!(out.join("generations.parquet").exists());
     // Every method counts its simulations: 2 tests of 21 vectors, a first generation and at most four more.
     let json = json(&out);

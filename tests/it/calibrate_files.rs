@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use mrbd::calibrate::{Experiment, simulate};
-use mrbd::model::ImpactLaw;
+use mrbd_kernel::model::ImpactLaw;
+use mrbd_lab::calibrate::{Experiment, simulate};
 use tempfile::TempDir;
 
 use crate::calibrate_support::{TRUE, Twin};
@@ -53,7 +53,7 @@ fn analytic_other_start_times_offsets_rates_and_gaps_leave_no_misfit() {
 
 /// A test whose clock is 12.3456 s late, at half the rate, with noise of some 1e-4 rad; its start is to be matched by a
 /// wall of this file.
-fn matched(wall: &str) -> mrbd::error::Result<Experiment> {
+fn matched(wall: &str) -> mrbd_files::Result<Experiment> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let lines = "start_s = \"match\"\n";
     let twin = Twin { scales: vec![0.7], test_lines: lines.into(), ..Twin::of(ImpactLaw::Contact) };

@@ -1,7 +1,7 @@
 //! The searches on functions with known minima.
 
-use mrbd::calibrate::{Bounds, CmaEs, Draws, Evaluate, F, PaperDe, first_generation};
-use mrbd::error::Result;
+use mrbd_files::Result;
+use mrbd_lab::calibrate::{Bounds, CmaEs, Draws, Evaluate, F, PaperDe, first_generation};
 
 const N: usize = 8;
 

@@ -3,11 +3,11 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use mrbd::calibrate::{Archive, Calibration, Experiment, calibrate};
-use mrbd::ground::Accelerogram;
-use mrbd::input::load_wall;
-use mrbd::model::{ImpactLaw, Pair, Wall};
-use mrbd::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_files::load_wall;
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{ImpactLaw, Pair, Wall};
+use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_lab::calibrate::{Archive, Calibration, Experiment, calibrate};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -119,7 +119,6 @@ fn record_text(record: &Accelerogram) -> String {
 pub fn calibrated(path: &Path, seed: u64) -> Calibration {
     let experiment = Experiment::load(path, Some(seed)).expect("a valid experiment");
     let journal = path.with_file_name(format!("journal_{seed}.tsv"));
-    let silent = indicatif::ProgressBar::hidden();
-    let archive = Archive::open(&journal, &experiment.request, false, silent).expect("a journal");
+    let archive = Archive::open(&journal, &experiment.request, false, Box::new(())).expect("a journal");
     calibrate(&experiment, &archive).expect("a calibration")
 }

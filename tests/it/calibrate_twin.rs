@@ -1,7 +1,7 @@
 //! Twin experiments: known coefficients are found again from the rotations they gave.
 
-use mrbd::calibrate::{Calibration, Experiment, Identifiability, simulate};
-use mrbd::model::ImpactLaw;
+use mrbd_kernel::model::ImpactLaw;
+use mrbd_lab::calibrate::{Calibration, Experiment, Identifiability, simulate};
 
 use crate::calibrate_support::{TRUE, Twin, calibrated};
 

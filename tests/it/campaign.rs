@@ -7,13 +7,14 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use indicatif::ProgressBar;
 use mrbd::aggregate::aggregate;
-use mrbd::batch::Simulate;
-use mrbd::batch::Tally;
-use mrbd::campaign::{Layout, Shard, Standing, Work, compact, run_missing};
-use mrbd::model::Wall;
-use mrbd::plan::Plan;
-use mrbd::simulate::{Accuracy, Shaking};
-use mrbd::store::{Earlier, Manifest, OutputFolder, file_sha256, run_files};
+use mrbd::study::batch::Simulate;
+use mrbd::study::batch::Tally;
+use mrbd::study::campaign::{Layout, Shard, Standing, Work, compact, run_missing};
+use mrbd::study::plan::Plan;
+use mrbd::study::runs::{Earlier, Manifest, OutputFolder, run_files};
+use mrbd_files::file_sha256;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Shaking};
 
 use crate::pipeline_support::{SMALL, pipeline, plan, stand_in};
 

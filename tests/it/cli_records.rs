@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 use serde_json::Value;
 use tempfile::TempDir;
 
-use mrbd::ground::Suite;
+use mrbd_records::{Suite, formats_in_words};
 
 fn mrbd(arguments: &[&str]) -> Output {
     let root = env!("CARGO_MANIFEST_DIR");
@@ -134,6 +134,31 @@ fn analytic_import_checks_the_peaks_of_the_table_and_writes_the_suite() {
 }
 
 #[test]
+fn regress_generate_without_a_table_works_anywhere_and_takes_the_papers() {
+    let folder = folder();
+    let output = Command::new(env!("CARGO_BIN_EXE_mrbd"))
+        .current_dir(folder.path())
+        .args(["records", "generate", "--out", "made"])
+        .output()
+        .expect("mrbd starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let named = at(&folder, "named");
+    accepted(&["generate", "--table", "inputs/table4.toml", "--out", &named]);
+    for entry in std::fs::read_dir(&named).expect("written") {
+        let path = entry.expect("readable").path();
+        let made = folder.path().join("made").join(path.file_name().expect("a name"));
+        assert_eq!(std::fs::read(&made).expect("written"), std::fs::read(&path).expect("written"));
+    }
+}
+
+#[test]
+fn regress_help_lists_the_formats_of_the_table() {
+    let help = accepted(&["--help"]);
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(help.contains(&formats_in_words("or")), "{help}");
+}
+
+#[test]
 fn analytic_pulse_writes_a_record_that_reads_back() {
     let folder = folder();
     let out = at(&folder, "pulse.csv");
@@ -157,6 +182,14 @@ fn rejects_what_makes_no_sense() {
         (&["pulse", "ricker", "--amplitude", "-1", "--period", "1", "--out", &out], "amplitude"),
         (&["generate", "--out", "inputs/records/emilia7"], "holds a suite"),
         (&["select", EMILIA, "--site", SITE, "--count", "0"], "--count"),
+        (&["convert", &record, &at(&folder, "no/x.csv")], "OUT: found"),
+        (&["convert", &record, "Cargo.toml/x.csv"], "OUT: found Cargo.toml/x.csv"),
+        (
+            &["pulse", "ricker", "--amplitude", "1", "--period", "1", "--out", &at(&folder, "no/x.csv")],
+            "--out: found",
+        ),
+        (&["generate", "--out", "Cargo.toml"], "--out: found Cargo.toml"),
+        (&["generate", "--table", "none.toml", "--out", &out], "none.toml"),
         (&["import", "--record", "9=x.csv", "--out", &out], "a row of the table"),
         (&["import", "--record", "x.csv", "--out", &out], "ROW=FILE"),
     ] {

@@ -1,8 +1,8 @@
 //! The error of a run: how it falls with the step, and that the tolerance bounds it.
 
-use mrbd::ground::Accelerogram;
-use mrbd::model::{ImpactLaw, WallParameters};
-use mrbd::simulate::{Accuracy, History, Response, Shaking, simulate_observed};
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{ImpactLaw, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, History, Response, Shaking, simulate_observed};
 use rand::RngExt;
 
 use crate::walls::{

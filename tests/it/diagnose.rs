@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::Command;
 
 use mrbd::fragility::Table;
-use mrbd::model::{Effect, ImpactLaw, WallParameters};
+use mrbd_kernel::model::{Effect, ImpactLaw, WallParameters};
 use serde_json::Value;
 
 use crate::diagnose_twin::{damped_twin, diagnose, diagnosed, named_in_a_twin, write_twin, write_twins};

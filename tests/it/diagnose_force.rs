@@ -1,13 +1,13 @@
 //! The missing force of a diagnosis on twins whose missing law is known.
 
-use mrbd::diagnose::force::{
+use mrbd_kernel::model::{Effect, ImpactLaw, Wall};
+use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_lab::diagnose::force::{
     Against, ForcePoint, acts_at_top, explained_by, force_points, jumps, median_share_off_top,
 };
-use mrbd::diagnose::hypothesis::Physics;
-use mrbd::diagnose::measured::TestData;
-use mrbd::input::experiment::Purpose;
-use mrbd::model::{Effect, ImpactLaw, Wall};
-use mrbd::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_lab::diagnose::hypothesis::Physics;
+use mrbd_lab::diagnose::measured::TestData;
+use mrbd_lab::experiment_file::Purpose;
 use rand_distr::{Distribution, Normal};
 
 use crate::diagnose_twin::record;

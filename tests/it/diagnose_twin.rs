@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use mrbd::ground::{Accelerogram, ReadOptions, read};
-use mrbd::model::{Effect, ImpactLaw, Wall, WallParameters};
-use mrbd::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_kernel::model::{Effect, ImpactLaw, Wall, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
+use mrbd_records::{Accelerogram, ReadOptions, read};
 use rand_distr::{Distribution, Normal};
 use serde_json::Value;
 

@@ -7,14 +7,14 @@ use arrow_array::cast::AsArray;
 use arrow_array::types::UInt64Type;
 use arrow_array::{Array, RecordBatch};
 use mrbd::aggregate::{Distribution, distributions};
-use mrbd::batch::run_one;
-use mrbd::campaign::Shard;
-use mrbd::input::pipeline::Kind;
-use mrbd::input::survey::Configuration;
-use mrbd::model::Wall;
-use mrbd::plan::Plan;
-use mrbd::simulate::{Accuracy, Outcome, Response, Shaking};
-use mrbd::store::{Earlier, run_files};
+use mrbd::study::batch::run_one;
+use mrbd::study::campaign::Shard;
+use mrbd::study::pipeline::Kind;
+use mrbd::study::plan::Plan;
+use mrbd::study::runs::{Earlier, run_files};
+use mrbd::survey::Configuration;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking};
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 use crate::campaign::{contents, do_missing, merge, prepare};
@@ -192,7 +192,7 @@ fn analytic_incremental_analyses_tell_what_they_cannot_bracket() {
             simulate(wall, shaking, accuracy)
         })
     };
-    let capacity = |run: &mrbd::plan::Run| capacity_m_s2(run.wall.as_ref().expect("a wall"));
+    let capacity = |run: &mrbd::study::plan::Run| capacity_m_s2(run.wall.as_ref().expect("a wall"));
     let never = of("from = 0.5", "to = 1.1", &proportional);
     let found = never.found.expect("an analysis");
     assert!(!found.exceeded && found.stood_intensity == 1.1, "{found:?}");
@@ -255,7 +255,7 @@ fn analytic_distributions_are_over_draws_and_records() {
 fn rejects_studies_that_cannot_be_with_their_key() {
     let refused = |text: &str| {
         let error = std::panic::catch_unwind(|| {
-            let pipeline = mrbd::input::pipeline::Pipeline::parse(Path::new("study.toml"), text.to_owned());
+            let pipeline = mrbd::study::pipeline::Pipeline::parse(Path::new("study.toml"), text.to_owned());
             pipeline.and_then(|_| try_plan(text, suite(1))).expect_err("must be refused")
         });
         let error = error.expect("no panic");

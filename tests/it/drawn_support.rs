@@ -1,7 +1,7 @@
 //! Small studies of drawn façades, and a simulator whose walls fall at a peak acceleration that is known.
 
-use mrbd::model::Wall;
-use mrbd::simulate::{Accuracy, Outcome, Response, Shaking};
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking};
 
 use crate::pipeline_support::response;
 

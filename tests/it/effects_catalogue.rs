@@ -2,10 +2,10 @@
 
 use std::collections::HashSet;
 
-use mrbd::model::{Effect, Wall};
+use mrbd_kernel::model::{Effect, EffectKind, Wall};
 
 use crate::walls::{bare_wall, effect, table_wall};
-use mrbd::model::ImpactLaw;
+use mrbd_kernel::model::ImpactLaw;
 
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct File {
@@ -18,7 +18,7 @@ fn refused(text: &str) -> String {
 
 #[test]
 fn published_every_kind_that_scripts_rely_on_is_there() {
-    let kinds: Vec<&str> = Effect::kinds().iter().map(|kind| kind.name).collect();
+    let kinds: Vec<&str> = EffectKind::ALL.iter().map(|kind| kind.name()).collect();
     for name in [
         "carriage_mass",
         "viscous_damping",
@@ -43,7 +43,7 @@ fn published_every_kind_that_scripts_rely_on_is_there() {
 
 #[test]
 fn analytic_every_variant_survives_a_file_and_its_parameters() {
-    for kind in Effect::kinds() {
+    for kind in EffectKind::ALL {
         for variant in kind.variants() {
             let example = variant.example();
             assert_eq!(Effect::with_parameters(&variant.name(), &example.parameters()), Ok(example));
@@ -51,7 +51,7 @@ fn analytic_every_variant_survives_a_file_and_its_parameters() {
             let text = toml::to_string(&file).expect("a table");
             assert_eq!(toml::from_str::<File>(&text).expect(&text), file);
             let json = serde_json::to_string(&example).expect("JSON");
-            assert!(json.starts_with(&format!("{{\"kind\":\"{}\"", kind.name)), "{json}");
+            assert!(json.starts_with(&format!("{{\"kind\":\"{}\"", kind.name())), "{json}");
             assert_eq!(serde_json::from_str::<Effect>(&json).expect(&json), example);
         }
     }
@@ -59,9 +59,9 @@ fn analytic_every_variant_survives_a_file_and_its_parameters() {
 
 #[test]
 fn analytic_bounds_are_allowed_and_what_lies_beyond_is_refused() {
-    for variant in Effect::kinds().iter().flat_map(|kind| kind.variants()) {
+    for variant in EffectKind::ALL.iter().flat_map(|kind| kind.variants()) {
         let example = variant.example().parameters();
-        for (i, parameter) in variant.kind.parameters.iter().enumerate() {
+        for (i, parameter) in variant.entry().parameters.iter().enumerate() {
             let with = |value: f64| {
                 let mut values = example.clone();
                 values[i] = value;
@@ -72,7 +72,10 @@ fn analytic_bounds_are_allowed_and_what_lies_beyond_is_refused() {
             let below = parameter.least - 1e-9 * parameter.most.abs();
             for value in [above, below, f64::NAN, f64::INFINITY] {
                 let message = with(value).expect_err("outside").to_string();
-                assert!(message.contains(parameter.key) && message.contains(variant.kind.name), "{message}");
+                assert!(
+                    message.contains(parameter.key) && message.contains(variant.kind.name()),
+                    "{message}"
+                );
                 assert!(message.contains(&parameter.most.to_string()), "{message}");
             }
             assert!((parameter.least..=parameter.most).contains(&parameter.example), "{}", parameter.key);
@@ -82,13 +85,13 @@ fn analytic_bounds_are_allowed_and_what_lies_beyond_is_refused() {
 
 #[test]
 fn analytic_what_is_confused_is_a_kind_or_a_key() {
-    for kind in Effect::kinds() {
-        for other in kind.confused_with {
-            let is_kind = Effect::kind_named(other).is_ok();
+    for kind in EffectKind::ALL {
+        for other in kind.entry().confused_with {
+            let is_kind = EffectKind::named(other).is_ok();
             let is_key = other
                 .split_once('.')
                 .is_some_and(|(table, _)| ["wall", "corners", "diaphragm", "restitution"].contains(&table));
-            assert!(is_kind || is_key, "{}: {other}", kind.name);
+            assert!(is_kind || is_key, "{}: {other}", kind.name());
         }
     }
 }
@@ -125,7 +128,7 @@ fn rejects_effects_a_wall_cannot_have() {
         Wall::new(wall).expect_err("an impossible wall")
     };
     for name in ["gap", "yielding_spring"] {
-        let twice = [Effect::kind_named(name).expect("a kind").variants().next().expect("one").example(); 2];
+        let twice = [EffectKind::named(name).expect("a kind").variants().next().expect("one").example(); 2];
         let error = refused(&twice, true);
         assert_eq!(error.key, "effects.1");
         assert!(error.found.contains(name), "{error}");

@@ -1,11 +1,11 @@
 //! Each law with kinks against an independent integration, closed forms, and balances of forces.
 
-use mrbd::ground::Accelerogram;
-use mrbd::model::{
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{
     Contact, Effect, G_M_S2, ImpactLaw, Joint, Pair, Pivot, RockingWall, State, Vector, WallParameters,
 };
-use mrbd::simulate::{Accuracy, Observer, Response, Shaking, Simulator, Start, simulate_observed};
-use mrbd::solver::Quintic;
+use mrbd_kernel::simulate::{Accuracy, Observer, Response, Shaking, Simulator, Start, simulate_observed};
+use mrbd_kernel::solver::Quintic;
 use rand::RngExt;
 
 use crate::effects_reference::{Law, Reference};

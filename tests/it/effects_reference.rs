@@ -1,7 +1,7 @@
 //! A plain integration of the matrix equations with one law of the top that has kinks: classical Runge–Kutta at a tiny
 //! fixed step, stops and slips by bisection. It shares nothing with the solver or its regimes.
 
-use mrbd::model::{Contact, State, Vector, WallParameters};
+use mrbd_kernel::model::{Contact, State, Vector, WallParameters};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use crate::matrix_model::MatrixWall;

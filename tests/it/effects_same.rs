@@ -1,8 +1,8 @@
 //! Effects that another wall or another record has already: the runs must be the same.
 
-use mrbd::ground::Accelerogram;
-use mrbd::model::{Effect, ImpactLaw, WallParameters};
-use mrbd::simulate::{Accuracy, History, Response, Shaking, Simulator, simulate, simulate_observed};
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{Effect, ImpactLaw, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, History, Response, Shaking, Simulator, simulate, simulate_observed};
 
 use crate::walls::{effect, made, table_wall};
 

@@ -1,7 +1,7 @@
 //! Energy: nothing is lost unaccounted for, and impacts that should not add any do not.
 
-use mrbd::model::{ImpactLaw, RockingWall, State};
-use mrbd::simulate::{Accuracy, Outcome, simulate};
+use mrbd_kernel::model::{ImpactLaw, RockingWall, State};
+use mrbd_kernel::simulate::{Accuracy, Outcome, simulate};
 use rand::RngExt;
 
 use crate::matrix_model::MatrixWall;

@@ -5,9 +5,9 @@
 
 use std::path::Path;
 
-use mrbd::ground::Suite;
-use mrbd::model::{ImpactLaw, Restitution, Wall, WallParameters};
-use mrbd::simulate::{Accuracy, Outcome, Shaking, simulate};
+use mrbd_kernel::model::{ImpactLaw, Restitution, Wall, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, Outcome, Shaking, simulate};
+use mrbd_records::Suite;
 
 use crate::walls::{made, table_wall};
 

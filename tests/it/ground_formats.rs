@@ -1,13 +1,13 @@
 //! Real files of every format: step, count and peak as checked by hand elsewhere.
 
-use mrbd::ground::{Format, ReadOptions, Unit, read};
+use mrbd_records::{ReadOptions, Unit, read};
 
 use crate::shared;
 
 struct Sample {
     file: &'static str,
     channel: Option<&'static str>,
-    format: Format,
+    format: &'static str,
     step_s: f64,
     count: usize,
     peak: f64,
@@ -17,7 +17,7 @@ struct Sample {
 const fn sample(
     file: &'static str,
     channel: Option<&'static str>,
-    format: Format,
+    format: &'static str,
     (step_s, count): (f64, usize),
     (peak, unit): (f64, Unit),
 ) -> Sample {
@@ -26,24 +26,29 @@ const fn sample(
 
 const GAL: Unit = Unit::CentimetrePerSecond2;
 const MM: Unit = Unit::MillimetrePerSecond2;
+const PEER: &str = "PEER AT2";
+const DYNA: &str = "ESM/ITACA DYNA";
 const GEONET: &str = "20180212_211557_WPWS_20.V2A";
 const CSMIP: &str = "ce36456p_CE36456.V2";
+const COSMOS: &str = "us1000hyfh_akbmrp_AKBMR--n.1000hyfh.BNZ.--.acc.V2c";
 
-const SAMPLES: [Sample; 14] = [
-    sample("RSN763_LOMAP_GIL067.AT2", None, Format::Peer, (0.005, 7999), (0.35853, Unit::G)),
-    sample("RSN1690_NORTH151_SYL090-hor1.AT2", None, Format::Peer, (0.02, 1000), (0.08578, Unit::G)),
-    sample("LOMAP-A02043_EQSignal.at2", None, Format::Peer, (0.005, 7165), (0.27352, Unit::G)),
-    sample("NIS090_pystrata.AT2", None, Format::Peer, (0.01, 4096), (0.50275, Unit::G)),
-    sample("elcentro_evnt.AT2", None, Format::Peer, (0.01, 4000), (0.31288, Unit::G)),
-    sample("HI.ARS1..HNN.D.20190728.160908.C.ACC.ASC", None, Format::Dyna, (0.005, 19128), (0.359017, GAL)),
-    sample("HL.DLFA..HNE.D.20190728.160908.C.ACC.ASC", None, Format::Dyna, (0.005, 13876), (0.227973, GAL)),
-    sample(GEONET, Some("1"), Format::GeoNet, (0.02, 5800), (41.6, MM)),
-    sample(GEONET, Some("s74e"), Format::GeoNet, (0.02, 5800), (194.0, MM)),
-    sample(GEONET, Some("Up"), Format::GeoNet, (0.02, 5800), (27.3, MM)),
-    sample(CSMIP, Some("90 DEG"), Format::Csmip, (0.02, 3251), (267.957, GAL)),
-    sample(CSMIP, Some("UP"), Format::Csmip, (0.02, 3250), (94.805, GAL)),
-    sample(CSMIP, Some("3"), Format::Csmip, (0.02, 3250), (256.231, GAL)),
-    sample("AOM0011801241951.EW", None, Format::Knet, (0.01, 10200), (4.078, GAL)),
+const SAMPLES: [Sample; 16] = [
+    sample("RSN763_LOMAP_GIL067.AT2", None, PEER, (0.005, 7999), (0.35853, Unit::G)),
+    sample("RSN1690_NORTH151_SYL090-hor1.AT2", None, PEER, (0.02, 1000), (0.08578, Unit::G)),
+    sample("LOMAP-A02043_EQSignal.at2", None, PEER, (0.005, 7165), (0.27352, Unit::G)),
+    sample("NIS090_pystrata.AT2", None, PEER, (0.01, 4096), (0.50275, Unit::G)),
+    sample("elcentro_evnt.AT2", None, PEER, (0.01, 4000), (0.31288, Unit::G)),
+    sample("elCentro_OpenSees.AT2", None, PEER, (0.02, 1559), (0.31882, Unit::G)),
+    sample("HI.ARS1..HNN.D.20190728.160908.C.ACC.ASC", None, DYNA, (0.005, 19128), (0.359017, GAL)),
+    sample("HL.DLFA..HNE.D.20190728.160908.C.ACC.ASC", None, DYNA, (0.005, 13876), (0.227973, GAL)),
+    sample(GEONET, Some("1"), "GeoNet", (0.02, 5800), (41.6, MM)),
+    sample(GEONET, Some("s74e"), "GeoNet", (0.02, 5800), (194.0, MM)),
+    sample(GEONET, Some("Up"), "GeoNet", (0.02, 5800), (27.3, MM)),
+    sample(CSMIP, Some("90 DEG"), "CSMIP V2", (0.02, 3251), (267.957, GAL)),
+    sample(CSMIP, Some("UP"), "CSMIP V2", (0.02, 3250), (94.805, GAL)),
+    sample(CSMIP, Some("3"), "CSMIP V2", (0.02, 3250), (256.231, GAL)),
+    sample(COSMOS, None, "COSMOS", (0.005, 42_000), (6.851512, GAL)),
+    sample("AOM0011801241951.EW", None, "K-NET", (0.01, 10200), (4.078, GAL)),
 ];
 
 #[test]
@@ -54,7 +59,7 @@ fn verified_real_files_have_their_step_count_and_peak() {
         let options = ReadOptions { channel, ..ReadOptions::default() };
         let record = read(&folder.join(sample.file), &options).expect(sample.file);
         let motion = &record.accelerogram;
-        assert_eq!((record.format, record.unit), (sample.format, sample.unit), "{}", sample.file);
+        assert_eq!((record.format.name, record.unit), (sample.format, sample.unit), "{}", sample.file);
         assert_eq!((motion.step_s(), motion.acceleration_m_s2().len()), (sample.step_s, sample.count));
         let peak = motion.peak_m_s2() / sample.unit.m_s2();
         println!("{} {:?}: {peak:.6} {}", sample.file, record.channel, sample.unit);

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use mrbd::ground::{
+use mrbd_records::{
     COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Motion, RecordTable, Site, Suite, SuiteCheck, generate,
     write_suite,
 };

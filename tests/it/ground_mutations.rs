@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mrbd::ground::{ReadOptions, read_bytes};
+use mrbd_records::{ReadOptions, read_bytes};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -3,25 +3,27 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use mrbd::ground::{Format, ReadOptions, Record, Unit, read_bytes};
+use mrbd_files::InputError;
+use mrbd_records::{FORMATS, ReadOptions, Record, Unit, formats_in_words, read_bytes};
 
 /// Samples that every small file holds, in its own unit.
 pub const SAMPLES: [f64; 7] = [0.0, 1.5, -2.5, 3.0, 0.5, -0.5, 0.25];
 
-/// A format and a small file of it.
-pub fn small_files() -> Vec<(Format, String)> {
+/// The name of a format and a small file of it.
+pub fn small_files() -> Vec<(&'static str, String)> {
     vec![
-        (Format::TwoColumn, two_column()),
-        (Format::OneColumn, rows(1, |a| format!("{a:.4}"))),
-        (Format::Peer, peer("NPTS=      7, DT=   .0050 SEC,")),
-        (Format::Peer, peer("   7    0.0050    NPTS, DT")),
-        (Format::Dyna, dyna()),
-        (Format::GeoNet, geonet()),
-        (Format::GeoNet, geonet_raw()),
-        (Format::Cosmos, cosmos()),
-        (Format::Csmip, csmip()),
-        (Format::Csmip, csmip_lower_case()),
-        (Format::Knet, knet()),
+        ("two columns", two_columns()),
+        ("one column", rows(1, |a| format!("{a:.4}"))),
+        ("PEER AT2", peer("NPTS=      7, DT=   .0050 SEC,")),
+        ("PEER AT2", peer("   7    0.0050    NPTS, DT")),
+        ("PEER AT2", opensees()),
+        ("ESM/ITACA DYNA", dyna()),
+        ("GeoNet", geonet()),
+        ("GeoNet", geonet_raw()),
+        ("COSMOS", cosmos()),
+        ("CSMIP V2", csmip()),
+        ("CSMIP V2", csmip_lower_case()),
+        ("K-NET", knet()),
     ]
 }
 
@@ -34,7 +36,7 @@ fn rows(columns: usize, write: impl Fn(f64) -> String) -> String {
     lines.collect()
 }
 
-fn two_column() -> String {
+fn two_columns() -> String {
     let mut text = String::from("time_s,acceleration_m_s2\n");
     for (i, a) in SAMPLES.iter().enumerate() {
         writeln!(text, "{:.3},{a}", i as f64 * 0.005).expect("a string");
@@ -46,6 +48,14 @@ fn peer(sizes: &str) -> String {
     let body = rows(5, |a| format!("{a:15.7E}"));
     format!(
         "PEER NGA STRONG MOTION DATABASE RECORD\nSomewhere, 1/1/2000\nACCELERATION TIME SERIES IN UNITS OF G\n{sizes}\n{body}"
+    )
+}
+
+/// The wording of the examples of OpenSees.
+fn opensees() -> String {
+    let body = rows(8, |a| format!("{a:10.5}"));
+    format!(
+        "Data for Somewhere\n7 points at equal spacing of 0.005 sec\nThe units are (g)\nNPTS=     7, DT= .00500 SEC\n{body}"
     )
 }
 
@@ -83,15 +93,20 @@ fn geonet_raw() -> String {
 }
 
 fn cosmos() -> String {
+    cosmos_with(&[(34, 0.02), (35, 0.035), (62, 5.0), (63, 0.035)])
+}
+
+/// With these values of the real header, counted from 1; the others are unknown.
+fn cosmos_with(known: &[(usize, f64)]) -> String {
     let mut text = String::from("Corrected acceleration   (Format v01.20 with 13 text lines) Src: x\n");
     text += &"text\n".repeat(7);
     text += "Sta Chan  1:  90 deg (Rcrdr Chan  1)\n";
     text += &"text\n".repeat(4);
     text +=
         "   4 Integer-header values follow on  1 lines, Format= (10I8)\n       1       1       4       1\n";
-    text += "  40 Real-header values follow on  7 lines, Format= (6F13.6)\n";
-    let reals: Vec<String> =
-        (0..40).map(|i| format!("{:13.6}", if i == 33 { 5.0 } else { -999.0 })).collect();
+    text += " 100 Real-header values follow on 17 lines, Format= (6F13.6)\n";
+    let value = |i| known.iter().find(|(number, _)| *number == i).map_or(-999.0, |(_, value)| *value);
+    let reals: Vec<String> = (1..=100).map(|i| format!("{:13.6}", value(i))).collect();
     text += &reals.chunks(6).map(|row| row.concat() + "\n").collect::<String>();
     text += "   1 Comment line(s) follow, each starting with a \"|\":\n| \n";
     text += "       7 acceleration pts, approx   0 secs, units=cm/sec2 (04),Format=(8f10.6)\n";
@@ -126,7 +141,7 @@ fn knet() -> String {
     format!("{header}{}", rows(8, |a| format!("{:9}", (a * 100.0) as i64 - 12_000)))
 }
 
-fn read_text(text: &str, options: &ReadOptions) -> Result<Record, mrbd::InputError> {
+fn read_text(text: &str, options: &ReadOptions) -> Result<Record, InputError> {
     read_bytes(Path::new("folder/small.txt"), text.as_bytes(), options)
 }
 
@@ -134,10 +149,10 @@ fn read_text(text: &str, options: &ReadOptions) -> Result<Record, mrbd::InputErr
 fn analytic_small_files_of_every_format_are_read_back() {
     for (format, text) in small_files() {
         let record = read_text(&text, &options()).unwrap_or_else(|e| panic!("{format}: {e}"));
-        assert_eq!((record.format, record.name.as_str()), (format, "small"));
+        assert_eq!((record.format.name, record.name.as_str()), (format, "small"));
         assert_eq!(record.accelerogram.step_s(), 0.005, "{format}");
         let mean = SAMPLES.iter().sum::<f64>() / SAMPLES.len() as f64;
-        let offset = if format == Format::Knet { mean } else { 0.0 };
+        let offset = if format == "K-NET" { mean } else { 0.0 };
         for (found, expected) in record.accelerogram.acceleration_m_s2().iter().zip(SAMPLES) {
             let expected = (expected - offset) * record.unit.m_s2();
             // The samples are exact in the digits written; K-NET's mean rounds.
@@ -155,7 +170,7 @@ fn analytic_line_ends_latin_letters_and_exponents_of_fortran_are_read() {
     bytes.splice(5..5, [0xe9]);
     let record = read_bytes(Path::new("a"), &bytes, &ReadOptions::default()).expect("readable");
     assert_eq!(record.unit, Unit::G);
-    let commented = format!("# a note\n\n{}", two_column());
+    let commented = format!("# a note\n\n{}", two_columns());
     let commented = read_text(&commented.replace("0.010,", "0.010,x"), &ReadOptions::default());
     let message = commented.expect_err("must be refused").to_string();
     assert!(message.contains("small.txt:6"), "lines are counted with comments and blanks: {message}");
@@ -177,7 +192,7 @@ fn refusal(text: &str, options: &ReadOptions) -> String {
 #[test]
 fn rejects_malformed_files_with_line_found_and_allowed() {
     let none = ReadOptions::default();
-    let two = two_column();
+    let two = two_columns();
     for (text, options, parts) in [
         (two.replace("0.010,", "0.011,x"), &none, &["small.txt:4", "`x-2.5`", "finite number"][..]),
         (two.replace("0.015,3", "0.015,3,4"), &none, &[":5", "3 columns", "2 columns"]),
@@ -203,7 +218,9 @@ fn rejects_malformed_files_with_line_found_and_allowed() {
         (dyna().replace("NDATA: 7\n", ""), &none, &["NDATA"]),
         (geonet().replace("at 0.005 sec", "at 0.020 sec"), &none, &["0.02 s", "0.005 s"]),
         (cosmos().replace("cm/sec2 (04)", "counts (50)"), &none, &["units=cm/sec2"]),
-        (cosmos().replace("approx   0", "approx  90"), &none, &["about 90 s"]),
+        (cosmos().replace("approx   0", "approx  90"), &none, &["90 s on this line", "0.035 s: 7 samples"]),
+        (opensees().replace("(g)", "(cm/sec)"), &none, &[":3", "The units are (g)"]),
+        (opensees().replace("The units", "The velocity units"), &none, &[":3", "UNITS OF G"]),
         (csmip().replace("CM/SEC/SEC", "FURLONG"), &none, &[":3", "UNITS: CM/SEC/SEC"]),
         (knet().replace("Duration Time(s)  0.035", "Duration Time(s)  0.040"), &none, &["8 numbers"]),
         (knet().replace("/1000", "/0"), &none, &[":6", "3920(gal)/6182761"]),
@@ -211,6 +228,52 @@ fn rejects_malformed_files_with_line_found_and_allowed() {
         let message = refusal(&text, options);
         assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} in: {message}");
     }
+}
+
+#[test]
+fn rejects_cosmos_files_whose_step_count_and_length_disagree() {
+    let at = "the step in milliseconds as value 62";
+    for (known, parts) in [
+        // The raw step alone, in seconds or in milliseconds, is not the step of the samples.
+        (&[(34, 0.005), (35, 0.035)][..], &["-999 as value 62", at][..]),
+        (&[(34, 5.0)], &["-999 as value 62", at]),
+        (&[(62, 20_000.0)], &["20000 as value 62", at]),
+        // Seconds where milliseconds belong, another step, and a length of other samples.
+        (&[(62, 0.005), (63, 0.035)], &["0.035 s as value 63", "7 samples at the 0.000005 s"]),
+        (&[(62, 10.0), (63, 0.035)], &["0.035 s as value 63", "0.070 s: 7 samples"]),
+        (&[(62, 5.0), (63, 210.0)], &["210 s as value 63", "0.035 s: 7 samples"]),
+        (&[(62, 1000.0)], &["0 s on this line", "7.000 s: 7 samples"]),
+    ] {
+        let message = refusal(&cosmos_with(known), &ReadOptions::default());
+        assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} in: {message}");
+    }
+    let short = cosmos().replace(" 100 Real-header values", "  42 Real-header values");
+    let lines: Vec<&str> = short.lines().collect();
+    let short = [&lines[..23], &lines[33..]].concat().join("\n");
+    let message = refusal(&short, &ReadOptions::default());
+    assert!(message.contains("a real header of 42 values") && message.contains(at), "{message}");
+    // One sample of the length more or less is a matter of counting.
+    let record = read_text(&cosmos_with(&[(62, 5.0), (63, 0.03)]), &ReadOptions::default());
+    assert_eq!(record.expect("readable").accelerogram.step_s(), 0.005);
+}
+
+/// Text with its line ends taken out.
+fn unwrapped(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn regress_every_format_of_the_table_has_a_small_file_and_stands_where_people_look() {
+    let files = small_files();
+    for format in &FORMATS {
+        assert!(files.iter().any(|(name, _)| *name == format.name), "no small file of {format}");
+        let same = FORMATS.iter().filter(|other| other.name == format.name || other.words == format.words);
+        assert_eq!(same.count(), 1, "{format} twice");
+    }
+    let docs = include_str!("../../docs/files.md");
+    assert!(unwrapped(docs).contains(&formats_in_words("or")), "docs/files.md: {}", formats_in_words("or"));
+    let unknown = refusal("Dear all,\n", &ReadOptions::default());
+    assert!(unknown.ends_with(&formats_in_words("or")), "{unknown}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use mrbd::ground::Suite;
+use mrbd_records::Suite;
 
 use crate::shared;
 

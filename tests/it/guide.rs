@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use mrbd::store::{COLUMNS, Column, Stage};
+use mrbd::store::{Column, Stage};
+use mrbd::study::runs::COLUMNS;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use mrbd::model::{Contact, Joint, RockingWall, State, Touching};
-use mrbd::simulate::{Accuracy, Outcome, simulate};
+use mrbd_kernel::model::{Contact, Joint, RockingWall, State, Touching};
+use mrbd_kernel::simulate::{Accuracy, Outcome, simulate};
 use rand::RngExt;
 
 use crate::matrix_model::MatrixWall;

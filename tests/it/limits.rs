@@ -1,8 +1,10 @@
 //! Limits in which the wall of two bodies becomes something simpler.
 
-use mrbd::ground::Accelerogram;
-use mrbd::model::{Contact, G_M_S2, ImpactLaw, Pivot, WallParameters};
-use mrbd::simulate::{Accuracy, FREE_RELEASE_STEP_S, History, Outcome, Response, Shaking, simulate_observed};
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{Contact, G_M_S2, ImpactLaw, Pivot, WallParameters};
+use mrbd_kernel::simulate::{
+    Accuracy, FREE_RELEASE_STEP_S, History, Outcome, Response, Shaking, simulate_observed,
+};
 
 use crate::walls::{bare_wall, made, table_wall};
 

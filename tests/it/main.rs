@@ -18,6 +18,7 @@ mod convergence;
 mod diagnose;
 mod diagnose_force;
 mod diagnose_twin;
+mod direction;
 mod drawn;
 mod drawn_cli;
 mod drawn_support;

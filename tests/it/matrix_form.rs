@@ -1,6 +1,6 @@
 //! The scalar kernel against the matrix form of the model's law, over walls, patterns and states of every kind.
 
-use mrbd::model::{Contact, Joint, Pivot, RockingWall, State, WallParameters};
+use mrbd_kernel::model::{Contact, Joint, Pivot, RockingWall, State, WallParameters};
 use rand_chacha::ChaCha8Rng;
 
 use crate::matrix_model::MatrixWall;

@@ -1,7 +1,7 @@
 //! The mechanics once more, as matrices over the mass points (x1, y1, θ1, x2, y2, θ2, xC, yC):
 //! written from the model alone, sharing nothing with the kernel but the wall's parameters.
 
-use mrbd::model::{Contact, G_M_S2, Joint, State, Touching, Vector, WallParameters};
+use mrbd_kernel::model::{Contact, G_M_S2, Joint, State, Touching, Vector, WallParameters};
 use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 pub type Jacobian = SMatrix<f64, 8, 2>;

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use mrbd::overturning::{Study, picture, spectrum};
+use mrbd::classics::overturning::{Study, picture, spectrum};
 
 const SHIPPED: &str = include_str!("../../pipelines/overturning_spectrum.toml");
 

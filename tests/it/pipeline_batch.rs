@@ -3,14 +3,14 @@
 use std::path::Path;
 
 use mrbd::aggregate::{Case, LEVELS, Measure, Medians, Middle, aggregate};
-use mrbd::batch::Tally;
-use mrbd::campaign::Shard;
-use mrbd::input::pipeline::Parameter;
-use mrbd::input::survey::Configuration;
-use mrbd::model::{ImpactLaw, Wall};
-use mrbd::plan::{Level, Plan};
-use mrbd::simulate::{Accuracy, Outcome, Response, Shaking};
-use mrbd::store::{COLUMNS, Earlier, run_files};
+use mrbd::study::batch::Tally;
+use mrbd::study::campaign::Shard;
+use mrbd::study::pipeline::Parameter;
+use mrbd::study::plan::{Level, Plan};
+use mrbd::study::runs::{COLUMNS, Earlier, run_files};
+use mrbd::survey::Configuration;
+use mrbd_kernel::model::{ImpactLaw, Wall};
+use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking};
 use parquet::arrow::arrow_reader::{ArrowReaderMetadata, ParquetRecordBatchReaderBuilder};
 
 use crate::campaign::{do_missing, merge, prepare};

@@ -2,9 +2,9 @@
 
 use mrbd::aggregate::{Case, Measure, Median, Medians};
 use mrbd::findings::{FINDINGS, Verdict, View};
-use mrbd::input::pipeline::Parameter;
-use mrbd::input::survey::Configuration;
-use mrbd::plan::Level;
+use mrbd::study::pipeline::Parameter;
+use mrbd::study::plan::Level;
+use mrbd::survey::Configuration;
 
 use Configuration::{Parallel, Perpendicular};
 use Level::{High, Low, Mean};

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use mrbd::input::load_wall;
-use mrbd::input::pipeline::Parameter;
-use mrbd::input::survey::Configuration;
-use mrbd::model::Restitution;
-use mrbd::plan::{Facade, Level, Plan};
+use mrbd::study::pipeline::Parameter;
+use mrbd::study::plan::{Level, Plan};
+use mrbd::survey::Configuration;
+use mrbd::survey::Facade;
+use mrbd_files::load_wall;
+use mrbd_kernel::model::Restitution;
 
 use crate::pipeline_support::{SMALL, SWEEP, plan, suite, try_plan};
 use crate::shared;
@@ -144,7 +145,7 @@ fn verified_facades_become_the_walls_of_the_reference() {
             density_kg_m3: 1800.0,
         };
         let wall = facade.wall(Restitution::default(), 2.0).expect("a façade that stands");
-        let numbers = |wall: &mrbd::model::Wall| {
+        let numbers = |wall: &mrbd_kernel::model::Wall| {
             let p = wall.parameters();
             [
                 p.height_m,

@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use mrbd::ground::{About, Accelerogram, IntensityMeasures, Suite, SuiteRecord};
-use mrbd::input::coefficients::CoefficientSets;
-use mrbd::input::pipeline::Pipeline;
-use mrbd::input::survey::Survey;
-use mrbd::model::Wall;
-use mrbd::plan::Plan;
-use mrbd::simulate::{
+use mrbd::study::pipeline::Pipeline;
+use mrbd::study::plan::Plan;
+use mrbd::survey::Survey;
+use mrbd_files::coefficients::CoefficientSets;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{
     Accuracy, EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Shaking, Work,
 };
+use mrbd_records::{About, Accelerogram, IntensityMeasures, Suite, SuiteRecord};
 
 pub const SWEEP: &str = include_str!("../../pipelines/sweep.toml");
 const SURVEY: &str = include_str!("../../inputs/survey.toml");

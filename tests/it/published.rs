@@ -6,10 +6,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use mrbd::ground::Accelerogram;
-use mrbd::model::{Contact, G_M_S2, Pivot, RockingWall, State, Touching, Vector, WallParameters};
-use mrbd::simulate::{Accuracy, Observer, Outcome, Shaking, simulate, simulate_observed};
-use mrbd::solver::Quintic;
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{Contact, G_M_S2, Pivot, RockingWall, State, Touching, Vector, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, Observer, Outcome, Shaking, simulate, simulate_observed};
+use mrbd_kernel::solver::Quintic;
 use rand::RngExt;
 
 use crate::walls::{bare_wall, block, made, rng};

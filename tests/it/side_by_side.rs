@@ -1,9 +1,9 @@
 //! Walls side by side in the lanes of vector registers move as each does alone.
 
 use fearless_simd::{Level, Simd};
-use mrbd::model::State;
-use mrbd::model::Wall;
-use mrbd::simulate::{
+use mrbd_kernel::model::State;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{
     Accuracy, History, Outcome, Response, Shaking, Simulator, Start, simulate, simulate_side_by_side,
     simulate_side_by_side_at,
 };

@@ -1,8 +1,8 @@
 //! What does not depend on which side is left, or on the unit of length.
 
-use mrbd::ground::Accelerogram;
-use mrbd::model::WallParameters;
-use mrbd::simulate::{Accuracy, History, Response, Shaking, simulate_observed};
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::WallParameters;
+use mrbd_kernel::simulate::{Accuracy, History, Response, Shaking, simulate_observed};
 use rand::RngExt;
 
 use crate::walls::{

@@ -1,8 +1,8 @@
 //! Small traps: set-ups at the edge of what a wall or a record can be. Every run ends, with numbers that make sense.
 
-use mrbd::ground::Accelerogram;
-use mrbd::model::{Contact, G_M_S2, ImpactLaw, WallParameters};
-use mrbd::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate_observed};
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{Contact, G_M_S2, ImpactLaw, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate_observed};
 use rand::RngExt;
 
 use crate::walls::{

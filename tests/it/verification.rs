@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use mrbd::ground::Accelerogram;
-use mrbd::input::load_wall;
-use mrbd::model::Wall;
-use mrbd::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate_observed};
+use mrbd_files::load_wall;
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, History, Outcome, Response, Shaking, simulate_observed};
 use serde::Deserialize;
 
 use crate::shared;

@@ -1,10 +1,10 @@
 //! Walls, records and states drawn at random from a seed, and the single block that most closed forms are about.
 
-use mrbd::ground::Accelerogram;
-use mrbd::model::{
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{
     Contact, Effect, G_M_S2, ImpactLaw, Pivot, Restitution, State, Touching, Vector, Wall, WallParameters,
 };
-use mrbd::simulate::{History, Shaking};
+use mrbd_kernel::simulate::{History, Shaking};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

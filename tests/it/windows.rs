@@ -1,8 +1,8 @@
 //! Windows of a run: started from a state of the whole run they go on as it does, from any state they do not fail.
 
-use mrbd::model::{Contact, G_M_S2, ImpactLaw, Pair, State, WallParameters};
-use mrbd::simulate::{Accuracy, History, Observer, Outcome, Shaking, Simulator, Start};
-use mrbd::solver::Quintic;
+use mrbd_kernel::model::{Contact, G_M_S2, ImpactLaw, Pair, State, WallParameters};
+use mrbd_kernel::simulate::{Accuracy, History, Observer, Outcome, Shaking, Simulator, Start};
+use mrbd_kernel::solver::Quintic;
 use rand::RngExt;
 
 use crate::walls::{any_record, any_shaking, any_wall, around_zero, effect, made, rng, table_wall};

@@ -3,8 +3,8 @@
 use super::FragilityCommand;
 use crate::error::{InputError, Result};
 use crate::fragility::{Columns, Expression, Outcomes};
-use crate::input::pipeline::Kind;
-use crate::store::Manifest;
+use crate::study::pipeline::Kind;
+use crate::study::runs::Manifest;
 
 /// What the limit of a row, or of a pass over the rows, is called in results.
 const LIMIT: &str = "limit";

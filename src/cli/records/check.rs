@@ -7,7 +7,7 @@ use serde_json::json;
 
 use super::{percent, print, print_json, print_table};
 use crate::error::{Error, InputError, Result};
-use crate::ground::{COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck};
+use mrbd_records::{COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck};
 
 /// Check the mean spectrum of a suite against the Italian code spectrum (NTC 2018) of a site.
 ///

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::ReadArgs;
+use super::{ReadArgs, written};
 use crate::error::{InputError, Result};
-use crate::ground::write_two_columns;
+use mrbd_records::write_two_columns;
 
 /// Convert a record of any format to two-column CSV.
 ///
@@ -35,7 +35,7 @@ pub(super) fn execute(args: &ConvertArgs) -> Result<()> {
         return Err(InputError::option("OUT", found, "a .csv file").into());
     }
     let record = args.read.read(&args.file)?;
-    write_two_columns(&args.out, &record.accelerogram)?;
+    written("OUT", write_two_columns(&args.out, &record.accelerogram))?;
     let motion = &record.accelerogram;
     let (samples, step_s, peak) = (motion.acceleration_m_s2().len(), motion.step_s(), motion.peak_m_s2());
     let out = args.out.display();

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{ReadArgs, print_json, print_table};
 use crate::error::{InputError, Result};
-use crate::ground::{Accelerogram, CODE_DAMPING, IntensityMeasures, Suite, response_spectrum_m_s2};
+use mrbd_records::{Accelerogram, CODE_DAMPING, IntensityMeasures, Suite, response_spectrum_m_s2};
 
 /// Describe records: step, length and intensity measures.
 ///

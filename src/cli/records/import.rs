@@ -6,9 +6,9 @@ use std::str::FromStr;
 
 use clap::Args;
 
-use super::{ReadArgs, percent, print_table};
+use super::{ReadArgs, percent, print_table, table_or_table_4, written};
 use crate::error::{InputError, Result};
-use crate::ground::{Import, IntensityMeasures, RecordTable, read_imports, write_imports};
+use mrbd_records::{Import, IntensityMeasures, RecordTable, read_imports, write_imports};
 
 /// Import records of a published table: check their peaks against it and write a suite.
 ///
@@ -19,9 +19,9 @@ use crate::ground::{Import, IntensityMeasures, RecordTable, read_imports, write_
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct ImportArgs {
-    /// Table of records.
-    #[arg(long, value_name = "FILE", default_value = "inputs/table4.toml")]
-    table: PathBuf,
+    /// Table of records; the paper's Table 4 unless given.
+    #[arg(long, value_name = "FILE")]
+    table: Option<PathBuf>,
     /// Horizontal record of a row.
     #[arg(long = "record", value_name = "ROW=FILE", required = true)]
     records: Vec<Numbered>,
@@ -58,13 +58,13 @@ pub(super) fn execute(args: &ImportArgs) -> Result<()> {
         let found = format!("{}, which holds a suite", args.out.display());
         return Err(InputError::option("--out", found, "a folder without a suite.toml").into());
     }
-    let table = RecordTable::load(&args.table)?;
+    let table = table_or_table_4(args.table.as_deref())?;
     let (records, verticals) =
         (by_number("--record", &args.records)?, by_number("--vertical", &args.verticals)?);
     let imports = read_imports(&table, &records, &verticals, &args.read.options())?;
     let rows: Vec<Vec<String>> = imports.iter().map(|import| row(&table, import)).collect();
     print_table(&["record", "PGA g", "of the table", "", "PGV m/s", "of the table", ""], &rows)?;
-    write_imports(&args.out, &args.name, &table, &imports)?;
+    written("--out", write_imports(&args.out, &args.name, &table, &imports))?;
     Ok(())
 }
 

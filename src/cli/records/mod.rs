@@ -8,23 +8,41 @@ mod import;
 mod pulse;
 mod select;
 
+use std::io::ErrorKind;
 use std::path::Path;
 
 use clap::{Args, Subcommand};
 
 use super::output::print;
-use crate::error::Result;
-use crate::ground::{ReadOptions, Record, Unit, read};
+use crate::error::{InputError, Result};
+use mrbd_records::{ReadOptions, Record, RecordTable, Unit, formats_in_words, read};
+
+/// The paper's Table 4, so that the commands work anywhere.
+const TABLE_4: &str = include_str!("../../../inputs/table4.toml");
+/// What writing to a path fails with where the path is at fault.
+const UNWRITABLE: [ErrorKind; 6] = [
+    ErrorKind::AlreadyExists,
+    ErrorKind::NotFound,
+    ErrorKind::PermissionDenied,
+    ErrorKind::NotADirectory,
+    ErrorKind::IsADirectory,
+    ErrorKind::ReadOnlyFilesystem,
+];
 
 /// Read, convert, describe, generate and select accelerograms.
-///
-/// Formats are told by content: CSV under `time_s,acceleration_m_s2`, one number a line (give --dt), PEER AT2,
-/// ESM/ITACA DYNA, GeoNet V1A and V2A, COSMOS, CSMIP V2 and K-NET.
 #[derive(Debug, Args)]
-#[command(arg_required_else_help = true)]
+#[command(arg_required_else_help = true, long_about = long_about())]
 pub struct RecordsArgs {
     #[command(subcommand)]
     command: RecordsCommand,
+}
+
+fn long_about() -> String {
+    format!(
+        "Read, convert, describe, generate and select accelerograms.\n\n\
+         A file is told apart by its content: {} (give --dt).",
+        formats_in_words("or")
+    )
 }
 
 #[derive(Debug, Subcommand)]
@@ -38,10 +56,10 @@ enum RecordsCommand {
     Pulse(pulse::PulseArgs),
 }
 
-/// Runs the command that was asked for.
+/// Runs the chosen command.
 ///
 /// # Errors
-/// Whatever the command meets.
+/// Those of the command.
 pub fn execute(args: &RecordsArgs) -> Result<()> {
     match &args.command {
         RecordsCommand::Describe(args) => describe::execute(args),
@@ -54,13 +72,13 @@ pub fn execute(args: &RecordsArgs) -> Result<()> {
     }
 }
 
-/// What is known of files that do not tell it themselves.
+/// What is known of files that do not state it.
 #[derive(Debug, Clone, Args)]
 struct ReadArgs {
-    /// Time between samples, where files do not tell it.
+    /// Time between samples, where files do not state it.
     #[arg(long, value_name = "SECONDS")]
     dt: Option<f64>,
-    /// Unit of the samples, where files do not tell it: m/s2, g, cm/s2, gal or mm/s2.
+    /// Unit of the samples, where files do not state it: m/s2, g, cm/s2, gal or mm/s2.
     #[arg(long)]
     unit: Option<Unit>,
     /// Channel of files of several: its number from 1, or its name.
@@ -74,7 +92,26 @@ impl ReadArgs {
     }
 
     fn read(&self, path: &Path) -> Result<Record> {
-        read(path, &self.options())
+        Ok(read(path, &self.options())?)
+    }
+}
+
+/// The table of a `--table`; the paper's Table 4 unless given.
+fn table_or_table_4(path: Option<&Path>) -> Result<RecordTable> {
+    Ok(match path {
+        Some(path) => RecordTable::load(path)?,
+        None => RecordTable::parse(Path::new("inputs/table4.toml"), TABLE_4)?,
+    })
+}
+
+/// A result of writing to the path of `option`: a path where nothing can be written is bad input, a full disk is not.
+fn written<T>(option: &str, result: mrbd_files::Result<T>) -> Result<T> {
+    match result {
+        Err(mrbd_files::Error::Io { path, source, .. }) if UNWRITABLE.contains(&source.kind()) => {
+            let found = format!("{}: {source}", path.display());
+            Err(InputError::option(option, found, "a path that can be written").into())
+        }
+        result => Ok(result?),
     }
 }
 

@@ -4,8 +4,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::written;
 use crate::error::{InputError, Result};
-use crate::ground::{Pulse, write_two_columns};
+use mrbd_records::{Pulse, write_two_columns};
 
 /// Write a pulse as a two-column record.
 ///
@@ -54,7 +55,7 @@ pub(super) fn execute(args: &PulseArgs) -> Result<()> {
     let record = pulse(args)
         .accelerogram(args.dt)
         .map_err(|e| InputError::option(e.name, e.value.to_string(), e.allowed))?;
-    write_two_columns(&args.out, &record)
+    written("--out", write_two_columns(&args.out, &record))
 }
 
 fn pulse(args: &PulseArgs) -> Pulse {

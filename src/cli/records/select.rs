@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::check::PeriodArgs;
-use super::{ReadArgs, percent, print_table};
+use super::{ReadArgs, percent, print_table, written};
 use crate::error::{InputError, Result};
-use crate::ground::{Criteria, Selection, Site, SuiteSource, select};
+use mrbd_records::{Criteria, Selection, Site, SuiteSource, select};
 
 /// Select suites whose mean spectrum fits the code spectrum of a site, as REXEL does.
 ///
@@ -37,7 +37,7 @@ pub struct SelectArgs {
     /// Most records of one event.
     #[arg(long, value_name = "N", default_value_t = 2)]
     most_of_event: usize,
-    /// In a folder, the first N characters of a file name tell the event; 0: every file is of its own.
+    /// In a folder, the first N characters of a file name name the event; 0: every file is of its own.
     #[arg(long, value_name = "N", default_value_t = 0)]
     event_prefix: usize,
     /// Candidates that are combined; time grows with the number of combinations.
@@ -80,7 +80,7 @@ pub(super) fn execute(args: &SelectArgs) -> Result<()> {
     if let Some(out) = &args.out {
         let note =
             format!("mrbd records select: rms deviation {:.4} from the code spectrum", best.deviation_rms);
-        source.write_selection(best, "selected", &note, out)?;
+        written("--out", source.write_selection(best, "selected", &note, out))?;
     }
     Ok(())
 }

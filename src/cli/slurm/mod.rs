@@ -10,11 +10,12 @@ use std::path::{Path, PathBuf, absolute};
 use clap::Args;
 
 use super::output;
-use crate::campaign::{BLOCK_RUNS, Layout};
 use crate::error::{Error, InputError, Result};
-use crate::input::pipeline::Pipeline;
-use crate::plan::Plan;
-use crate::store::{Manifest, write_durably};
+use crate::store::write_durably;
+use crate::study::campaign::{BLOCK_RUNS, Layout};
+use crate::study::pipeline::Pipeline;
+use crate::study::plan::Plan;
+use crate::study::runs::Manifest;
 use scripts::{Job, Scripts, shell_word};
 use time_limit::seconds;
 

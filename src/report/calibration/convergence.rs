@@ -5,8 +5,8 @@ use super::super::colours::of_curve;
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Key, Link, Section, Table};
 use super::wme;
-use crate::calibrate::{Calibration, MethodResult};
 use crate::error::Result;
+use mrbd_lab::calibrate::{Calibration, MethodResult};
 
 /// The section.
 ///

@@ -8,10 +8,10 @@ use super::super::graph::{Format, Graph, Layer};
 use super::super::page::{Figure, Key, Link, Section};
 use super::super::provenance::{Note, found_again};
 use super::wme;
-use crate::calibrate::{Calibration, Experiment, Measured, TestResult};
 use crate::error::Result;
-use crate::model::Wall;
-use crate::simulate::History;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::History;
+use mrbd_lab::calibrate::{Calibration, Experiment, Measured, TestResult};
 
 /// Measured rotations: dark grey under the simulated ones.
 const MEASURED: Colour = PALETTE[6];

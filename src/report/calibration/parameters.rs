@@ -4,8 +4,8 @@ use super::super::axis::Axis;
 use super::super::colours::{Mark, PALETTE};
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Key, Link, Section, Table};
-use crate::calibrate::{Calibration, Estimate, Identifiability};
 use crate::error::Result;
+use mrbd_lab::calibrate::{Calibration, Estimate, Identifiability};
 
 /// The section.
 ///

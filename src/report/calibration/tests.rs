@@ -2,7 +2,7 @@
 
 use super::super::page::{Section, Table};
 use super::wme;
-use crate::calibrate::{Calibration, TestResult};
+use mrbd_lab::calibrate::{Calibration, TestResult};
 
 /// The section.
 pub fn section(stored: &Calibration) -> Section {

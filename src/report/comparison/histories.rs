@@ -6,7 +6,7 @@ use super::super::axis::Axis;
 use super::super::colours::{Mark, of_curve};
 use super::super::graph::{Format, Graph, Layer};
 use super::super::page::{Figure, Key, Link};
-use crate::comparison::MODELS;
+use crate::classics::comparison::MODELS;
 use crate::error::Result;
 use crate::fragility::Table;
 

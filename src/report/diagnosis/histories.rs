@@ -9,7 +9,7 @@ use super::super::page::{Figure, Link, Section, Table};
 use super::stored::{BeforeAfter, Columns, Stored, StoredTest};
 use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
-use crate::model::PATTERN_NAMES;
+use mrbd_kernel::model::PATTERN_NAMES;
 
 /// Most tests drawn in one section.
 const MOST: usize = 3;

@@ -10,9 +10,9 @@ use super::parting::shows_after;
 use super::stored::{Stored, StoredRival};
 use super::words::at;
 use super::{AFTER, BEFORE, MEASURED, key};
-use crate::diagnose::force::ALONG;
 use crate::error::Result;
-use crate::model::PATTERN_NAMES;
+use mrbd_kernel::model::PATTERN_NAMES;
+use mrbd_lab::diagnose::force::ALONG;
 
 /// Share off the direction of the top from which a force there alone does not explain the residual: twins of a late record
 /// have 0.1 and more.

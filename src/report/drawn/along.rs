@@ -8,7 +8,7 @@ use super::medians;
 use super::quantiles::{HIGH, LOW, MIDDLE, quantities};
 use crate::aggregate::{Distribution, Distributions, VariantNote};
 use crate::error::Result;
-use crate::input::pipeline::Kind;
+use crate::study::pipeline::Kind;
 
 /// Least rotation drawn, over α: below it is rest.
 const LEAST: f64 = 1e-3;

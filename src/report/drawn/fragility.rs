@@ -13,7 +13,7 @@ use crate::fragility::{
     Analysis, Bootstrap, Columns, EXPRESSION_ALLOWED, Expression, Group, Interval, Known, Method,
     NotAnExpression, Outcomes, Sample, Settings, analyse, read_groups,
 };
-use crate::input::pipeline::Kind;
+use crate::study::pipeline::Kind;
 
 /// The rotation over α_i that the paper calls significant.
 const SIGNIFICANT: f64 = 0.05;

@@ -8,7 +8,7 @@ use super::super::page::{Figure, Key, Section};
 use super::{along, medians, titled};
 use crate::aggregate::{Distribution, Distributions, VariantNote};
 use crate::error::Result;
-use crate::input::pipeline::Kind;
+use crate::study::pipeline::Kind;
 
 /// Places of the 16, 50 and 84 % quantiles among those that are told.
 pub(super) const LOW: usize = 1;

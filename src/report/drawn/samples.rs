@@ -11,9 +11,10 @@ use super::titled;
 use crate::aggregate::VariantNote;
 use crate::error::Result;
 use crate::fragility::Table;
-use crate::input::survey::{Configuration, Survey};
-use crate::sampling::{FacadeSampler, Marginal, Sampling, Variable};
-use crate::store::{Manifest, file_sha256};
+use crate::study::runs::Manifest;
+use crate::survey::sampling::{FacadeSampler, Marginal, Sampling, Variable};
+use crate::survey::{Configuration, Survey};
+use mrbd_files::file_sha256;
 
 /// Bars of a histogram.
 const BARS: usize = 24;

@@ -11,8 +11,8 @@ use super::super::svg::{Drawn, Told, svg as draw_svg};
 use super::super::words::{rounded_up, tick};
 use super::RunPicture;
 use crate::error::Result;
-use crate::model::PATTERN_NAMES;
-use crate::simulate::Outcome;
+use mrbd_kernel::model::PATTERN_NAMES;
+use mrbd_kernel::simulate::Outcome;
 
 /// Size in its own units: plotters rounds to whole ones, so they are fine.
 const SIZE: (u32, u32) = (2400, 1400);

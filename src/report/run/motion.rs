@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 
 use super::super::colours::{PALETTE, PATTERNS};
 use super::RunPicture;
-use crate::model::{Contact, Joint, PATTERN_NAMES};
-use crate::simulate::{HistoryRow, Outcome};
+use mrbd_kernel::model::{Contact, Joint, PATTERN_NAMES};
+use mrbd_kernel::simulate::{HistoryRow, Outcome};
 
 /// Rotations are told in millionths of a radian: micrometres at the top of a wall.
 const PER_RAD: f64 = 1e6;

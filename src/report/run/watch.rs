@@ -1,8 +1,8 @@
 //! Watching a run for its pictures: the history, and every impact with the speed at which it closes.
 
-use crate::model::{Contact, Joint, Pair};
-use crate::simulate::{History, Observer};
-use crate::solver::Quintic;
+use mrbd_kernel::model::{Contact, Joint, Pair};
+use mrbd_kernel::simulate::{History, Observer};
+use mrbd_kernel::solver::Quintic;
 
 /// An impact as it is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,7 +10,7 @@ use super::medians::{SIGNIFICANT, title, x_range, y_label};
 use crate::aggregate::{Measure, Middle, ReferenceRun, reference_runs};
 use crate::error::Result;
 use crate::findings::View;
-use crate::input::survey::Configuration;
+use crate::survey::Configuration;
 
 /// The section: a figure a body, a curve a record.
 ///

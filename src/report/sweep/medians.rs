@@ -7,9 +7,9 @@ use super::super::words;
 use crate::aggregate::{Measure, Median, Middle};
 use crate::error::Result;
 use crate::findings::{Slender, View};
-use crate::input::pipeline::Parameter;
-use crate::input::survey::Configuration;
-use crate::plan::Level;
+use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
+use crate::survey::Configuration;
 
 /// θ/α the paper calls significant (sections 4.3 and 5).
 pub(super) const SIGNIFICANT: (f64, &str) = (0.05, "significant, 0.05");

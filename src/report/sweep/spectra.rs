@@ -8,9 +8,9 @@ use super::super::page::{Figure, Key, Section};
 use super::super::provenance::found_again;
 use super::super::words::rounded_up;
 use crate::error::Result;
-use crate::ground::{CODE_DAMPING, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck, response_spectrum_m_s2};
-use crate::plan::Motions;
-use crate::store::Manifest;
+use crate::study::plan::Motions;
+use crate::study::runs::Manifest;
+use mrbd_records::{CODE_DAMPING, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck, response_spectrum_m_s2};
 
 /// Longest period shown, s.
 const LONGEST_S: f64 = 3.0;

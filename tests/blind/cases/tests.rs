@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use mrbd::ground::{Accelerogram, GENERATED_STEP_S, RecordTable, generate};
-use mrbd::input::load_wall;
-use mrbd::model::Wall;
-use mrbd::simulate::{Accuracy, History, Shaking, simulate, simulate_observed};
+use mrbd_files::load_wall;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate, simulate_observed};
+use mrbd_records::{Accelerogram, GENERATED_STEP_S, RecordTable, generate};
 use rand::RngExt;
 use rand::seq::SliceRandom;
 use rand_distr::{Distribution, Normal};

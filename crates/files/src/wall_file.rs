@@ -1,0 +1,228 @@
+//! Wall files (TOML): every key checked, turned into a [`Wall`].
+
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use super::toml_file;
+use crate::error::{InputError, Result};
+use mrbd_kernel::model::{Effect, ImpactLaw, Restitution, Wall, WallParameters, crushed_widths_m};
+
+/// A wall file as written.
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct WallFile {
+    wall: Body,
+    /// `None`: the corners are the edges of the wall.
+    corners: Option<Corners>,
+    /// Left out, the top is free.
+    #[serde(default)]
+    diaphragm: Diaphragm,
+    #[serde(default)]
+    restitution: RestitutionKeys,
+    #[serde(default)]
+    collapse: Collapse,
+    #[serde(default)]
+    initial: Initial,
+    #[serde(default)]
+    effects: Vec<Effect>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Body {
+    thickness_m: f64,
+    height_m: f64,
+    crack_height_m: Option<f64>,
+    length_m: f64,
+    mass_kg: Option<f64>,
+    density_kg_m3: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Corners {
+    lower_width_m: Option<f64>,
+    upper_width_m: Option<f64>,
+    compressive_strength_pa: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Diaphragm {
+    mass_kg: f64,
+    #[serde(default)]
+    carriage_mass_kg: f64,
+    stiffness_n_per_m: f64,
+    #[serde(default)]
+    eccentricity_m: f64,
+}
+
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct RestitutionKeys {
+    coefficients: Option<[f64; 8]>,
+    law: Option<ImpactLaw>,
+    capture_velocity_rad_s: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Collapse {
+    rotation_ratio: Option<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, Default, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Initial {
+    #[serde(default)]
+    theta1_rad: f64,
+    #[serde(default)]
+    theta2_rad: f64,
+}
+
+/// Reads a wall file.
+///
+/// # Errors
+/// Input errors that name the file, the key, what was found and what is allowed.
+pub fn load_wall(path: &Path) -> Result<Wall> {
+    parse_wall(path, &toml_file::read(path)?)
+}
+
+/// Checks the text of a wall file that came from `path`.
+///
+/// # Errors
+/// As [`load_wall`].
+pub fn parse_wall(path: &Path, text: &str) -> Result<Wall> {
+    let file: WallFile = toml_file::parse(path, text)?;
+    Ok(wall(path, file)?)
+}
+
+/// Makes a wall from the table of a wall file, whose values a calibration has changed.
+///
+/// # Errors
+/// As [`load_wall`].
+pub fn wall_from_table(path: &Path, table: toml::Table) -> Result<Wall, InputError> {
+    let file =
+        WallFile::deserialize(table).map_err(|e| InputError::file(path, e.to_string(), "a wall file"))?;
+    wall(path, file)
+}
+
+fn wall(path: &Path, file: WallFile) -> Result<Wall, InputError> {
+    let mass_kg = mass_kg(path, &file.wall)?;
+    let [lower_width_m, upper_width_m] = widths_m(path, &file, mass_kg)?;
+    let default = Restitution::default();
+    let restitution = Restitution {
+        coefficients: file.restitution.coefficients.unwrap_or(default.coefficients),
+        law: file.restitution.law.unwrap_or(default.law),
+        capture_velocity_rad_s: file
+            .restitution
+            .capture_velocity_rad_s
+            .unwrap_or(default.capture_velocity_rad_s),
+    };
+    let parameters = WallParameters {
+        thickness_m: file.wall.thickness_m,
+        height_m: file.wall.height_m,
+        crack_height_m: file.wall.crack_height_m,
+        length_m: file.wall.length_m,
+        mass_kg,
+        lower_width_m,
+        upper_width_m,
+        diaphragm_mass_kg: file.diaphragm.mass_kg,
+        carriage_mass_kg: file.diaphragm.carriage_mass_kg,
+        stiffness_n_per_m: file.diaphragm.stiffness_n_per_m,
+        eccentricity_m: file.diaphragm.eccentricity_m,
+        restitution,
+        collapse_rotation_ratio: file
+            .collapse
+            .rotation_ratio
+            .unwrap_or(WallParameters::DEFAULT_COLLAPSE_RATIO),
+        initial_rotation_rad: [file.initial.theta1_rad, file.initial.theta2_rad],
+        effects: file.effects,
+    };
+    Wall::new(parameters).map_err(|e| InputError::key(path, e.key, e.found, e.allowed))
+}
+
+fn mass_kg(path: &Path, body: &Body) -> Result<f64, InputError> {
+    match (body.mass_kg, body.density_kg_m3) {
+        (Some(mass_kg), None) => Ok(mass_kg),
+        (None, Some(density)) if density > 0.0 && density.is_finite() => {
+            Ok(density * body.thickness_m * body.height_m * body.length_m)
+        }
+        (None, Some(density)) => {
+            Err(InputError::key(path, "wall.density_kg_m3", density.to_string(), "a finite number above 0"))
+        }
+        (Some(_), Some(_)) => {
+            Err(InputError::key(path, "wall.mass_kg", "both mass_kg and density_kg_m3", "one of the two"))
+        }
+        (None, None) => {
+            Err(InputError::key(path, "wall", "neither mass_kg nor density_kg_m3", "one of the two"))
+        }
+    }
+}
+
+/// Widths between the rocking corners: the full thickness, given, or from the strength of the masonry.
+fn widths_m(path: &Path, file: &WallFile, mass_kg: f64) -> Result<[f64; 2], InputError> {
+    let Some(c) = &file.corners else { return Ok([file.wall.thickness_m; 2]) };
+    let cracked = file.wall.crack_height_m.is_some();
+    match (c.lower_width_m, c.upper_width_m, c.compressive_strength_pa) {
+        (Some(lower), Some(upper), None) => Ok([lower, upper]),
+        (Some(lower), None, None) if !cracked => Ok([lower, lower]),
+        (None, None, Some(strength)) => {
+            let body = &file.wall;
+            let crack_height_m = body.crack_height_m.unwrap_or(body.height_m);
+            let upper_kg = mass_kg * (1.0 - crack_height_m / body.height_m);
+            let above_kg = [mass_kg + file.diaphragm.mass_kg, upper_kg + file.diaphragm.mass_kg];
+            crushed_widths_m(body.thickness_m, body.length_m, above_kg, strength)
+                .map_err(|e| InputError::key(path, "corners.compressive_strength_pa", e.found, e.allowed))
+        }
+        _ => Err(InputError::key(
+            path,
+            "corners",
+            "an incomplete or mixed choice",
+            "lower_width_m and upper_width_m (lower alone for an uncracked wall), compressive_strength_pa, or no \
+             [corners] for the full thickness",
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FEWEST: &str = "[wall]\nthickness_m = 0.3\nheight_m = 4.0\ncrack_height_m = 2.2\nlength_m = 1.5\n\
+        density_kg_m3 = 1800.0\n";
+
+    fn read(text: &str) -> Result<WallParameters> {
+        parse_wall(Path::new("wall.toml"), text).map(|wall| wall.parameters().clone())
+    }
+
+    #[test]
+    fn analytic_a_wall_of_the_fewest_keys_has_its_full_thickness_and_a_free_top() {
+        let in_full = format!(
+            "{FEWEST}[corners]\nlower_width_m = 0.3\nupper_width_m = 0.3\n\
+             [diaphragm]\nmass_kg = 0.0\ncarriage_mass_kg = 0.0\nstiffness_n_per_m = 0.0\neccentricity_m = 0.0\n"
+        );
+        let fewest = read(FEWEST).expect("a wall");
+        assert_eq!(fewest, read(&in_full).expect("a wall"));
+        assert_eq!([fewest.lower_width_m, fewest.upper_width_m], [0.3, 0.3]);
+        let uncracked = read(&FEWEST.replace("crack_height_m = 2.2\n", "")).expect("a wall");
+        assert_eq!([uncracked.lower_width_m, uncracked.upper_width_m], [0.3, 0.3]);
+        let floor = "[diaphragm]\nmass_kg = 200.0\nstiffness_n_per_m = 37e3\n";
+        let held = read(&format!("{FEWEST}{floor}")).expect("a wall");
+        assert_eq!((held.carriage_mass_kg, held.stiffness_n_per_m, held.lower_width_m), (0.0, 37e3, 0.3));
+    }
+
+    #[test]
+    fn rejects_tables_that_are_begun_and_left() {
+        for (table, parts) in [
+            ("[corners]\n", &["corners", "incomplete", "no [corners] for the full thickness"][..]),
+            ("[corners]\nlower_width_m = 0.28\n", &["corners", "incomplete"]),
+            ("[diaphragm]\nmass_kg = 200.0\n", &["diaphragm", "missing field `stiffness_n_per_m`"]),
+            ("[diaphragm]\nstiffness_n_per_m = 37e3\n", &["diaphragm", "missing field `mass_kg`"]),
+        ] {
+            let message = read(&format!("{FEWEST}{table}")).expect_err("must be refused").to_string();
+            assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} in: {message}");
+        }
+    }
+}

@@ -1,0 +1,364 @@
+//! The equations of motion of several walls side by side, in the lanes of vector registers.
+//!
+//! The same sums in the same order as in [`super::motion`] and [`super::balance`], lane by lane: a wall moves the same to the
+//! bit alone and beside others. Only for walls whose effects the lanes know, as the catalogue says; the others move alone.
+//!
+//! What works on lanes is `#[inline(always)]`, closures are avoided: only so does all of it become part of the one function
+//! that is compiled for the vector instructions of a processor.
+
+use std::f64::consts::FRAC_PI_4;
+
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
+
+use super::balance::Aftermath;
+use super::joint::{JointForce, JointForces};
+use super::laws::Laws;
+use super::mass_matrix::Freedom;
+use super::motion::Motion;
+use super::vector::{COS, SIN, sin_cos};
+use super::wall::G_M_S2;
+use crate::fused::fused_lanes as fused;
+
+/// Walls side by side; eight do not fit the registers of every x86-64 and take longer.
+pub(crate) const LANES: usize = 4;
+type F<S> = f64x4<S>;
+
+/// One number of every lane.
+#[inline(always)]
+pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> F<S> {
+    F::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
+}
+
+/// The motions of several contact states side by side: all of walls that turn as one, or none.
+pub(crate) struct Motions<S: Simd, const AS_ONE: bool> {
+    upper: mask64x4<S>,
+    any_upper: bool,
+    o_x: F<S>,
+    o_c: F<S>,
+    q_x: F<S>,
+    q: [F<S>; 2],
+    c: [F<S>; 2],
+    v: [F<S>; 2],
+    u: [F<S>; 2],
+    whole_arm: [F<S>; 2],
+    whole_moment: [F<S>; 2],
+    whole_inertia: F<S>,
+    inertias: [F<S>; 2],
+    lower_mass: F<S>,
+    upper_mass: F<S>,
+    lower_inertia: F<S>,
+    m_dp: F<S>,
+    stiffness: F<S>,
+    offset: F<S>,
+}
+
+/// Arms and static moments at one posture.
+#[derive(Clone, Copy)]
+pub(crate) struct TurnedLanes<S: Simd> {
+    sin_1: F<S>,
+    cos_1: F<S>,
+    /// r_Q, r_C, V, U.
+    q: [F<S>; 2],
+    c: [F<S>; 2],
+    v: [F<S>; 2],
+    u: [F<S>; 2],
+}
+
+/// Angular accelerations of both bodies, and the power of the ground.
+#[derive(Clone, Copy)]
+pub(crate) struct RateLanes<S: Simd> {
+    pub theta_dd: [F<S>; 2],
+    pub ground_power_w: F<S>,
+}
+
+struct Law<S: Simd> {
+    m11: F<S>,
+    m12: F<S>,
+    m22: F<S>,
+    f: [F<S>; 2],
+    squares: [F<S>; 2],
+    x_c: F<S>,
+    v_c: F<S>,
+    spring: F<S>,
+}
+
+/// [`Aftermath`] of every lane.
+#[derive(Clone, Copy)]
+pub(crate) struct AftermathLanes<S: Simd> {
+    ground: [F<S>; 3],
+    crack: [F<S>; 3],
+    top: [F<S>; 3],
+}
+
+impl Motion {
+    /// Whether this motion turns as one, where it may go side by side with others; `None` where it moves alone.
+    #[inline]
+    pub fn side_by_side(&self) -> Option<bool> {
+        self.laws.known_to_lanes().then(|| self.freedom == Freedom::Monolithic)
+    }
+}
+
+/// The laws of which the lanes do the sums.
+#[derive(Clone, Copy)]
+struct LaneLaws {
+    m_dp: f64,
+    stiffness: f64,
+    offset: f64,
+}
+
+impl LaneLaws {
+    /// Every law by its name: a new one does not compile here until the lanes do its sums, or the catalogue says of its
+    /// effect that they do not.
+    #[inline(always)]
+    fn of(motion: &Motion) -> Self {
+        let Laws {
+            carriage_mass_kg: m_dp,
+            stiffness_n_per_m: stiffness,
+            spring_offset_n: offset,
+            // Energy, of which a step needs none.
+            stored_offset_j: _,
+            // Of effects that the catalogue calls unknown to the lanes.
+            cubic_n_per_m3: _,
+            viscous_n_s_per_m: _,
+            drag_n: _,
+            joint_damping_n_m_s: _,
+            lanes: _,
+        } = motion.laws;
+        Self { m_dp, stiffness, offset }
+    }
+}
+
+/// As [`super::vector::Vector::moment_of`].
+#[inline(always)]
+fn moment<S: Simd>(arm: [F<S>; 2], force: [F<S>; 2]) -> F<S> {
+    arm[1] * force[0] - arm[0] * force[1]
+}
+
+#[inline(always)]
+fn rotated<S: Simd>([x, y]: [F<S>; 2], sin: F<S>, cos: F<S>) -> [F<S>; 2] {
+    [x * cos + y * sin, y * cos - x * sin]
+}
+
+#[inline(always)]
+fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
+    if theta.abs().simd_gt(FRAC_PI_4).any_true() {
+        return library_sin_cos(theta);
+    }
+    let z = theta * theta;
+    let zz = z * z;
+    let [one, minus_half] = [F::splat(theta.simd, 1.0), F::splat(theta.simd, -0.5)];
+    let sin = fused(theta * z, polynomial(&SIN, z, zz), theta);
+    (sin, fused(zz, polynomial(&COS, z, zz), fused(z, minus_half, one)))
+}
+
+/// In the order of [`sin_cos`].
+#[inline(always)]
+fn polynomial<S: Simd>(c: &[f64; 6], z: F<S>, zz: F<S>) -> F<S> {
+    fused(zz, fused(zz, pair(c, 4, z), pair(c, 2, z)), pair(c, 0, z))
+}
+
+/// Two neighbours of a polynomial.
+#[inline(always)]
+fn pair<S: Simd>(c: &[f64; 6], n: usize, z: F<S>) -> F<S> {
+    fused(z, F::splat(z.simd, c[n + 1]), F::splat(z.simd, c[n]))
+}
+
+#[cold]
+fn library_sin_cos<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
+    let simd = theta.simd;
+    let pairs = <[f64; LANES]>::from(theta).map(sin_cos);
+    (lanes(simd, |i| pairs[i].0), lanes(simd, |i| pairs[i].1))
+}
+
+impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
+    #[inline(always)]
+    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
+        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
+        let upper = lanes(|m| f64::from(u8::from(m.freedom == Freedom::Upper))).simd_eq(1.0);
+        Self {
+            upper,
+            any_upper: upper.any_true(),
+            o_x: lanes(|m| m.o_x),
+            o_c: lanes(|m| m.o_c),
+            q_x: lanes(|m| m.q_x),
+            q: [lanes(|m| m.q.x), lanes(|m| m.q.y)],
+            c: [lanes(|m| m.c.x), lanes(|m| m.c.y)],
+            v: [lanes(|m| m.v.x), lanes(|m| m.v.y)],
+            u: [lanes(|m| m.u.x), lanes(|m| m.u.y)],
+            whole_arm: [lanes(|m| m.whole_arm.x), lanes(|m| m.whole_arm.y)],
+            whole_moment: [lanes(|m| m.whole_moment.x), lanes(|m| m.whole_moment.y)],
+            whole_inertia: lanes(|m| m.whole_inertia),
+            inertias: [lanes(|m| m.inertias.to_array()[0]), lanes(|m| m.inertias.to_array()[1])],
+            lower_mass: lanes(|m| m.lower_mass),
+            upper_mass: lanes(|m| m.upper_mass),
+            lower_inertia: lanes(|m| m.lower_inertia),
+            m_dp: lanes(|m| LaneLaws::of(m).m_dp),
+            stiffness: lanes(|m| LaneLaws::of(m).stiffness),
+            offset: lanes(|m| LaneLaws::of(m).offset),
+        }
+    }
+
+    #[inline(always)]
+    pub fn turned(&self, theta: [F<S>; 2]) -> TurnedLanes<S> {
+        let (sin_1, cos_1) = sin_cos_lanes(theta[0]);
+        let (sin_2, cos_2) = if AS_ONE { (sin_1, cos_1) } else { sin_cos_lanes(theta[1]) };
+        TurnedLanes {
+            sin_1,
+            cos_1,
+            q: rotated(self.q, sin_1, cos_1),
+            c: rotated(self.c, sin_2, cos_2),
+            v: rotated(self.v, sin_1, cos_1),
+            u: rotated(self.u, sin_2, cos_2),
+        }
+    }
+
+    #[inline(always)]
+    fn spring_force_n(&self, x_c: F<S>) -> F<S> {
+        fused(-self.stiffness, x_c, self.offset)
+    }
+
+    /// As [`Motion::monolithic_rate`].
+    #[inline(always)]
+    pub fn monolithic_rate(&self, theta: F<S>, omega: F<S>, [g_x, g_y]: [F<S>; 2]) -> (F<S>, F<S>) {
+        let (sin, cos) = sin_cos_lanes(theta);
+        let r = rotated(self.whole_arm, sin, cos);
+        let w = rotated(self.whole_moment, sin, cos);
+        let (a_x, a_y) = (g_x, g_y + G_M_S2);
+        let v_c = r[1] * omega;
+        let carriage_acceleration = fused(-r[0], omega * omega, a_x);
+        let top = self.spring_force_n(r[0] + self.o_c) - self.m_dp * carriage_acceleration;
+        let weight_and_ground = fused(w[0], a_y, -w[1] * a_x);
+        let inverse = 1.0 / fused(self.m_dp * r[1], r[1], self.whole_inertia);
+        let theta_dd = fused(r[1], top, weight_and_ground) * inverse;
+        let momentum_x = fused(w[1], omega, self.m_dp * v_c);
+        let power = fused(g_y * w[0], omega, -g_x * momentum_x);
+        (theta_dd, power)
+    }
+
+    #[inline(always)]
+    pub fn rate(&self, t: &TurnedLanes<S>, omega: [F<S>; 2], ground: [F<S>; 2]) -> RateLanes<S> {
+        self.rate_by(&self.law(t, omega, ground), t, omega, ground)
+    }
+
+    #[inline(always)]
+    fn law(&self, t: &TurnedLanes<S>, [w1, w2]: [F<S>; 2], [g_x, g_y]: [F<S>; 2]) -> Law<S> {
+        let (a_x, a_y) = (g_x, g_y + G_M_S2);
+        let squares = [w1 * w1, w2 * w2];
+        let x_c = (t.q[0] + t.c[0]) + self.o_c;
+        let v_c = t.q[1] * w1 + t.c[1] * w2;
+        let spring = self.spring_force_n(x_c);
+        let carriage_acceleration = a_x - t.q[0] * squares[0] - t.c[0] * squares[1];
+        let kappa = t.q[1] * t.u[0] - t.q[0] * t.u[1];
+        let forces = [
+            fused(kappa, squares[1], fused(t.v[0], a_y, -t.v[1] * a_x)),
+            fused(kappa, -squares[0], fused(t.u[0], a_y, -t.u[1] * a_x)),
+        ];
+        let top = spring - self.m_dp * carriage_acceleration;
+        Law {
+            m11: self.inertias[0] + t.q[1] * t.q[1] * self.m_dp,
+            m22: self.inertias[1] + t.c[1] * t.c[1] * self.m_dp,
+            m12: (t.q[0] * t.u[0] + t.q[1] * t.u[1]) + self.m_dp * t.q[1] * t.c[1],
+            f: [fused(t.q[1], top, forces[0]), fused(t.c[1], top, forces[1])],
+            squares,
+            x_c,
+            v_c,
+            spring,
+        }
+    }
+
+    #[inline(always)]
+    fn rate_by(
+        &self,
+        law: &Law<S>,
+        t: &TurnedLanes<S>,
+        [w1, w2]: [F<S>; 2],
+        [g_x, g_y]: [F<S>; 2],
+    ) -> RateLanes<S> {
+        let momentum_x = fused(self.m_dp, law.v_c, t.v[1] * w1 + t.u[1] * w2);
+        let ground_power_w = fused(g_y, t.v[0] * w1 + t.u[0] * w2, -g_x * momentum_x);
+        RateLanes { theta_dd: self.solve(law), ground_power_w }
+    }
+
+    /// As [`super::mass_matrix::MassMatrix::solve`].
+    #[inline(always)]
+    fn solve(&self, &Law { m11, m12, m22, f: [f1, f2], .. }: &Law<S>) -> [F<S>; 2] {
+        if AS_ONE {
+            let x = (f1 + f2) / (m11 + m12 * 2.0 + m22);
+            return [x, x];
+        }
+        let inverse = 1.0 / fused(-m12, m12, m11 * m22);
+        let both = [fused(m22, f1, -m12 * f2) * inverse, fused(m11, f2, -m12 * f1) * inverse];
+        if !self.any_upper {
+            return both;
+        }
+        let still = F::splat(f1.simd, 0.0);
+        [self.upper.select(still, both[0]), self.upper.select(f2 / m22, both[1])]
+    }
+
+    /// As [`Motion::arrival`].
+    #[inline(always)]
+    pub fn arrival(
+        &self,
+        t: &TurnedLanes<S>,
+        omega: [F<S>; 2],
+        ground: [F<S>; 2],
+    ) -> (RateLanes<S>, AftermathLanes<S>) {
+        let law = self.law(t, omega, ground);
+        let rate = self.rate_by(&law, t, omega, ground);
+        (rate, self.aftermath(&law, t, rate.theta_dd, ground))
+    }
+
+    #[inline(always)]
+    fn aftermath(
+        &self,
+        law: &Law<S>,
+        t: &TurnedLanes<S>,
+        [dd_1, dd_2]: [F<S>; 2],
+        [g_x, g_y]: [F<S>; 2],
+    ) -> AftermathLanes<S> {
+        let (a_x, a_y) = (g_x, g_y + G_M_S2);
+        let [w1, w2] = law.squares;
+        let q_x = fused(t.q[1], dd_1, -t.q[0] * w1);
+        let c_x = fused(t.c[1], dd_2, -t.c[0] * w2);
+        let q_y = fused(t.q[0], dd_1, t.q[1] * w1);
+        let u_x = fused(t.u[1], dd_2, -t.u[0] * w2);
+        let u_y = fused(t.u[0], dd_2, t.u[1] * w2);
+        let top = fused(self.m_dp, a_x + q_x + c_x, -law.spring);
+        let at_q = [a_x + q_x, a_y - q_y];
+        let crack = [fused(self.upper_mass, at_q[0], u_x) + top, fused(self.upper_mass, at_q[1], -u_y)];
+        let about_q = fused(t.c[1], top, fused(self.inertias[1], dd_2, moment(t.u, at_q)));
+        let w = [fused(-self.upper_mass, t.q[0], t.v[0]), fused(-self.upper_mass, t.q[1], t.v[1])];
+        let lower = [
+            fused(a_x, self.lower_mass, fused(w[1], dd_1, w[0] * -w1)),
+            fused(a_y, self.lower_mass, fused(-w[0], dd_1, w[1] * -w1)),
+        ];
+        let through_ground = [lower[0] + crack[0], lower[1] + crack[1]];
+        let about_o = fused(self.lower_inertia, dd_1, moment(w, [a_x, a_y])) + about_q + moment(t.q, crack);
+        let in_crack = [crack[0] * t.cos_1 - crack[1] * t.sin_1, crack[1] * t.cos_1 + crack[0] * t.sin_1];
+        AftermathLanes {
+            ground: [through_ground[0], through_ground[1], fused(-self.o_x, through_ground[1], about_o)],
+            crack: [in_crack[0], in_crack[1], fused(-self.q_x, in_crack[1], about_q)],
+            top: [law.x_c, law.v_c, q_x + c_x],
+        }
+    }
+}
+
+impl<S: Simd> AftermathLanes<S> {
+    /// That of one lane.
+    #[inline(always)]
+    pub fn unpacked(&self) -> [Aftermath; LANES] {
+        let [ground, crack, top] = [self.ground, self.crack, self.top].map(|of| of.map(<[f64; LANES]>::from));
+        let force = |of: &[[f64; LANES]; 3], i: usize| JointForce {
+            shear: of[0][i],
+            normal: of[1][i],
+            moment: of[2][i],
+        };
+        std::array::from_fn(|i| Aftermath {
+            forces: JointForces { ground: force(&ground, i), crack: force(&crack, i) },
+            top_displacement_m: top[0][i],
+            top_velocity_m_s: top[1][i],
+            top_acceleration_m_s2: top[2][i],
+            holding_n: 0.0,
+        })
+    }
+}

@@ -1,0 +1,300 @@
+//! The wall: geometry, masses, restraint and impact law, checked once.
+
+use std::borrow::Cow;
+
+use serde::{Deserialize, Serialize};
+
+use super::effect::{self, Effect, EffectSums, Reading};
+
+/// Acceleration of gravity, m/s².
+pub const G_M_S2: f64 = 9.81;
+
+/// How the coefficients C_l scale the velocities after an impact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ImpactLaw {
+    /// Eq. 7 of the paper: C_l times both velocities.
+    #[default]
+    Whole,
+    /// C_l times only the part of the motion that the impact can see.
+    Contact,
+}
+
+impl ImpactLaw {
+    /// Name in input and result files.
+    pub fn name(self) -> &'static str {
+        match self {
+            ImpactLaw::Whole => "whole",
+            ImpactLaw::Contact => "contact",
+        }
+    }
+}
+
+/// What happens to the velocities at impacts beyond plastic projection.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Restitution {
+    /// C_1 … C_8 of Table 2.
+    pub coefficients: [f64; 8],
+    /// What the coefficients scale.
+    pub law: ImpactLaw,
+    /// Relative velocity below which a joint that would open stays closed, rad/s.
+    pub capture_velocity_rad_s: f64,
+}
+
+impl Restitution {
+    /// Capture velocity where none is given, rad/s: corners that close slower than 0.3 mm/s do not count as impacts.
+    pub const DEFAULT_CAPTURE_RAD_S: f64 = 1e-3;
+}
+
+impl Default for Restitution {
+    fn default() -> Self {
+        Self {
+            coefficients: [1.0; 8],
+            law: ImpactLaw::Whole,
+            capture_velocity_rad_s: Self::DEFAULT_CAPTURE_RAD_S,
+        }
+    }
+}
+
+/// The numbers that make a wall, SI units, unchecked; [`Wall::new`] checks them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WallParameters {
+    /// Thickness b, m.
+    pub thickness_m: f64,
+    /// Total height h, m.
+    pub height_m: f64,
+    /// Height of the crack h_1, m; none: uncracked, one block.
+    pub crack_height_m: Option<f64>,
+    /// Length L of the strip, m.
+    pub length_m: f64,
+    /// Mass of the whole wall m, kg.
+    pub mass_kg: f64,
+    /// Width b_1 between the rocking corners at the ground, m.
+    pub lower_width_m: f64,
+    /// Width b_2 between the rocking corners at the crack, m; ignored for an uncracked wall.
+    pub upper_width_m: f64,
+    /// Top mass m_d that acts horizontally and vertically, kg.
+    pub diaphragm_mass_kg: f64,
+    /// Top mass m_dp that acts only horizontally, kg.
+    pub carriage_mass_kg: f64,
+    /// Horizontal stiffness k_d at the top, N/m.
+    pub stiffness_n_per_m: f64,
+    /// Horizontal offset e_C of the point where top masses and spring act, m.
+    pub eccentricity_m: f64,
+    /// Coefficients and law of impacts.
+    pub restitution: Restitution,
+    /// Rotation over α_i at which the wall counts as collapsed.
+    pub collapse_rotation_ratio: f64,
+    /// Rotations from which the wall is released at rest, rad; both zero: at rest.
+    pub initial_rotation_rad: [f64; 2],
+    /// Further effects, in the order given.
+    pub effects: Vec<Effect>,
+}
+
+impl WallParameters {
+    /// Collapse ratio where none is given: overturned well past the point of no return of a single block.
+    pub const DEFAULT_COLLAPSE_RATIO: f64 = 2.0;
+
+    /// A strip of masonry 1 m long that stands free: uncracked, sharp corners, nothing on its top, at rest. What a wall has
+    /// beside that is set over it.
+    pub fn strip(thickness_m: f64, height_m: f64, density_kg_m3: f64) -> Self {
+        Self {
+            thickness_m,
+            height_m,
+            crack_height_m: None,
+            length_m: 1.0,
+            mass_kg: density_kg_m3 * thickness_m * height_m,
+            lower_width_m: thickness_m,
+            upper_width_m: thickness_m,
+            diaphragm_mass_kg: 0.0,
+            carriage_mass_kg: 0.0,
+            stiffness_n_per_m: 0.0,
+            eccentricity_m: 0.0,
+            restitution: Restitution::default(),
+            collapse_rotation_ratio: Self::DEFAULT_COLLAPSE_RATIO,
+            initial_rotation_rad: [0.0; 2],
+            effects: Vec::new(),
+        }
+    }
+}
+
+/// Why a wall cannot exist: the key of the wall file, what was found, what is allowed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{key}: found {found}; allowed: {allowed}")]
+pub struct ImpossibleWall {
+    /// Dotted key of the wall file.
+    pub key: Cow<'static, str>,
+    /// The value found.
+    pub found: String,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+/// A wall that can exist, with the quantities that follow from its parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wall {
+    parameters: WallParameters,
+    /// Heights of the bodies h_1, h_2, m; an uncracked wall is all lower body.
+    pub(crate) height_m: [f64; 2],
+    /// Masses of the bodies m_1, m_2, kg.
+    pub(crate) mass_kg: [f64; 2],
+    /// Polar moments about the centres of mass I_1, I_2, kg m².
+    pub(crate) inertia_kg_m2: [f64; 2],
+    /// Slenderness angles α_1, α_2, rad.
+    pub(crate) alpha_i_rad: [f64; 2],
+    /// Widths b_1, b_2 between the rocking corners, m, as the effects leave them.
+    pub(crate) width_m: [f64; 2],
+    /// What the effects come to.
+    pub(crate) effects: EffectSums,
+}
+
+impl Wall {
+    /// Checks the parameters and derives masses, inertias and slenderness angles.
+    ///
+    /// # Errors
+    /// [`ImpossibleWall`] names the first parameter that cannot be.
+    pub fn new(parameters: WallParameters) -> Result<Self, ImpossibleWall> {
+        let effects = EffectSums::of(&parameters.effects);
+        check(&parameters, &effects)?;
+        let p = &parameters;
+        let h1 = p.crack_height_m.unwrap_or(p.height_m);
+        let height_m = [h1, p.height_m - h1];
+        let mass_kg = height_m.map(|h_i| p.mass_kg * h_i / p.height_m);
+        // Full width b, not the width between corners: the crushed strip keeps its mass.
+        let inertia = |m_i: f64, h_i: f64| m_i * (p.thickness_m.powi(2) + h_i.powi(2)) / 12.0;
+        let inertia_kg_m2 = [inertia(mass_kg[0], height_m[0]), inertia(mass_kg[1], height_m[1])];
+        let [inwards_1, inwards_2] = effects.indentation_m;
+        let width_m = [p.lower_width_m - inwards_1, p.upper_width_m - inwards_2];
+        let alpha_1 = (width_m[0] / height_m[0]).atan();
+        let alpha_2 = match p.crack_height_m {
+            Some(_) => (width_m[1] / height_m[1]).atan(),
+            None => alpha_1,
+        };
+        let alpha_i_rad = [alpha_1, alpha_2];
+        Ok(Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad, width_m, effects, parameters })
+    }
+
+    /// The parameters the wall was made from.
+    pub fn parameters(&self) -> &WallParameters {
+        &self.parameters
+    }
+
+    /// Whether the wall is cracked into two bodies.
+    pub fn is_cracked(&self) -> bool {
+        self.parameters.crack_height_m.is_some()
+    }
+
+    /// Slenderness angles of the bodies α_i = atan(b_i / h_i), rad; both are α for an uncracked wall.
+    pub fn alpha_i_rad(&self) -> [f64; 2] {
+        self.alpha_i_rad
+    }
+
+    /// Slenderness angle of the uncracked wall α = atan(b_1 / h), rad.
+    pub fn alpha_rad(&self) -> f64 {
+        (self.width_m[0] / self.parameters.height_m).atan()
+    }
+
+    /// Widths b_1, b_2 between the rocking corners, m: those of the parameters less what effects take.
+    pub fn width_m(&self) -> [f64; 2] {
+        self.width_m
+    }
+
+    /// The parameters with the corners where effects put them.
+    pub fn indented(&self) -> WallParameters {
+        let [lower_width_m, upper_width_m] = self.width_m;
+        WallParameters { lower_width_m, upper_width_m, ..self.parameters.clone() }
+    }
+
+    /// Coefficients C_1 … C_8: those of the parameters times the factors of effects.
+    pub fn coefficients(&self) -> [f64; 8] {
+        let (own, factors) = (self.parameters.restitution.coefficients, self.effects.impact_factors);
+        std::array::from_fn(|l| own[l] * factors[l])
+    }
+
+    /// Plastic displacement of the wall's yielding spring, m, once the top is displaced so far, from that before; the
+    /// turning points of a path are enough to follow it. Without such a spring it stays.
+    pub fn plastic_displacement_m(&self, before_m: f64, top_displacement_m: f64) -> f64 {
+        match self.effects.yielding {
+            Some(spring) => spring.plastic_m(before_m, top_displacement_m),
+            None => before_m,
+        }
+    }
+
+    /// How the rotations of this wall are read by the sensors of its effects.
+    pub fn reading(&self) -> Reading {
+        self.effects.reading
+    }
+
+    /// Rotations at which the wall counts as collapsed, rad.
+    pub fn collapse_rotation_rad(&self) -> [f64; 2] {
+        self.alpha_i_rad.map(|alpha| alpha * self.parameters.collapse_rotation_ratio)
+    }
+}
+
+/// Stiffer than any floor by many powers of ten, N/m: beyond it steps become too short to get anywhere.
+const MOST_STIFFNESS_N_PER_M: f64 = 1e15;
+
+fn check(p: &WallParameters, effects: &EffectSums) -> Result<(), ImpossibleWall> {
+    positive("wall.thickness_m", p.thickness_m)?;
+    positive("wall.height_m", p.height_m)?;
+    positive("wall.length_m", p.length_m)?;
+    positive("wall.mass_kg", p.mass_kg)?;
+    if let Some(h1) = p.crack_height_m {
+        let allowed = || format!("above 0 and below wall.height_m = {}", p.height_m);
+        require("wall.crack_height_m", h1, h1 > 0.0 && h1 < p.height_m, allowed)?;
+        width("corners.upper_width_m", p.upper_width_m, p.thickness_m)?;
+    }
+    width("corners.lower_width_m", p.lower_width_m, p.thickness_m)?;
+    not_negative("diaphragm.mass_kg", p.diaphragm_mass_kg)?;
+    not_negative("diaphragm.carriage_mass_kg", p.carriage_mass_kg)?;
+    let allowed = || format!("0 to {MOST_STIFFNESS_N_PER_M:e}");
+    let possible = (0.0..=MOST_STIFFNESS_N_PER_M).contains(&p.stiffness_n_per_m);
+    require("diaphragm.stiffness_n_per_m", p.stiffness_n_per_m, possible, allowed)?;
+    let allowed = || format!("within half the thickness, ±{}", p.thickness_m / 2.0);
+    let within = p.eccentricity_m.abs() <= p.thickness_m / 2.0;
+    require("diaphragm.eccentricity_m", p.eccentricity_m, within, allowed)?;
+    for c in p.restitution.coefficients {
+        let allowed = || "0 to 2 for each C_l".to_owned();
+        require("restitution.coefficients", c, (0.0..=2.0).contains(&c), allowed)?;
+    }
+    not_negative("restitution.capture_velocity_rad_s", p.restitution.capture_velocity_rad_s)?;
+    positive("collapse.rotation_ratio", p.collapse_rotation_ratio)?;
+    check_initial(p)?;
+    effect::check(p, effects)
+}
+
+fn check_initial(p: &WallParameters) -> Result<(), ImpossibleWall> {
+    let [theta1, theta2] = p.initial_rotation_rad;
+    let quarter_turn = std::f64::consts::FRAC_PI_2;
+    let allowed = || "a rotation within a quarter turn".to_owned();
+    require("initial.theta1_rad", theta1, theta1.abs() < quarter_turn, allowed)?;
+    require("initial.theta2_rad", theta2, theta2.abs() < quarter_turn, allowed)?;
+    let allowed = || format!("equal to initial.theta1_rad = {theta1}: an uncracked wall is one block");
+    require("initial.theta2_rad", theta2, p.crack_height_m.is_some() || theta1 == theta2, allowed)
+}
+
+fn width(key: &'static str, width_m: f64, thickness_m: f64) -> Result<(), ImpossibleWall> {
+    let allowed = || format!("above 0 and at most wall.thickness_m = {thickness_m}");
+    require(key, width_m, width_m > 0.0 && width_m <= thickness_m, allowed)
+}
+
+fn positive(key: &'static str, value: f64) -> Result<(), ImpossibleWall> {
+    require(key, value, value > 0.0, || "a finite number above 0".to_owned())
+}
+
+fn not_negative(key: &'static str, value: f64) -> Result<(), ImpossibleWall> {
+    require(key, value, value >= 0.0, || "a finite number, 0 or more".to_owned())
+}
+
+fn require(
+    key: &'static str,
+    value: f64,
+    holds: bool,
+    allowed: impl Fn() -> String,
+) -> Result<(), ImpossibleWall> {
+    if value.is_finite() && holds {
+        Ok(())
+    } else {
+        Err(ImpossibleWall { key: Cow::Borrowed(key), found: value.to_string(), allowed: allowed() })
+    }
+}

@@ -1,0 +1,73 @@
+//! One run: a wall under a ground motion, from the first sample to the end of free motion.
+
+mod events;
+mod ground_path;
+mod history;
+mod kinks;
+mod response;
+mod rest;
+mod run;
+mod side_by_side;
+mod simulator;
+mod tally;
+
+pub use ground_path::FREE_RELEASE_STEP_S;
+pub use history::{History, HistoryRow, Observer};
+pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
+pub use side_by_side::{Prepared, simulate_side_by_side, simulate_side_by_side_at};
+pub use simulator::{Simulator, Start};
+
+use crate::accelerogram::Accelerogram;
+use crate::model::Wall;
+
+/// What shakes the wall: a horizontal record, perhaps a vertical one, and how long to go on afterwards.
+#[derive(Debug, Clone, Default)]
+pub struct Shaking {
+    /// Horizontal ground acceleration; none: a free release.
+    pub horizontal: Option<Accelerogram>,
+    /// Vertical ground acceleration, at the same step; zero after its end.
+    pub vertical: Option<Accelerogram>,
+    /// Free motion after the last sample, s.
+    pub tail_s: f64,
+}
+
+impl Shaking {
+    /// Whether another shaking is this one, its samples shared: told without looking at them.
+    pub fn shares_samples_with(&self, other: &Self) -> bool {
+        let same = |a: &Option<Accelerogram>, b: &Option<Accelerogram>| match (a, b) {
+            (Some(a), Some(b)) => a.shares_samples_with(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        same(&self.horizontal, &other.horizontal)
+            && same(&self.vertical, &other.vertical)
+            && self.tail_s == other.tail_s
+    }
+}
+
+/// How accurately to run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// Error allowed in rotations relative to α_i, over a well-conditioned run.
+    pub tolerance: f64,
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Self { tolerance: 1e-6 }
+    }
+}
+
+/// Runs one wall; pure: the same inputs give the same bits on any thread.
+pub fn simulate(wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
+    simulate_observed(wall, shaking, accuracy, &mut ())
+}
+
+/// Runs one wall and tells an observer every stretch of it; the response has the same bits as without.
+pub fn simulate_observed(
+    wall: &Wall,
+    shaking: &Shaking,
+    accuracy: Accuracy,
+    observer: &mut impl Observer,
+) -> Response {
+    Simulator::new(wall, shaking, accuracy).run(observer)
+}

@@ -1,0 +1,186 @@
+//! Every kind of effect in every variant: it acts as its entry says, in a run alone and in the lanes.
+//!
+//! Nothing here lists kinds. A new one is run by these tests as soon as it stands in the catalogue.
+
+use std::collections::HashSet;
+
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{
+    Effect, EffectEntry, EffectKind, EffectVariant, Place, Restitution, Role, Wall, WallParameters,
+};
+use mrbd_kernel::simulate::{
+    Accuracy, History, Response, Shaking, Simulator, simulate_observed, simulate_side_by_side,
+};
+
+const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
+
+/// The table wall of the paper's Table 1, its restitution of Table 2, with these effects.
+fn table_wall(effects: &[Effect]) -> Wall {
+    let strip = WallParameters::strip(0.291, 3.984, 1800.0);
+    let restitution = Restitution {
+        coefficients: [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94],
+        ..Restitution::default()
+    };
+    let parameters = WallParameters {
+        crack_height_m: Some(2.191),
+        length_m: 1.5,
+        mass_kg: 3614.0,
+        lower_width_m: 0.271,
+        upper_width_m: 0.281,
+        diaphragm_mass_kg: 179.0,
+        carriage_mass_kg: 663.0,
+        stiffness_n_per_m: 37e3,
+        restitution,
+        effects: effects.to_vec(),
+        ..strip
+    };
+    Wall::new(parameters).expect("a wall that can exist")
+}
+
+/// Two sines that rock the table wall in all patterns.
+fn shaking() -> Shaking {
+    let a = |t: f64| 1.2 * ((9.0 * t).sin() + (23.0 * t).sin());
+    let samples = (0..300).map(|k| a(0.01 * f64::from(k))).collect();
+    Shaking {
+        horizontal: Some(Accelerogram::new(0.01, samples).expect("a record")),
+        vertical: None,
+        tail_s: 1.0,
+    }
+}
+
+fn variants() -> impl Iterator<Item = EffectVariant> {
+    EffectKind::ALL.iter().flat_map(|kind| kind.variants())
+}
+
+/// The example of a variant, and half of what it changes: the sizes at which effects are run.
+fn sizes(variant: EffectVariant) -> [Effect; 2] {
+    let (example, neutral) = (variant.example(), variant.neutral());
+    let middle = |(a, b): (f64, f64)| 0.5 * (a + b);
+    let half: Vec<f64> = example.parameters().into_iter().zip(neutral.parameters()).map(middle).collect();
+    [example, variant.with_parameters(&half).expect("between two values that are allowed")]
+}
+
+fn alone(effects: &[Effect]) -> (Response, History) {
+    let mut history = History::new(0.01);
+    let response = simulate_observed(&table_wall(effects), &shaking(), ACCURACY, &mut history);
+    (response, history)
+}
+
+/// The runs of walls with these effects, beside each other.
+fn side_by_side(walls: &[Vec<Effect>]) -> Vec<Response> {
+    let mut waiting = walls.iter().enumerate();
+    let next = || {
+        let (index, effects) = waiting.next()?;
+        Some((index, Simulator::new(&table_wall(effects), &shaking(), ACCURACY).prepared()))
+    };
+    let mut responses = vec![None; walls.len()];
+    simulate_side_by_side(next, |index, response| responses[index] = Some(response));
+    responses.into_iter().map(|response| response.expect("every run ends")).collect()
+}
+
+/// Every number as the shortest text that gives its bits back, the sign of a zero too.
+fn bits(of: &impl std::fmt::Debug) -> String {
+    format!("{of:?}")
+}
+
+#[test]
+fn analytic_the_wall_of_these_tests_goes_through_every_pattern() {
+    let (response, _) = alone(&[]);
+    assert!(response.impacts.table2.iter().filter(|count| **count > 0).count() > 4, "{:?}", response.impacts);
+    for pair in [[1, 5], [2, 6], [3, 7]] {
+        let time_s: f64 = pair.iter().map(|i| response.pattern_time_s[*i]).sum();
+        assert!(time_s > 0.01, "{:?}", response.pattern_time_s);
+    }
+}
+
+#[test]
+fn analytic_every_effect_acts_where_its_role_says() {
+    let plain = bits(&alone(&[]).0);
+    for variant in variants() {
+        let effect = variant.example();
+        let moves = bits(&alone(&[effect]).0) != plain;
+        let reads = !table_wall(&[effect]).reading().is_true();
+        let expected = match effect.entry().role {
+            Role::Sensor => (false, true),
+            Role::Mass | Role::Damper | Role::Friction | Role::Spring | Role::Memory => (true, false),
+            Role::Corners | Role::Impact | Role::GroundMotion => (true, false),
+        };
+        assert_eq!((moves, reads), expected, "{effect:?}: (moves the wall, changes the reading)");
+    }
+}
+
+#[test]
+fn analytic_every_effect_moves_the_wall_side_by_side_as_alone_to_the_bit() {
+    let mut walls: Vec<Vec<Effect>> = variants().flat_map(sizes).map(|effect| vec![effect]).collect();
+    walls.push(Vec::new());
+    // One of each kind at once: their laws together.
+    walls.push(
+        EffectKind::ALL.iter().filter_map(|kind| kind.variants().next()).map(|v| v.example()).collect(),
+    );
+    for (effects, response) in walls.iter().zip(side_by_side(&walls)) {
+        assert_eq!(bits(&response), bits(&alone(effects).0), "{effects:?}");
+    }
+}
+
+#[test]
+fn analytic_a_neutral_effect_changes_no_bit() {
+    let (response, history) = alone(&[]);
+    let neutral: Vec<Vec<Effect>> = variants().map(|variant| vec![variant.neutral()]).collect();
+    for (effects, beside) in neutral.iter().zip(side_by_side(&neutral)) {
+        let (found, seen) = alone(effects);
+        assert!(effects[0].is_neutral(), "{effects:?}");
+        assert_eq!(bits(&found), bits(&response), "{effects:?}");
+        assert_eq!(bits(&seen.rows), bits(&history.rows), "{effects:?}");
+        assert_eq!(bits(&beside), bits(&response), "{effects:?} side by side");
+        assert!(table_wall(effects).reading().is_true(), "{effects:?}");
+    }
+}
+
+#[test]
+fn analytic_every_entry_agrees_with_itself() {
+    let names: HashSet<&str> = EffectKind::ALL.iter().map(|kind| kind.name()).collect();
+    assert_eq!(names.len(), EffectKind::ALL.len(), "a name twice");
+    for kind in EffectKind::ALL {
+        let entry = kind.entry();
+        assert_eq!(EffectKind::named(entry.name), Ok(*kind));
+        assert!(!entry.parameters.is_empty(), "{}: no number", entry.name);
+        for p in entry.parameters {
+            let allowed = p.least..=p.most;
+            assert!(allowed.contains(&p.neutral) && allowed.contains(&p.example), "{} {}", entry.name, p.key);
+            assert!(p.neutral != p.example, "{} {}: an example that does nothing", entry.name, p.key);
+        }
+        for variant in kind.variants() {
+            assert_eq!(variant.joint().is_some(), entry.place == Place::Joint, "{variant:?}");
+            assert!(!variant.example().is_neutral(), "{variant:?}");
+        }
+        assert_eq!(place(entry), entry.place, "{}: a role that acts elsewhere", entry.name);
+    }
+}
+
+/// Where a role has its effects act; of forces and masses wherever the entry says.
+fn place(entry: &EffectEntry) -> Place {
+    match entry.role {
+        Role::Mass | Role::Damper | Role::Friction | Role::Spring | Role::Memory => entry.place,
+        Role::Corners => Place::Joint,
+        Role::Impact => Place::Impacts,
+        Role::GroundMotion => Place::GroundMotion,
+        Role::Sensor => Place::Sensor,
+    }
+}
+
+#[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+struct File {
+    effects: Vec<Effect>,
+}
+
+#[test]
+fn analytic_every_effect_survives_a_wall_file() {
+    for variant in variants() {
+        for effect in [variant.example(), variant.neutral()] {
+            let file = File { effects: vec![effect] };
+            let text = toml::to_string(&file).expect("a table");
+            assert!(text.contains(&format!("kind = \"{}\"", variant.kind.name())), "{text}");
+            assert_eq!(toml::from_str::<File>(&text).expect(&text), file);
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! An experiment, read whole: what is calibrated, the tests, the settings.
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::space::ParameterSpace;
+use super::trial::Test;
+use crate::experiment_file::{CalibrateTable, ExperimentFile, Purpose};
+use mrbd_files::error::{InputError, Result};
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::Accuracy;
+
+/// An experiment ready to be calibrated.
+#[derive(Debug, Clone)]
+pub struct Experiment {
+    /// The file.
+    pub path: PathBuf,
+    /// What is calibrated.
+    pub space: ParameterSpace,
+    /// The tests, in the order of the file.
+    pub tests: Vec<Test>,
+    /// The settings.
+    pub settings: CalibrateTable,
+    /// What was read, each file with its role.
+    pub files: Vec<(String, PathBuf)>,
+    /// SHA-256 of everything that decides the result.
+    pub request: String,
+}
+
+impl Experiment {
+    /// Reads an experiment and every file it names; `seed` replaces the file's.
+    ///
+    /// # Errors
+    /// Input errors with file, key or line, what was found and what is allowed.
+    pub fn load(path: &Path, seed: Option<u64>) -> Result<Self> {
+        let file = ExperimentFile::load(path)?;
+        let space = ParameterSpace::load(path, &file)?;
+        // With C_l as in its file, which a start time is matched by.
+        let given =
+            Wall::new(space.base().clone()).map_err(|e| InputError::key(path, e.key, e.found, e.allowed))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let settings = CalibrateTable { seed: seed.unwrap_or(file.calibrate.seed), ..file.calibrate.clone() };
+        let accuracy = Accuracy { tolerance: settings.tolerance };
+        let tests = file
+            .tests
+            .iter()
+            .map(|table| Test::load(folder, table, &given, accuracy))
+            .collect::<Result<Vec<_>>>()?;
+        let files = files(path, &file);
+        let request = request(&files, &settings)?;
+        Ok(Self { path: path.to_path_buf(), space, tests, settings, files, request })
+    }
+
+    /// Numbers of the tests that the search sees.
+    pub fn fit_tests(&self) -> Vec<usize> {
+        (0..self.tests.len()).filter(|&k| self.tests[k].purpose == Purpose::Fit).collect()
+    }
+
+    /// Accuracy of the simulations.
+    pub fn accuracy(&self) -> Accuracy {
+        Accuracy { tolerance: self.settings.tolerance }
+    }
+}
+
+/// Every file an experiment reads.
+pub fn files(path: &Path, file: &ExperimentFile) -> Vec<(String, PathBuf)> {
+    let beside = |name: &Path| path.parent().unwrap_or(Path::new("")).join(name);
+    let mut files =
+        vec![("experiment".to_owned(), path.to_path_buf()), ("wall".to_owned(), beside(&file.wall))];
+    files.extend(file.calibrate.coefficients.iter().map(|name| ("coefficients".to_owned(), beside(name))));
+    for test in &file.tests {
+        files.push((format!("record of {}", test.name), beside(&test.record)));
+        files.extend(test.vertical.iter().map(|name| (format!("vertical of {}", test.name), beside(name))));
+        files.push((format!("measured in {}", test.name), beside(&test.measured)));
+    }
+    files
+}
+
+/// Identifies the inputs: program, settings, and the bytes of every file.
+fn request(files: &[(String, PathBuf)], settings: &CalibrateTable) -> Result<String> {
+    let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION"));
+    hash.update(format!("{settings:?}"));
+    for (_, name) in files {
+        let readable = |e: std::io::Error| InputError::file(name, e.to_string(), "a readable file");
+        hash.update(std::fs::read(name).map_err(readable)?);
+    }
+    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}

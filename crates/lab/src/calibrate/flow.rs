@@ -1,0 +1,189 @@
+//! The calibration from start to end.
+
+use std::time::Instant;
+
+use rayon::prelude::*;
+
+use super::archive::Archive;
+use super::assembly::Assembly;
+use super::capture;
+use super::draws::Draws;
+use super::experiment::Experiment;
+use super::identifiability::{BOOTSTRAP, Judge};
+use super::objective::Objective;
+use super::paper_de::PaperDe;
+use super::prior::prior_factor;
+use super::result::{Calibration, MethodResult, Vector};
+use super::search::Found;
+use super::similarity::most_similar;
+use super::staged::Staged;
+use super::stages::stage_names;
+use mrbd_files::error::Result;
+
+/// Calibrates an experiment; every simulation goes into the archive.
+///
+/// # Errors
+/// [`mrbd_files::Error::Io`] if a simulation cannot be kept.
+pub fn calibrate(experiment: &Experiment, archive: &Archive) -> Result<Calibration> {
+    Flow { experiment, archive, fit: experiment.fit_tests() }.go()
+}
+
+/// The names of the searches, in the order they are run.
+pub fn method_names(experiment: &Experiment) -> Vec<String> {
+    let mut names = vec!["paper".to_owned()];
+    names.extend(["adaptive", "joint", "refined"].iter().flat_map(|method| stage_names(method)));
+    names.push(BOOTSTRAP.to_owned());
+    names.extend(capture::names(&experiment.settings.capture_study_rad_s));
+    names
+}
+
+struct Flow<'a> {
+    experiment: &'a Experiment,
+    archive: &'a Archive,
+    fit: Vec<usize>,
+}
+
+impl Flow<'_> {
+    fn go(&self) -> Result<Calibration> {
+        let start = Instant::now();
+        let paper = self.paper_in_each_test()?;
+        let similar = self.similarity(&paper);
+        let paper_seconds = start.elapsed().as_secs_f64();
+        let paper_simulations = paper.iter().map(|found| found.evaluations).sum::<usize>();
+        let adaptive = self.adaptive_in_each_test(&paper)?;
+        let budget = paper_simulations / self.fit.len();
+        let joint = self.staged("joint", &self.fit, budget).minimise(self.middle(), &self.draws("joint"))?;
+        let refine = self.staged("refined", &self.fit, self.experiment.settings.refine_vectors);
+        let refined = refine.minimise(self.elsewhere(), &self.draws("refined"))?;
+        let assembly = Assembly { experiment: self.experiment, fit: &self.fit };
+        let methods = assembly.methods(&paper, &adaptive, similar, [&joint, &refined]);
+        let (vector, joint_from) = self.cheapest(&methods);
+        let vector = assembly.without_idle(&vector);
+        let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
+        let per_test = self.better_of(&paper, &adaptive);
+        let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
+        let capture_study = capture::study(self.experiment, self.archive, &self.fit, &vector.values)?;
+        let tests = assembly.tests(&vector, &methods);
+        let base = self.experiment.space.base();
+        let seconds = start.elapsed().as_secs_f64();
+        let simulations = self.archive.simulated();
+        Ok(Calibration {
+            tool_version: env!("CARGO_PKG_VERSION").to_owned(),
+            request_sha256: self.experiment.request.clone(),
+            seed: self.experiment.settings.seed,
+            law: base.restitution.law.name().to_owned(),
+            capture_velocity_rad_s: base.restitution.capture_velocity_rad_s,
+            tolerance: self.experiment.settings.tolerance,
+            bounds_source: self.experiment.space.bounds_source.clone(),
+            methods,
+            joint: vector,
+            joint_from,
+            parameters,
+            correlation,
+            tests,
+            capture_study,
+            simulations,
+            paper_seconds,
+            paper_simulations,
+            seconds,
+            simulations_per_second: simulations as f64 / seconds,
+        })
+    }
+
+    fn paper_in_each_test(&self) -> Result<Vec<Found>> {
+        let search = |&test: &usize| {
+            let chosen = [test];
+            let Experiment { space, tests, .. } = self.experiment;
+            let mut objective = Objective {
+                space,
+                tests,
+                chosen: &chosen,
+                accuracy: self.experiment.accuracy(),
+                archive: self.archive,
+                method: "paper",
+            };
+            let draws = self.draws(&format!("paper/{}", tests[test].name));
+            self.paper_de().minimise(&space.bounds(), &draws, &mut objective)
+        };
+        self.fit.par_iter().map(search).collect()
+    }
+
+    /// The staged search in every test to fit, with as many simulations as the paper's.
+    fn adaptive_in_each_test(&self, paper: &[Found]) -> Result<Vec<Found>> {
+        let search = |(&test, paper): (&usize, &Found)| {
+            let draws = self.draws(&format!("adaptive/{}", self.experiment.tests[test].name));
+            self.staged("adaptive", &[test], paper.evaluations).minimise(self.middle(), &draws)
+        };
+        self.fit.par_iter().zip(paper).map(search).collect()
+    }
+
+    fn middle(&self) -> Vec<f64> {
+        self.experiment.space.bounds().iter().map(|b| b.at(0.5)).collect()
+    }
+
+    /// A vector drawn anywhere between the bounds, so that the second joint search comes from another side.
+    fn elsewhere(&self) -> Vec<f64> {
+        let draws = self.draws("refined start");
+        let bounds = self.experiment.space.bounds();
+        bounds.iter().enumerate().map(|(v, b)| b.at(draws.uniform(0, 0, v as u32))).collect()
+    }
+
+    fn staged<'o>(&'o self, method: &'o str, chosen: &'o [usize], budget: usize) -> Staged<'o> {
+        let Experiment { space, .. } = self.experiment;
+        Staged { experiment: self.experiment, space, chosen, archive: self.archive, method, budget }
+    }
+
+    fn paper_de(&self) -> PaperDe {
+        let s = &self.experiment.settings;
+        PaperDe {
+            population: s.population,
+            settle_share: s.settle_share,
+            settle_generations: s.settle_generations,
+            most_generations: s.most_generations,
+        }
+    }
+
+    fn draws(&self, search: &str) -> Draws {
+        Draws::new(self.experiment.settings.seed, search)
+    }
+
+    /// Eq. 10 over the last generations; variables of other units than C_l count relative to their nominal value.
+    fn similarity(&self, paper: &[Found]) -> Option<(Vec<f64>, f64)> {
+        let nominal = self.experiment.space.nominal();
+        let relative = |values: &[f64]| -> Vec<f64> {
+            let of = |(x, n): (&f64, &f64)| if *n == 0.0 { *x } else { x / n };
+            values.iter().zip(&nominal).map(of).collect()
+        };
+        let generations = paper
+            .iter()
+            .map(|found| found.population.iter().map(|m| relative(&m.values)).collect::<Vec<_>>())
+            .collect::<Vec<_>>();
+        most_similar(&generations).map(|chosen| {
+            let (test, index) = chosen.from;
+            (paper[test].population[index].values.clone(), chosen.similarity)
+        })
+    }
+
+    /// The best of the vectors for all tests by the cost that the searches minimise, and where it comes from.
+    fn cheapest(&self, methods: &[MethodResult]) -> (Vector, String) {
+        let Experiment { space, tests, .. } = self.experiment;
+        let samples = self.fit.iter().map(|&k| tests[k].target.independent_samples()).sum::<f64>();
+        let cost = |m: &MethodResult| {
+            let wme = m.best.mean_wme.unwrap_or(f64::INFINITY);
+            wme * prior_factor(&space.parameters, &m.best.values, samples)
+        };
+        let for_all = methods.iter().filter(|m| m.test.is_none());
+        let best = for_all.reduce(|a, b| if cost(b) < cost(a) { b } else { a });
+        // The joint search always stands in the list.
+        best.map_or_else(|| (methods[0].best.clone(), String::new()), |m| (m.best.clone(), m.method.clone()))
+    }
+
+    /// Best vector of each test to fit, by the better of the two searches.
+    fn better_of(&self, paper: &[Found], adaptive: &[Found]) -> Vec<Vec<f64>> {
+        let better = |(p, a): (&Found, &Found)| {
+            let best = if a.best().cost < p.best().cost { a.best() } else { p.best() };
+            best.values.clone()
+        };
+        paper.iter().zip(adaptive).map(better).collect()
+    }
+}

@@ -1,0 +1,196 @@
+//! Measured rotations as laboratories have them: any sampling, gaps, offsets, other start times, other readings.
+
+use std::path::Path;
+
+use super::reading::{lower_rotation_rad, upper_rotation_rad};
+use crate::experiment_file::{Reading, TestTable};
+use mrbd_files::error::{InputError, Result};
+use mrbd_kernel::model::Wall;
+
+/// Samples farther apart than this many median distances leave a gap.
+const GAP_IN_STEPS: f64 = 2.5;
+
+/// Measured rotations of both bodies, in their own time until [`Measured::moved`] into the record's.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Times of the samples, s, increasing.
+    pub time_s: Vec<f64>,
+    /// θ_1 and θ_2 at the samples, rad; NaN where missing; none: the channel is lost.
+    pub theta_rad: [Option<Vec<f64>>; 2],
+    /// Samples farther apart than this are not joined, s.
+    pub gap_s: f64,
+    /// When the wall collapsed, s.
+    pub collapse_s: Option<f64>,
+}
+
+/// The columns of a measured file, as numbers; NaN where a cell is empty.
+struct Columns {
+    names: Vec<String>,
+    values: Vec<Vec<f64>>,
+}
+
+impl Columns {
+    fn get(&self, name: &str) -> Option<&[f64]> {
+        let index = self.names.iter().position(|n| n == name)?;
+        Some(&self.values[index])
+    }
+}
+
+impl Measured {
+    /// Reads the measured file of a test, in its own time.
+    ///
+    /// Columns: `time_s`, and for each body its rotation (`theta1_rad`, `theta2_rad`) or the reading the test names
+    /// (`top_displacement_m` serves as one for θ_2 by itself). Empty cells and `nan` are missing samples.
+    ///
+    /// # Errors
+    /// Input errors with file and line: not a table of numbers, times that do not increase, no channel at all.
+    pub fn load(path: &Path, test: &TestTable, wall: &Wall) -> Result<Self> {
+        let columns = read_columns(path)?;
+        let time_s = times(path, &columns)?;
+        let gap_s = test.gap_s.unwrap_or_else(|| GAP_IN_STEPS * median_step(&time_s));
+        let channels = Channels { path, columns: &columns, test, wall, time_s: &time_s };
+        let theta_rad = channels.rotations()?;
+        if theta_rad.iter().all(Option::is_none) {
+            let allowed = "theta1_rad, theta2_rad, or displacements with lower_reading and upper_reading";
+            let found = format!("columns {}, in none of them a measured rotation", columns.names.join(", "));
+            return Err(InputError::line(path, 1, found, allowed).into());
+        }
+        Ok(Self { time_s, theta_rad, gap_s, collapse_s: None })
+    }
+
+    /// The same in the record's time, of which `start_s` is the measurement's zero; the collapse is the one given, in the
+    /// record's time, or where a rotation first passes its collapse rotation.
+    #[must_use]
+    pub fn moved(mut self, start_s: f64, collapse_s: Option<f64>, wall: &Wall) -> Self {
+        self.time_s.iter_mut().for_each(|t| *t += start_s);
+        self.collapse_s = collapse_s.or_else(|| first_collapse(&self.time_s, &self.theta_rad, wall));
+        self
+    }
+}
+
+fn read_columns(path: &Path) -> Result<Columns> {
+    let readable = "a CSV table of numbers with a header";
+    let refuse = |e: csv::Error| {
+        let line = e.position().map_or(1, |p| p.line() as usize);
+        InputError::line(path, line, e.to_string(), readable)
+    };
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(refuse)?;
+    let names = reader.headers().map_err(refuse)?.iter().map(str::to_owned).collect::<Vec<_>>();
+    let mut values = vec![Vec::new(); names.len()];
+    for row in reader.records() {
+        let row = row.map_err(refuse)?;
+        let line = row.position().map_or(0, |p| p.line() as usize);
+        for ((column, name), cell) in values.iter_mut().zip(&names).zip(&row) {
+            column.push(parse_cell(cell).ok_or_else(|| {
+                let allowed = "finite numbers; empty or nan where a sample is missing";
+                InputError::line(path, line, format!("{cell:?} under {name}"), allowed)
+            })?);
+        }
+    }
+    Ok(Columns { names, values })
+}
+
+fn parse_cell(cell: &str) -> Option<f64> {
+    if cell.is_empty() || cell.eq_ignore_ascii_case("nan") {
+        return Some(f64::NAN);
+    }
+    cell.parse::<f64>().ok().filter(|value| value.is_finite())
+}
+
+fn times(path: &Path, columns: &Columns) -> Result<Vec<f64>, InputError> {
+    let Some(time) = columns.get("time_s") else {
+        let found = format!("columns {}", columns.names.join(", "));
+        return Err(InputError::line(path, 1, found, "a column time_s"));
+    };
+    if time.len() < 2 {
+        return Err(InputError::file(path, format!("{} sample(s)", time.len()), "2 or more"));
+    }
+    // The header is line 1.
+    let not_after = |i: usize| !(time[i].is_finite() && (i == 0 || time[i] > time[i - 1]));
+    if let Some(i) = (0..time.len()).find(|&i| not_after(i)) {
+        let allowed = "times that increase from line to line";
+        return Err(InputError::line(path, i + 2, format!("time_s {}", time[i]), allowed));
+    }
+    Ok(time.to_vec())
+}
+
+/// Median distance of times in order, s.
+pub(crate) fn median_step(time_s: &[f64]) -> f64 {
+    let mut steps = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
+    steps.sort_by(f64::total_cmp);
+    steps[steps.len() / 2]
+}
+
+/// Finds and cleans the channels of a test.
+struct Channels<'a> {
+    path: &'a Path,
+    columns: &'a Columns,
+    test: &'a TestTable,
+    wall: &'a Wall,
+    time_s: &'a [f64],
+}
+
+impl Channels<'_> {
+    fn rotations(&self) -> Result<[Option<Vec<f64>>; 2], InputError> {
+        let p = &self.wall.indented();
+        let lower = match &self.test.lower_reading {
+            None => self.column("theta1_rad"),
+            Some(reading) => {
+                let u = self.reading("lower_reading", reading)?;
+                let theta = |u: &f64| lower_rotation_rad(p, reading.height_m, *u);
+                Some(u.iter().map(theta).collect())
+            }
+        };
+        let top = Reading { column: "top_displacement_m".into(), height_m: p.height_m };
+        let direct = self.column("theta2_rad");
+        let upper = match (&self.test.upper_reading, direct, &lower) {
+            (Some(reading), _, Some(lower)) => Some(self.upper("upper_reading", reading, lower)?),
+            (None, Some(direct), _) => Some(direct),
+            (None, None, Some(lower)) if self.columns.get(&top.column).is_some() => {
+                Some(self.upper("measured", &top, lower)?)
+            }
+            _ => None,
+        };
+        Ok([lower, upper].map(|channel| channel.filter(|values| values.iter().any(|v| v.is_finite()))))
+    }
+
+    fn upper(&self, key: &str, reading: &Reading, lower: &[f64]) -> Result<Vec<f64>, InputError> {
+        let p = &self.wall.indented();
+        let u = self.reading(key, reading)?;
+        let theta = |(u, theta1): (&f64, &f64)| upper_rotation_rad(p, reading.height_m, *u, *theta1);
+        Ok(u.iter().zip(lower).map(theta).collect())
+    }
+
+    fn reading(&self, key: &str, reading: &Reading) -> Result<Vec<f64>, InputError> {
+        let p = self.wall.parameters();
+        let h1 = p.crack_height_m.unwrap_or(p.height_m);
+        let [from, to] = if key == "lower_reading" { [0.0, h1] } else { [h1, p.height_m] };
+        let inside = reading.height_m > from && reading.height_m <= to;
+        if !inside {
+            let found = format!("a {key} of {:?} at {} m", self.test.name, reading.height_m);
+            return Err(InputError::file(self.path, found, format!("above {from} m and up to {to} m")));
+        }
+        self.column(&reading.column).ok_or_else(|| {
+            let found = format!("no column {:?}, which {key} of {:?} names", reading.column, self.test.name);
+            InputError::line(self.path, 1, found, format!("one of {}", self.columns.names.join(", ")))
+        })
+    }
+
+    /// A column without its mean over the first seconds at rest.
+    fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let values = self.columns.get(name)?;
+        let until = self.time_s[0] + self.test.rest_s;
+        let at_rest = || self.time_s.iter().zip(values).filter(|(t, v)| **t < until && v.is_finite());
+        let count = at_rest().count();
+        let offset = if count == 0 { 0.0 } else { at_rest().map(|(_, v)| v).sum::<f64>() / count as f64 };
+        Some(values.iter().map(|v| v - offset).collect())
+    }
+}
+
+/// When a measured rotation first passes the collapse rotation of its body.
+fn first_collapse(time_s: &[f64], theta_rad: &[Option<Vec<f64>>; 2], wall: &Wall) -> Option<f64> {
+    let limits = wall.collapse_rotation_rad();
+    let passed =
+        |k: usize| (0..2).any(|i| theta_rad[i].as_ref().is_some_and(|theta| theta[k].abs() >= limits[i]));
+    (0..time_s.len()).find(|&k| passed(k)).map(|k| time_s[k])
+}

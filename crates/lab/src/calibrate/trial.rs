@@ -1,0 +1,190 @@
+//! A test as the search sees it: how the wall was shaken, what was measured, and what a simulation costs.
+
+use std::path::Path;
+
+use super::alignment::{Alignment, aligned};
+use super::comparison::{Comparison, Errors};
+use super::measured::Measured;
+use super::misfit::Target;
+use super::shaking::{read_shaking, until};
+use super::windows::{Window, windows};
+use crate::experiment_file::{Purpose, TestTable};
+use mrbd_files::error::{InputError, Result};
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, History, Outcome, Response, Shaking, Simulator};
+
+/// One test of an experiment.
+#[derive(Debug, Clone)]
+pub struct Test {
+    /// Name in results.
+    pub name: String,
+    /// Whether the search sees it.
+    pub purpose: Purpose,
+    /// What was measured, in the record's time.
+    pub measured: Measured,
+    /// What of it counts.
+    pub target: Target,
+    /// When the measured wall collapsed, s.
+    pub collapse_s: Option<f64>,
+    /// How the clocks of record and measurement were brought together.
+    pub alignment: Alignment,
+    /// The ground motion as recorded.
+    pub shaking: Shaking,
+    /// The same up to the end of what counts, made ready for the wall as given.
+    simulator: Simulator,
+    windows: Vec<Window>,
+}
+
+/// What one simulation of one test gave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Simulated {
+    /// Eq. 8; none where the run could not be finished or was abandoned.
+    pub wme: Option<f64>,
+    /// `stood`, `collapsed`, `failed`, or `abandoned` when Eq. 8 had passed what was worth while.
+    pub outcome: &'static str,
+    /// When the simulated wall collapsed, s; in windows, the last of them that did.
+    pub collapse_s: Option<f64>,
+    /// Impacts that were changes of Table 2, C_1 … C_8 in order.
+    pub transitions: [u64; 8],
+    /// The errors by block.
+    pub errors: Errors,
+    /// Steps of the integration.
+    pub steps: u64,
+}
+
+impl Test {
+    /// Reads a test of an experiment; its paths are relative to `folder`.
+    ///
+    /// # Errors
+    /// Input errors of the records or the measured file, or if nothing that was measured counts.
+    pub fn load(folder: &Path, table: &TestTable, wall: &Wall, accuracy: Accuracy) -> Result<Self> {
+        let shaking = read_shaking(folder, table)?;
+        let path = folder.join(&table.measured);
+        let measured = Measured::load(&path, table, wall)?;
+        let (measured, alignment) = aligned(&path, table, measured, wall, &shaking, accuracy)?;
+        let target = Target::new(&measured, &table.windows_s, wall).ok_or_else(|| {
+            let allowed = "samples in the record's time, inside windows_s, before a collapse, \
+                           not all parted by gaps";
+            InputError::file(&path, format!("nothing that counts in test {:?}", table.name), allowed)
+        })?;
+        Ok(Self {
+            name: table.name.clone(),
+            purpose: table.purpose,
+            collapse_s: measured.collapse_s,
+            alignment,
+            simulator: Simulator::new(wall, &until(&shaking, target.end_s()), accuracy),
+            shaking,
+            windows: vec![Window::whole(&target)],
+            target,
+            measured,
+        })
+    }
+
+    /// The same test in windows from each stretch without impacts; between impacts the wall moves as the measured
+    /// one.
+    #[must_use]
+    pub fn in_windows(&self, wall: &Wall, accuracy: Accuracy) -> Self {
+        let windows = windows(&self.target, &self.simulator.with_wall(wall, accuracy));
+        let samples = windows.iter().flat_map(|w| w.samples.iter().copied()).collect();
+        Self { target: self.target.counting(samples), windows, ..self.clone() }
+    }
+
+    /// The same test up to its first so many samples; each weighs as in the whole.
+    #[must_use]
+    pub(super) fn first(&self, samples: usize) -> Self {
+        let samples = self.target.samples()[..samples].to_vec();
+        let end_s = samples.last().map_or(0.0, |s| s.time_s);
+        Self { windows: vec![Window { start: None, end_s, samples }], ..self.clone() }
+    }
+
+    /// Rotations of a wall in the free-running test up to the end of what counts, a row every `step_s` seconds.
+    pub fn history(&self, wall: &Wall, accuracy: Accuracy, step_s: f64) -> History {
+        let simulator = self.simulator.with_wall(wall, accuracy);
+        let mut history = History::new(step_s);
+        simulator.run_from(&simulator.release(), self.target.end_s(), &mut history);
+        history
+    }
+
+    /// How many windows it is simulated in.
+    pub fn window_count(&self) -> usize {
+        self.windows.len()
+    }
+
+    /// Runs a wall through the test and compares.
+    pub fn simulate(&self, wall: &Wall, accuracy: Accuracy) -> Simulated {
+        self.simulate_below(wall, accuracy, f64::INFINITY)
+    }
+
+    /// The same with the signed error of every sample as it weighs in Eq. 8, θ_1 and θ_2 by turns.
+    pub(super) fn residuals(&self, wall: &Wall, accuracy: Accuracy) -> (Simulated, Vec<f64>) {
+        let mut residuals = Vec::new();
+        let simulated = self.run(wall, accuracy, f64::INFINITY, Some(&mut residuals));
+        (simulated, residuals)
+    }
+
+    /// The same, abandoned as soon as Eq. 8 is certain to be more than `most_wme`.
+    pub fn simulate_below(&self, wall: &Wall, accuracy: Accuracy, most_wme: f64) -> Simulated {
+        self.run(wall, accuracy, most_wme, None)
+    }
+
+    fn run(
+        &self,
+        wall: &Wall,
+        accuracy: Accuracy,
+        most_wme: f64,
+        mut residuals: Option<&mut Vec<f64>>,
+    ) -> Simulated {
+        let simulator = self.simulator.with_wall(wall, accuracy);
+        let weights = self.target.weights();
+        let mut sum = Simulated {
+            wme: None,
+            outcome: "stood",
+            collapse_s: None,
+            transitions: [0; 8],
+            errors: Errors::NONE,
+            steps: 0,
+        };
+        let mut wme = 0.0;
+        for window in &self.windows {
+            let comparison = Comparison::new(&window.samples, weights, most_wme - wme);
+            let mut comparison = comparison.read_by(wall.reading());
+            if residuals.is_some() {
+                comparison = comparison.keeping_residuals();
+            }
+            let response = match &window.start {
+                None => simulator.run_from(&simulator.release(), window.end_s, &mut comparison),
+                Some(start) => simulator.run_from(start, window.end_s, &mut comparison),
+            };
+            wme += comparison.wme();
+            sum.add(&response, &comparison.errors());
+            if let Some(residuals) = &mut residuals {
+                residuals.extend(comparison.into_residuals());
+            }
+            if sum.outcome == "failed" {
+                return sum;
+            }
+            if wme > most_wme {
+                sum.outcome = "abandoned";
+                return sum;
+            }
+        }
+        sum.wme = Some(self.target.wme(&sum.errors)).filter(|wme| wme.is_finite());
+        sum
+    }
+}
+
+impl Simulated {
+    fn add(&mut self, response: &Response, errors: &Errors) {
+        match response.outcome {
+            Outcome::Stood => {}
+            Outcome::Collapsed { time_s } => {
+                self.outcome = "collapsed";
+                self.collapse_s = Some(time_s);
+            }
+            Outcome::Failed { .. } => self.outcome = "failed",
+        }
+        self.errors.add(errors);
+        self.transitions.iter_mut().zip(response.impacts.table2).for_each(|(sum, n)| *sum += n);
+        self.steps += response.work.steps;
+    }
+}

@@ -1,0 +1,226 @@
+//! Step 7: for hypotheses that these tests cannot tell apart, the test that would.
+//!
+//! The first hypothesis is taken for the truth: a record there is, scaled, shakes it, and noise is added. The second is
+//! fitted to that together with the tests there are. What then speaks more against it than against the first would part
+//! them.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Normal};
+use serde::Serialize;
+
+use crate::diagnose::experiment::Experiment;
+use crate::diagnose::fit::{Fit, Problem, nats, shaken, windowed_error};
+use crate::diagnose::flow::Diagnosis;
+use crate::diagnose::hypothesis::Addition;
+use crate::diagnose::measured::{TestData, Window, windows};
+use crate::diagnose::sampled::Sampled;
+use crate::diagnose::trials::{EQUIVALENT, Tried, against, kinds};
+use crate::diagnose::verdict::Verdict;
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{Contact, RockingWall};
+use mrbd_kernel::simulate::{Accuracy, Shaking, Simulator};
+
+/// Factors on the records of the tests.
+const FACTORS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
+/// Candidates the second hypothesis is fitted to; the others are told by its values as they are.
+const FITTED: usize = 3;
+/// Seed of the noise.
+const SEED: u64 = 7;
+/// Displacements of the top that a slow pull might reach, as shares of the wall's thickness: far from where it would tip,
+/// and no farther than the tests went.
+const PULLS: [f64; 2] = [0.05, 0.1];
+
+/// What would part two hypotheses.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NextTests {
+    /// Their names: the one taken for the truth, the other.
+    pub rivals: [String; 2],
+    /// Shaking, what parts them best first.
+    pub shaking: Vec<NextShaking>,
+    /// Slow pulls of the top against its floor.
+    pub pull: Vec<NextPull>,
+}
+
+/// A record of a test, scaled.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NextShaking {
+    /// The test whose record it is.
+    pub test: String,
+    /// Factor on the record as it shook the wall there.
+    pub scale: f64,
+    /// What the wall of the first hypothesis does: `stood`, `collapsed` or `failed`.
+    pub outcome: &'static str,
+    /// Windowed error of the second there, in units of the noise.
+    pub error: Option<f64>,
+    /// What speaks more against the second than against the first, natural logarithms of likelihood.
+    pub nats: Option<f64>,
+    /// Whether the second was fitted to it; else its values are those of the tests there are.
+    pub fitted: bool,
+}
+
+/// A slow pull.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct NextPull {
+    /// Displacement of the top, m.
+    pub displacement_m: f64,
+    /// Force that holds the top there against its floor and what is added to it, N, under both hypotheses.
+    pub force_n: [f64; 2],
+}
+
+/// What would part the answer from its nearest rival; none where the verdict is no class.
+pub fn next_tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Option<NextTests> {
+    if diagnosis.found.verdict != Verdict::Class {
+        return None;
+    }
+    let first = &diagnosis.found.after;
+    let second = nearest_rival(experiment, diagnosis);
+    let pair = Pair { experiment, diagnosis, first, second };
+    let mut shaking = pair.candidates();
+    shaking.sort_by(|a, b| b.0.nats.unwrap_or(0.0).total_cmp(&a.0.nats.unwrap_or(0.0)));
+    for (row, data) in shaking.iter_mut().take(FITTED) {
+        if let Some(better) = data.as_ref().and_then(|data| pair.fitted(row, data)) {
+            *row = better;
+        }
+    }
+    let mut shaking = shaking.into_iter().map(|(row, _)| row).collect::<Vec<_>>();
+    shaking.sort_by(|a, b| {
+        let of = |row: &NextShaking| (row.fitted, row.nats.unwrap_or(0.0));
+        of(b).partial_cmp(&of(a)).unwrap_or(std::cmp::Ordering::Equal)
+    });
+    Some(NextTests { rivals: [first, second].map(name), shaking, pull: pair.pulls()? })
+}
+
+fn name(tried: &Tried) -> String {
+    let names = tried.hypothesis.additions.iter().map(Addition::name).collect::<Vec<_>>();
+    if names.is_empty() { "the wall's own numbers".into() } else { names.join(" + ") }
+}
+
+/// The best of what explains the tests as well; the wall's own numbers where no addition does.
+fn nearest_rival<'d>(experiment: &Experiment, diagnosis: &'d Diagnosis) -> &'d Tried {
+    let data = diagnosis.data(experiment);
+    let limit = against(&data, &diagnosis.found.after) + EQUIVALENT;
+    let other = |t: &&Tried| {
+        !t.hypothesis.additions.contains(&Addition::Placebo) && kinds(t) != kinds(&diagnosis.found.after)
+    };
+    let rival = diagnosis.found.tried.iter().filter(other).find(|t| against(&data, t) < limit);
+    rival.unwrap_or(&diagnosis.found.recalibrated)
+}
+
+struct Pair<'a> {
+    experiment: &'a Experiment,
+    diagnosis: &'a Diagnosis,
+    first: &'a Tried,
+    second: &'a Tried,
+}
+
+/// A simulated test and its windows, numbered after those of the experiment.
+struct Made {
+    tests: Vec<TestData>,
+    windows: Vec<Window>,
+    /// What speaks against the first in it.
+    first_nats: f64,
+}
+
+impl Pair<'_> {
+    fn candidates(&self) -> Vec<(NextShaking, Option<Made>)> {
+        let tests = self.experiment.tests.iter();
+        let each = tests.flat_map(|test| FACTORS.map(|factor| (test, factor)));
+        // The tests there are have told what they can.
+        let scaled = each.filter(|(_, factor)| *factor != 1.0);
+        scaled.map(|(test, factor)| self.candidate(test, factor)).collect()
+    }
+
+    /// One candidate, the second hypothesis with its values as they are.
+    fn candidate(&self, test: &TestData, factor: f64) -> (NextShaking, Option<Made>) {
+        let mut row = NextShaking {
+            test: test.name.clone(),
+            scale: factor,
+            outcome: "failed",
+            error: None,
+            nats: None,
+            fitted: false,
+        };
+        let made = self.made(test, factor, &mut row.outcome);
+        if let Some(made) = &made
+            && let Some(fit) = states(made, self.second, &self.second.fit.values)
+        {
+            row.error = windowed_error(&fit.windows);
+            row.nats = Some(nats(&fit.windows) - made.first_nats);
+        }
+        (row, made)
+    }
+
+    /// The first hypothesis under a scaled record, as it would be measured.
+    fn made(&self, test: &TestData, factor: f64, outcome: &mut &'static str) -> Option<Made> {
+        let physics = self.first.hypothesis.physics(&self.first.fit.values)?;
+        let scaled = |record: &Accelerogram| record.scaled(factor);
+        let shaking = Shaking {
+            horizontal: test.shaking.horizontal.as_ref().map(scaled),
+            vertical: test.shaking.vertical.as_ref().map(scaled),
+            tail_s: test.shaking.tail_s,
+        };
+        let simulator =
+            Simulator::new(&physics.wall, &shaken(&shaking, physics.reversed_ratio), Accuracy::default());
+        let mut sampled = Sampled::at(&test.time_s);
+        *outcome = simulator.run(&mut sampled).outcome.name();
+        let normal = test.noise_rad.map(|sd| Normal::new(0.0, sd));
+        let [Ok(lower), Ok(upper)] = normal else { return None };
+        let mut random = ChaCha8Rng::seed_from_u64(SEED);
+        let reading = physics.wall.reading();
+        let mut read = |(theta, _): &([f64; 2], Contact)| {
+            let [one, two] = reading.of(*theta);
+            [one + lower.sample(&mut random), two + upper.sample(&mut random)]
+        };
+        let theta_rad = sampled.rows.iter().map(&mut read).collect::<Vec<_>>();
+        let time_s = test.time_s[..theta_rad.len()].to_vec();
+        let made = TestData { shaking, theta_rad, time_s, ..test.clone() };
+        let mut windows = windows(std::slice::from_ref(&made));
+        windows.iter_mut().for_each(|w| w.test = self.experiment.tests.len());
+        let mut tests = self.experiment.tests.clone();
+        tests.push(made);
+        let mut made = Made { tests, windows, first_nats: 0.0 };
+        let own = states(&made, self.first, &self.first.fit.values)?;
+        made.first_nats = nats(&own.windows);
+        Some(made)
+    }
+
+    /// The second hypothesis fitted to the tests to fit and to a simulated one.
+    fn fitted(&self, row: &NextShaking, made: &Made) -> Option<NextShaking> {
+        let old = &self.diagnosis.windows[0];
+        let windows = [&old[..], &made.windows].concat();
+        let problem = Problem { tests: &made.tests, windows: &windows };
+        let second = self.second;
+        let new = states(made, second, &second.fit.values)?;
+        let x = second.fit.windows.iter().chain(&new.windows).map(|w| w.x.clone()).collect::<Vec<_>>();
+        let start = problem.states(&second.hypothesis, &second.fit.values, &x, 1, false)?;
+        let fit = problem.fit_finely(&second.hypothesis, start)?;
+        let cost = |tried: &Tried, values: &[f64]| 0.5 * tried.hypothesis.prior_penalty(values);
+        let first = nats(&self.first.fit.windows) + cost(self.first, &self.first.fit.values);
+        let both = nats(&fit.windows) + cost(second, &fit.values);
+        Some(NextShaking {
+            error: windowed_error(&fit.windows[old.len()..]),
+            nats: Some(both - first - made.first_nats),
+            fitted: true,
+            ..row.clone()
+        })
+    }
+
+    fn pulls(&self) -> Option<Vec<NextPull>> {
+        let wall = |tried: &Tried| Some(RockingWall::new(&tried.hypothesis.physics(&tried.fit.values)?.wall));
+        let walls = [wall(self.first)?, wall(self.second)?];
+        let thickness_m = self.experiment.wall.parameters().thickness_m;
+        let pull = |share: f64| {
+            let displacement_m = (share * thickness_m).min(self.experiment.scales.displacement_m);
+            let force_n = walls.each_ref().map(|wall| -wall.top_force_n(displacement_m, 0.0, 0.0));
+            NextPull { displacement_m, force_n }
+        };
+        Some(PULLS.map(pull).to_vec())
+    }
+}
+
+/// The states of the windows of a simulated test under a hypothesis.
+fn states(made: &Made, tried: &Tried, values: &[f64]) -> Option<Fit> {
+    let problem = Problem { tests: &made.tests, windows: &made.windows };
+    problem.states(&tried.hypothesis, values, &problem.measured_states(), 4, true)
+}

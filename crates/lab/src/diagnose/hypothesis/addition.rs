@@ -1,0 +1,129 @@
+//! What may be added to a wall.
+
+use super::unknown::Slot;
+use super::{Scales, Unknown, WallNumber};
+use mrbd_kernel::model::{
+    EffectKind, EffectParameter, EffectVariant, Joint, Place, Quantity, Role, WallParameters,
+};
+
+/// Coefficients that impacts under the law `contact` can act with; C_7 and C_8 belong to impacts that end in sticking.
+pub const ACTING: usize = 6;
+/// Largest damper, in sizes that matter: it holds what it is on, and a stronger one does the same in ever shorter steps.
+const STRONGEST_DAMPER: f64 = 100.0;
+/// Standard deviation of a factor on C_l about 1: wide, but a factor that never acts stays at 1.
+const FACTOR_SD: f64 = 0.3;
+
+/// Something added to the wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Addition {
+    /// An effect of the catalogue.
+    Effect(EffectVariant),
+    /// Part of m_d acts sideways only: the carriage of the paper, which its first model lumped into m_d.
+    LumpedCarriage,
+    /// A number of the wall outside what was known of it: a symptom, never an answer.
+    Number(&'static WallNumber),
+    /// A vertical motion that cannot have been: the record backwards. Shows what a term without meaning gains.
+    Placebo,
+}
+
+impl Addition {
+    /// Name among the rivals.
+    pub fn name(&self) -> String {
+        match self {
+            Addition::Effect(variant) => variant.name(),
+            Addition::LumpedCarriage => format!("{}.lumped", EffectKind::CarriageMass.name()),
+            Addition::Number(number) => number.key.into(),
+            Addition::Placebo => "placebo".into(),
+        }
+    }
+
+    /// Kind of effect it is called by in answers; `None` for what is no answer.
+    pub fn kind(&self) -> Option<EffectKind> {
+        match self {
+            Addition::Effect(variant) => Some(variant.kind),
+            Addition::LumpedCarriage => Some(EffectKind::CarriageMass),
+            Addition::Number(_) | Addition::Placebo => None,
+        }
+    }
+
+    /// Its role in the mechanics of the wall; `None` for what is no answer.
+    pub fn role(&self) -> Option<Role> {
+        self.kind().map(|kind| kind.entry().role)
+    }
+
+    /// Where it acts.
+    pub fn place(&self) -> &'static str {
+        match self {
+            Addition::Effect(variant) => place_name(variant),
+            Addition::LumpedCarriage => "top",
+            Addition::Number(number) if number.key.starts_with("diaphragm") => "top",
+            Addition::Number(number) if number.key.starts_with("corners") => "joint",
+            Addition::Number(_) => "masses",
+            Addition::Placebo => "none",
+        }
+    }
+
+    /// The numbers to be found of the addition with this index.
+    pub(super) fn unknowns(&self, base: &WallParameters, scales: &Scales, index: usize) -> Vec<Unknown> {
+        let alone = |key: &str, quantity: Quantity, start, lower, upper| {
+            vec![Unknown {
+                key: key.into(),
+                unit: quantity.unit(),
+                start,
+                scale: scales.size(quantity),
+                lower,
+                upper,
+                prior_sd: None,
+                slot: Slot::Added(index, 0),
+            }]
+        };
+        match self {
+            Addition::Effect(variant) => effect_unknowns(*variant, scales, index),
+            Addition::LumpedCarriage => alone("mass_kg", Quantity::TopMass, 0.0, 0.0, base.diaphragm_mass_kg),
+            Addition::Number(number) => {
+                let value = (number.get)(base);
+                let reach = if value == 0.0 { scales.size(number.quantity) } else { value.abs() };
+                let mut unknowns =
+                    alone(number.key, number.quantity, value, value - 0.9 * reach, value + 4.0 * reach);
+                unknowns[0].scale = reach;
+                unknowns
+            }
+            Addition::Placebo => alone("ratio", Quantity::Ratio, 0.0, -2.0, 2.0),
+        }
+    }
+}
+
+/// Name of the place of a kind in answers.
+fn place_name(variant: &EffectVariant) -> &'static str {
+    match variant.entry().place {
+        Place::Top => "top",
+        Place::Joint => match variant.joint() {
+            Some(Joint::Ground) => "ground",
+            Some(Joint::Crack) => "crack",
+            None => "joint",
+        },
+        Place::Impacts => "impacts",
+        Place::GroundMotion => "ground motion",
+        Place::Sensor => "sensor",
+    }
+}
+
+fn effect_unknowns(variant: EffectVariant, scales: &Scales, index: usize) -> Vec<Unknown> {
+    let parameters = variant.entry().parameters.iter().enumerate();
+    let acting = |(i, _): &(usize, _)| variant.entry().role != Role::Impact || *i < ACTING;
+    let unknown = |(i, parameter): (usize, &EffectParameter)| {
+        let scale = scales.size(parameter.quantity);
+        let damper = variant.entry().role == Role::Damper;
+        Unknown {
+            key: parameter.key.into(),
+            unit: parameter.unit(),
+            start: parameter.neutral,
+            scale,
+            lower: parameter.least,
+            upper: if damper { parameter.most.min(STRONGEST_DAMPER * scale) } else { parameter.most },
+            prior_sd: (parameter.quantity == Quantity::ImpactFactor).then_some(FACTOR_SD),
+            slot: Slot::Added(index, i),
+        }
+    };
+    parameters.filter(acting).map(unknown).collect()
+}

@@ -1,0 +1,156 @@
+//! A model that might be true: the wall, what is uncertain of it, and what is added to it.
+
+mod addition;
+mod candidates;
+#[cfg(test)]
+pub mod example;
+mod nuisance;
+mod scale;
+mod unknown;
+mod wall_number;
+
+pub use addition::{ACTING, Addition};
+pub use candidates::candidates;
+pub use nuisance::{Nuisance, PRIOR_REACH};
+pub use scale::Scales;
+pub use unknown::Unknown;
+pub use wall_number::{WALL_NUMBERS, WallNumber, wall_number};
+
+use nalgebra::{DMatrix, DVector};
+
+use mrbd_kernel::model::{Effect, EffectKind, EffectVariant, Role, Wall, WallParameters};
+use unknown::Slot;
+
+/// The wall under a hypothesis, and the share of the reversed record that a placebo shakes it with upwards.
+#[derive(Debug, Clone)]
+pub struct Physics {
+    /// The wall with its effects.
+    pub wall: Wall,
+    /// Placebo.
+    pub reversed_ratio: f64,
+}
+
+/// A wall, what is uncertain of it, and what is added to it.
+#[derive(Debug, Clone)]
+pub struct Hypothesis {
+    base: WallParameters,
+    /// What is added.
+    pub additions: Vec<Addition>,
+    /// Every number to be found: the uncertain ones of the wall first.
+    pub unknowns: Vec<Unknown>,
+    /// How many of them are the wall's.
+    pub nuisances: usize,
+}
+
+impl Hypothesis {
+    /// The wall with these uncertainties and additions.
+    pub fn new(
+        base: &WallParameters,
+        scales: &Scales,
+        nuisances: &[Nuisance],
+        additions: &[Addition],
+    ) -> Self {
+        // A number that an addition sets free has no prior.
+        let freed = |n: &&Nuisance| match n {
+            Nuisance::Number(number, _) => !additions.contains(&Addition::Number(number)),
+            Nuisance::Coefficient(..) => !additions.iter().any(|a| a.role() == Some(Role::Impact)),
+        };
+        let mut unknowns = nuisances.iter().filter(freed).map(|n| n.unknown(base)).collect::<Vec<_>>();
+        let count = unknowns.len();
+        for (index, addition) in additions.iter().enumerate() {
+            unknowns.extend(addition.unknowns(base, scales, index));
+        }
+        Self { base: base.clone(), additions: additions.to_vec(), unknowns, nuisances: count }
+    }
+
+    /// Where the search starts.
+    pub fn start(&self) -> Vec<f64> {
+        self.unknowns.iter().map(|u| u.start).collect()
+    }
+
+    /// The values of another hypothesis for the numbers that both have, and the start for the rest.
+    pub fn values_from(&self, other: &Self, values: &[f64]) -> Vec<f64> {
+        let of = |unknown: &Unknown| {
+            let same = |(theirs, _): &(&Unknown, &f64)| match (unknown.slot, theirs.slot) {
+                (Slot::Added(own, i), Slot::Added(index, j)) => {
+                    i == j && self.additions[own] == other.additions[index]
+                }
+                (own, theirs) => own == theirs,
+            };
+            other.unknowns.iter().zip(values).find(same).map_or(unknown.start, |(_, value)| *value)
+        };
+        self.unknowns.iter().map(of).collect()
+    }
+
+    /// Sum of the squared distances from what was known, in its standard deviations.
+    pub fn prior_penalty(&self, values: &[f64]) -> f64 {
+        let distance = |(u, v): (&Unknown, &f64)| u.prior_sd.map_or(0.0, |sd| ((v - u.start) / sd).powi(2));
+        self.unknowns.iter().zip(values).map(distance).sum()
+    }
+
+    /// Adds what was known before to normal equations in these values, as one more measurement; further rows of `a` and `g`
+    /// stay as they are.
+    pub fn add_prior(&self, values: &[f64], a: &mut DMatrix<f64>, g: &mut DVector<f64>) {
+        for (i, unknown) in self.unknowns.iter().enumerate() {
+            if let Some(sd) = unknown.prior_sd {
+                a[(i, i)] += 1.0 / (sd * sd);
+                g[i] += (values[i] - unknown.start) / (sd * sd);
+            }
+        }
+    }
+
+    /// The effects that the additions with these values are, for the wall file; none if one is outside its bounds.
+    pub fn effects(&self, values: &[f64]) -> Option<Vec<Effect>> {
+        let mut effects = Vec::new();
+        for (index, addition) in self.additions.iter().enumerate() {
+            match addition {
+                Addition::Effect(variant) => {
+                    effects.push(variant.with_parameters(&self.parameters(*variant, index, values)).ok()?);
+                }
+                Addition::LumpedCarriage => {
+                    let mass_kg = self.added(index, 0, values)?;
+                    let carriage = EffectKind::CarriageMass.variant(None).ok()?;
+                    effects.push(carriage.with_parameters(&[mass_kg]).ok()?);
+                }
+                Addition::Number(_) | Addition::Placebo => {}
+            }
+        }
+        Some(effects)
+    }
+
+    /// The wall these values make; none if there is no such wall.
+    pub fn physics(&self, values: &[f64]) -> Option<Physics> {
+        let parameters = self.parameters_of_wall(values)?;
+        let placebo = self.additions.iter().position(|a| *a == Addition::Placebo);
+        let reversed_ratio = placebo.and_then(|index| self.added(index, 0, values)).unwrap_or(0.0);
+        Some(Physics { wall: Wall::new(parameters).ok()?, reversed_ratio })
+    }
+
+    /// The parameters of the wall these values make; none if an effect is outside its bounds.
+    pub fn parameters_of_wall(&self, values: &[f64]) -> Option<WallParameters> {
+        let mut p = self.base.clone();
+        for (unknown, &value) in self.unknowns.iter().zip(values) {
+            match unknown.slot {
+                Slot::Number(number) => (number.set)(&mut p, value),
+                Slot::Coefficient(l) => p.restitution.coefficients[l] = value,
+                Slot::Added(index, _) => match self.additions[index] {
+                    Addition::Number(number) => (number.set)(&mut p, value),
+                    Addition::LumpedCarriage => p.diaphragm_mass_kg -= value,
+                    _ => {}
+                },
+            }
+        }
+        p.effects.extend(self.effects(values)?);
+        Some(p)
+    }
+
+    fn added(&self, index: usize, parameter: usize, values: &[f64]) -> Option<f64> {
+        let slot = Slot::Added(index, parameter);
+        self.unknowns.iter().zip(values).find(|(u, _)| u.slot == slot).map(|(_, v)| *v)
+    }
+
+    fn parameters(&self, variant: EffectVariant, index: usize, values: &[f64]) -> Vec<f64> {
+        let parameters = variant.entry().parameters.iter().enumerate();
+        parameters.map(|(i, p)| self.added(index, i, values).unwrap_or(p.neutral)).collect()
+    }
+}

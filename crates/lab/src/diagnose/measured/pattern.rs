@@ -1,0 +1,138 @@
+//! Which pattern a measured wall is in, where that is beyond doubt.
+
+use super::smooth::{CUBIC, HALF, Local, local};
+use super::test_data::TestData;
+use mrbd_kernel::model::{Contact, Pair, Pivot, State};
+
+/// Samples that are looked at together.
+const COUNT: usize = 2 * HALF + 1;
+/// Standard deviations beyond which a sum of squares is not noise alone.
+const BEYOND_NOISE: f64 = 3.0;
+/// Share of a step by which times may be off: twice what rounding to milliseconds does at 256 Hz.
+const UNEVEN: f64 = 0.25;
+/// Samples averaged where the sign of an opening is asked for, and standard deviations it must stand off zero.
+const AVERAGED: usize = 5;
+const CLEAR: f64 = 4.0;
+
+/// What is free in a contact state that the measurement leaves no doubt about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Freedom {
+    /// Nothing: the wall stands.
+    Rest,
+    /// θ_1 = θ_2 (pattern 3).
+    Monolithic,
+    /// θ_2 (pattern 4).
+    Upper,
+    /// Both (patterns 1 and 2).
+    Both,
+}
+
+impl Freedom {
+    /// Rotations and velocities of the free bodies that make a state: (θ, θ') of each.
+    pub fn numbers(self) -> usize {
+        match self {
+            Freedom::Rest => 0,
+            Freedom::Monolithic | Freedom::Upper => 2,
+            Freedom::Both => 4,
+        }
+    }
+
+    /// The state these numbers make, rad and rad/s, and its contact.
+    pub fn state(self, x: &[f64]) -> (State, Contact) {
+        let (theta, omega, closed) = match self {
+            Freedom::Rest => ([0.0; 2], [0.0; 2], [true, true]),
+            Freedom::Monolithic => ([x[0]; 2], [x[1]; 2], [false, true]),
+            Freedom::Upper => ([0.0, x[0]], [0.0, x[1]], [true, false]),
+            Freedom::Both => ([x[0], x[2]], [x[1], x[3]], [false, false]),
+        };
+        let pivot = |closed: bool, angle: f64| if closed { Pivot::Closed } else { Pivot::of_angle(angle) };
+        let ground = pivot(closed[0], theta[0]);
+        let crack = pivot(closed[1], theta[1] - theta[0]);
+        (State { theta, omega }, Contact { ground, crack })
+    }
+}
+
+/// A measured state: what is free, and the smoothed numbers of what is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredState {
+    /// What is free.
+    pub freedom: Freedom,
+    /// (θ, θ') of the free bodies, rad and rad/s.
+    pub numbers: Vec<f64>,
+}
+
+/// The pattern about a sample; none where the samples around it leave doubt or are not all there.
+pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
+    let from = k.checked_sub(HALF)?;
+    test.theta_rad.get(from..from + COUNT)?;
+    let around: [Pair; COUNT] = std::array::from_fn(|i| test.from_rest_rad(from + i));
+    if !is_even(&test.time_s[from..from + COUNT], test.step_s)
+        || around.iter().flatten().any(|theta| theta.is_nan())
+    {
+        return None;
+    }
+    let noise = test.noise_rad;
+    let lower: [f64; COUNT] = std::array::from_fn(|i| around[i][0]);
+    let upper: [f64; COUNT] = std::array::from_fn(|i| around[i][1]);
+    let crack: [f64; COUNT] = std::array::from_fn(|i| around[i][1] - around[i][0]);
+    let crack_noise = noise[0].hypot(noise[1]);
+    let ground_closed = is_zero(&lower, noise[0]);
+    let crack_closed = is_zero(&crack, crack_noise);
+    let number = |l: Local| [l.value, l.slope / test.step_s];
+    let (lower_fit, upper_fit) = (local(&lower), local(&upper));
+    let lower_open = is_clear(&lower, noise[0]) && is_smooth(&lower_fit, noise[0]);
+    let crack_open = is_clear(&crack, crack_noise) && is_smooth(&upper_fit, noise[1]);
+    let (freedom, numbers) = match (ground_closed, crack_closed) {
+        (true, true) if is_zero(&upper, noise[1]) => (Freedom::Rest, Vec::new()),
+        (true, false) if crack_open => (Freedom::Upper, number(upper_fit).to_vec()),
+        (false, true) if lower_open => {
+            let both = [number(lower_fit), number(upper_fit)];
+            (Freedom::Monolithic, (0..2).map(|i| 0.5 * (both[0][i] + both[1][i])).collect())
+        }
+        (false, false) if lower_open && crack_open => {
+            (Freedom::Both, [number(lower_fit), number(upper_fit)].concat())
+        }
+        _ => return None,
+    };
+    Some(MeasuredState { freedom, numbers })
+}
+
+/// Whether samples are as far apart as those of the whole test: smoothing takes them for evenly spaced.
+fn is_even(time_s: &[f64], step_s: f64) -> bool {
+    time_s.windows(2).all(|pair| ((pair[1] - pair[0]) / step_s - 1.0).abs() < UNEVEN)
+}
+
+/// Noise about zero: neither the sum of squares nor the mean stands out.
+fn is_zero(y: &[f64; COUNT], noise: f64) -> bool {
+    let n = COUNT as f64;
+    let squares = y.iter().map(|v| v * v).sum::<f64>() / (noise * noise);
+    let mean = y.iter().sum::<f64>() / n;
+    squares < n + BEYOND_NOISE * (2.0 * n).sqrt() && mean.abs() < BEYOND_NOISE * noise / n.sqrt()
+}
+
+/// No impact inside: a cubic leaves noise.
+fn is_smooth(fit: &Local, noise: f64) -> bool {
+    let n = COUNT as f64;
+    fit.residual / (noise * noise) < n - CUBIC + BEYOND_NOISE * (2.0 * n).sqrt()
+}
+
+/// Of one sign all along, averages of a few samples clear of zero.
+fn is_clear(y: &[f64; COUNT], noise: f64) -> bool {
+    let sign = y[HALF].signum();
+    let n = AVERAGED as f64;
+    y.windows(AVERAGED).all(|some| some.iter().sum::<f64>() / n * sign > CLEAR * noise / n.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_times_that_were_rounded_are_even_and_a_finer_stretch_is_not() {
+        // 256 Hz to milliseconds: off by up to an eighth of a step.
+        let rounded = (0..17).map(|k| (1000.0 * f64::from(k) / 256.0).round() / 1000.0).collect::<Vec<_>>();
+        assert!(is_even(&rounded, 1.0 / 256.0));
+        let finer = (0..17).map(|k| 0.0025 * f64::from(k)).collect::<Vec<_>>();
+        assert!(is_even(&finer, 0.0025) && !is_even(&finer, 0.005));
+    }
+}

@@ -1,0 +1,126 @@
+//! A test as the diagnosis sees it: the shaking, what was measured, and how noisy it is.
+
+use std::path::Path;
+
+use super::noise::noise_rad;
+use super::offset::rest_offset_rad;
+use crate::calibrate::{Test, median_step};
+use crate::experiment_file::{Purpose, TestTable};
+use mrbd_files::error::InputError;
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::{Pair, Wall};
+use mrbd_kernel::simulate::Shaking;
+
+/// Fewest samples of both rotations that can be diagnosed: some windows of tens of samples.
+const LEAST_SAMPLES: usize = 200;
+
+/// No wall that still stands has turned by this much, rad; read in degrees one has at once.
+const TOO_LARGE_RAD: f64 = 0.7;
+
+/// One test: measured rotations of both bodies and the shaking that caused them.
+#[derive(Debug, Clone)]
+pub struct TestData {
+    /// Name in results.
+    pub name: String,
+    /// Whether the fit sees it, or the result is only judged by it.
+    pub purpose: Purpose,
+    /// The records, and free motion to the end of the measurement.
+    pub shaking: Shaking,
+    /// Times of the samples in the record's time, s.
+    pub time_s: Vec<f64>,
+    /// θ_1 and θ_2 as read, rad; NaN where a sample is missing or does not count.
+    pub theta_rad: Vec<Pair>,
+    /// Standard deviation of the noise of each channel, rad.
+    pub noise_rad: Pair,
+    /// What each channel reads at rest, rad: taken off where a pattern is recognised, never where a model is judged.
+    pub rest_offset_rad: Pair,
+    /// What each channel reads of a rotation, as far as it is known or was found out: taken out at the same places.
+    pub read_gain: Pair,
+    /// Time between samples, s: their median distance.
+    pub step_s: f64,
+    /// Samples farther apart than this are not joined, s.
+    pub gap_s: f64,
+}
+
+impl TestData {
+    /// A test as it was read for the errors over whole runs, with what its table says of the file at `path` and of what
+    /// counts, and with the gains at which sensors of the wall read.
+    ///
+    /// # Errors
+    /// Input errors for a channel that is lost, rotations no standing wall has, a measurement apart from its record, too few
+    /// samples, or no noise.
+    pub fn new(test: &Test, path: &Path, table: &TestTable, wall: &Wall) -> Result<Self, InputError> {
+        let refuse = |found: String, allowed: &str| Err(InputError::file(path, found, allowed));
+        let measured = &test.measured;
+        let [Some(lower), Some(upper)] = &measured.theta_rad else {
+            let found = format!("one rotation only in test {:?}", test.name);
+            return refuse(found, "theta1_rad and theta2_rad");
+        };
+        let fell_s = table.collapse_s.unwrap_or(f64::INFINITY);
+        let standing = measured.time_s.iter().zip(lower.iter().zip(upper)).take_while(|(t, _)| **t < fell_s);
+        let rotations = standing.flat_map(|(_, (one, two))| [one.abs(), two.abs()]);
+        let largest_rad = rotations.filter(|theta| theta.is_finite()).fold(0.0, f64::max);
+        if largest_rad > TOO_LARGE_RAD {
+            let found = format!("a rotation of {largest_rad:.3} in test {:?}", test.name);
+            return refuse(
+                found,
+                "radians, below 0.7 while the wall stands; are these degrees? A wall that fell: collapse_s",
+            );
+        }
+        let end_s = measured.collapse_s.unwrap_or(f64::INFINITY);
+        let kept = |k: &usize| measured.time_s[*k] >= 0.0 && measured.time_s[*k] < end_s;
+        let kept = (0..measured.time_s.len()).filter(kept).collect::<Vec<_>>();
+        let time_s = kept.iter().map(|&k| measured.time_s[k]).collect::<Vec<_>>();
+        let counts = |t: f64| {
+            table.windows_s.is_empty() || table.windows_s.iter().any(|[from, to]| *from <= t && t <= *to)
+        };
+        let theta =
+            |&k: &usize| if counts(measured.time_s[k]) { [lower[k], upper[k]] } else { [f64::NAN; 2] };
+        let theta_rad = kept.iter().map(theta).collect::<Vec<_>>();
+        let record_s = test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
+        let last_s = time_s.last().copied().unwrap_or(0.0);
+        if last_s.min(record_s) <= time_s.first().copied().unwrap_or(0.0) {
+            let [from_s, to_s] =
+                [measured.time_s.first(), measured.time_s.last()].map(|t| t.copied().unwrap_or(0.0));
+            let found =
+                format!("test {:?} measured from {from_s:.2} to {to_s:.2} s of the record's time", test.name);
+            return refuse(
+                found,
+                &format!("times that overlap the record, 0 to {record_s:.2} s; see start_s"),
+            );
+        }
+        if time_s.len() < LEAST_SAMPLES {
+            let found =
+                format!("{} samples of test {:?} from its record's beginning on", time_s.len(), test.name);
+            return refuse(
+                found,
+                &format!("{LEAST_SAMPLES} or more before the wall falls; are rotations in radians?"),
+            );
+        }
+        let noise_rad = noise_rad(&time_s, &theta_rad, measured.gap_s)
+            .ok_or_else(|| InputError::file(path, "no noise at all", "rotations as measured"))?;
+        let tail_s = (last_s - record_s).max(0.0) + measured.gap_s;
+        Ok(Self {
+            name: test.name.clone(),
+            purpose: test.purpose,
+            shaking: Shaking { tail_s, ..test.shaking.clone() },
+            step_s: median_step(&time_s),
+            time_s,
+            rest_offset_rad: rest_offset_rad(&theta_rad, noise_rad),
+            read_gain: wall.reading().gain,
+            theta_rad,
+            noise_rad,
+            gap_s: measured.gap_s,
+        })
+    }
+
+    /// Rotations of a sample, rad, with what is read at rest as zero and without the gains that were found.
+    pub fn from_rest_rad(&self, k: usize) -> Pair {
+        [0, 1].map(|i| (self.theta_rad[k][i] - self.rest_offset_rad[i]) / self.read_gain[i])
+    }
+
+    /// Samples per second times `seconds`, at least one.
+    pub fn samples_in(&self, seconds: f64) -> usize {
+        (seconds / self.step_s).round().max(1.0) as usize
+    }
+}

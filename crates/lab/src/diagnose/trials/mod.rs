@@ -1,0 +1,168 @@
+//! Hypotheses tried: single effects, pairs, and the same again from better starts, side by side on all threads.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | `starts`, `search` | one hypothesis: where its fit may start, the fit, and the tests held out |
+//! | `criteria` | when it follows the tests within noise, closes a gap, does something |
+//! | `alone` | the wall as given, its own numbers, and effects one by one |
+//! | `pairs` | two effects together |
+//! | `imitate`, `rivals` | what may stand for the best, from where it would |
+//! | `friction` | friction that gives a little first |
+//! | `settle` | an answer from about itself, until it is the best of its kind |
+//! | `misread_gain`, `opened_joints` | patterns read again, without a sensor's gain and with joints open by less than the noise |
+
+mod alone;
+mod criteria;
+mod finishing;
+mod friction;
+mod imitate;
+mod misread_gain;
+mod opened_joints;
+mod pairs;
+mod rivals;
+mod search;
+mod settle;
+mod starts;
+mod tried;
+
+pub use alone::Alone;
+pub use criteria::{
+    EQUIVALENT, FLOOR, HELD_OUT, against, all_windows, best_answer, closes, does_something, is_noise,
+    joint_error, kinds,
+};
+pub use friction::{FRICTION, giving_friction, kind_of};
+pub use misread_gain::{gain_misread, reads_better, set_gain};
+pub use opened_joints::{opened_as_given, opened_windows};
+pub use search::untouched;
+pub use tried::{Data, Tried};
+
+use rayon::prelude::*;
+
+use crate::Progress;
+use crate::diagnose::experiment::Experiment;
+use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
+use finishing::{Coarse, worth_finishing};
+use search::{finish, refit, try_coarsely};
+
+/// Rivals fitted once more from other starts.
+const POLISHED: usize = 3;
+/// Gain above which that is worth its time.
+const WORTH_POLISH: f64 = 10.0;
+
+/// Where hypotheses are tried.
+pub struct Trials<'a, P> {
+    /// Wall, priors, tests.
+    pub experiment: &'a Experiment,
+    /// Windows.
+    pub data: Data<'a>,
+    /// Told how far it is.
+    pub progress: &'a P,
+}
+
+impl<P: Progress> Trials<'_, P> {
+    pub(super) fn hypothesis(&self, nuisances: &[Nuisance], additions: &[Addition]) -> Hypothesis {
+        Hypothesis::new(self.experiment.wall.parameters(), &self.experiment.scales, nuisances, additions)
+    }
+
+    /// Fits every set of additions, and orders them by what speaks against them.
+    pub fn try_all(
+        &self,
+        what: &str,
+        nuisances: &[Nuisance],
+        from: &[&Tried],
+        sets: &[Vec<Addition>],
+    ) -> Vec<Tried> {
+        self.progress.begin(what, sets.len());
+        let try_one = |additions: &Vec<Addition>| {
+            let tried = try_coarsely(&self.data, self.hypothesis(nuisances, additions), from);
+            self.progress.advance(1);
+            tried
+        };
+        self.finished(self.ordered(sets.par_iter().filter_map(try_one).collect()))
+    }
+
+    /// Finishes the best of coarse fits in order; the others are so far behind that they cannot be the answer.
+    fn finished(&self, mut coarse: Vec<Tried>) -> Vec<Tried> {
+        let against = |tried: &Tried| against(&self.data, tried);
+        let judge = |tried: &Tried| Coarse { against: against(tried), error: tried.fit_error() };
+        let judged = coarse.iter().map(judge).collect::<Vec<_>>();
+        let chosen = worth_finishing(&judged);
+        self.progress.begin("the best in full", chosen.len());
+        let finish_one = |i: &usize| {
+            let finished = finish(&self.data, &coarse[*i]);
+            self.progress.advance(1);
+            finished.filter(|new| against(new) < judged[*i].against)
+        };
+        let finished = chosen.par_iter().map(finish_one).collect::<Vec<_>>();
+        for (i, finished) in chosen.into_iter().zip(finished) {
+            if let Some(finished) = finished {
+                coarse[i] = finished;
+            }
+        }
+        self.ordered(coarse)
+    }
+
+    /// In the order of what speaks against them.
+    pub fn ordered(&self, mut tried: Vec<Tried>) -> Vec<Tried> {
+        tried.sort_by(|a, b| against(&self.data, a).total_cmp(&against(&self.data, b)));
+        tried
+    }
+
+    /// The best of hypotheses with the same additions, in order.
+    pub(super) fn best_of_each(&self, tried: Vec<Tried>) -> Vec<Tried> {
+        let mut best: Vec<Tried> = Vec::new();
+        for t in self.ordered(tried) {
+            if !best.iter().any(|b| b.hypothesis.additions == t.hypothesis.additions) {
+                best.push(t);
+            }
+        }
+        best
+    }
+
+    /// Fits the best few once more, from about what was found with the wall's own numbers back where they were; all as they
+    /// are if the best gains little over a simpler hypothesis.
+    fn polished(
+        &self,
+        nuisances: &[Nuisance],
+        from: &Tried,
+        mut tried: Vec<Tried>,
+        simpler: &Tried,
+    ) -> Vec<Tried> {
+        let Some(best) = tried.first() else { return tried };
+        if against(&self.data, simpler) - against(&self.data, best) < WORTH_POLISH {
+            return tried;
+        }
+        let count = tried.len().min(POLISHED);
+        self.progress.begin("the best again", count);
+        let again = |old: &Tried| {
+            let h = self.hypothesis(nuisances, &old.hypothesis.additions);
+            let about = |factor: f64| {
+                let shares = (0..h.unknowns.len()).map(|i| if i < h.nuisances { 0.0 } else { factor });
+                let values = h.unknowns.iter().zip(shares).zip(&old.fit.values);
+                values.map(|((unknown, share), value)| unknown.with_share(share, *value)).collect::<Vec<_>>()
+            };
+            let tries = [0.92, 1.0, 1.08].map(about);
+            let fits = tries.par_iter().filter_map(|values| refit(&self.data, h.clone(), from, values));
+            let best = fits.min_by(|a, b| a.fit.cost.total_cmp(&b.fit.cost));
+            self.progress.advance(1);
+            best.filter(|new| new.fit.cost < old.fit.cost).unwrap_or_else(|| old.clone())
+        };
+        let best = tried[..count].iter().map(again).collect::<Vec<_>>();
+        tried.splice(..count, best);
+        self.ordered(tried)
+    }
+
+    /// A hypothesis, or the same fitted from the values of one that holds more than it, where that is better: a number of
+    /// the wall far from its prior is sometimes found beside a further effect only.
+    pub fn better_part(&self, part: Tried, whole: &Tried) -> Tried {
+        let additions = &part.hypothesis.additions;
+        let holds = additions.iter().all(|a| whole.hypothesis.additions.contains(a));
+        if !holds || against(&self.data, whole) > against(&self.data, &part) - WORTH_POLISH {
+            return part;
+        }
+        let h = self.hypothesis(&self.experiment.nuisances, additions);
+        let values = h.values_from(&whole.hypothesis, &whole.fit.values);
+        let again = refit(&self.data, h, whole, &values);
+        again.filter(|new| against(&self.data, new) < against(&self.data, &part)).unwrap_or(part)
+    }
+}

@@ -1,0 +1,275 @@
+//! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
+
+use super::names::{name_of_number, names};
+use super::place::place;
+use super::power::could_show;
+use super::second::worth_two;
+use super::{OtherLaw, Verdict};
+use crate::Progress;
+use crate::diagnose::experiment::Experiment;
+use crate::diagnose::force::{acts_at_top, force_points};
+use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
+use crate::diagnose::trials::{
+    Alone, EQUIVALENT, HELD_OUT, Trials, Tried, against, best_answer, closes, does_something, is_noise,
+    joint_error, kinds,
+};
+use mrbd_kernel::model::{EffectKind, Role};
+
+/// Gain in natural logarithms of likelihood, over the windows fitted and held out together, below which an effect is not
+/// worth its name. Chosen: the effects of the development set gain hundreds.
+pub const WORTH_A_NAME: f64 = 30.0;
+/// Gain of the best single addition below which pairs are not tried.
+const WORTH_PAIRS: f64 = 60.0;
+/// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
+const KNOWN: f64 = 0.02;
+/// Share by which a number of the wall moves that was not known.
+const MOVED: f64 = 0.1;
+
+/// What was found in given windows.
+#[derive(Debug)]
+pub struct Found {
+    /// The answer.
+    pub verdict: Verdict,
+    /// The wall as it was given.
+    pub before: Tried,
+    /// Its uncertain numbers fitted.
+    pub recalibrated: Tried,
+    /// The wall of the answer.
+    pub after: Tried,
+    /// What cannot be told from it.
+    pub equivalent: Vec<String>,
+    /// Where a force is missing, when no law is named.
+    pub place: Option<&'static str>,
+    /// What speaks for another law than the best of the catalogue, where that closes the gap.
+    pub other_law: Option<OtherLaw>,
+    /// Everything tried, best first.
+    pub tried: Vec<Tried>,
+}
+
+impl Found {
+    /// The hypothesis whose wall is written: that of the answer, or the wall as given where there is none.
+    pub fn kept(&self) -> &Tried {
+        match self.verdict {
+            Verdict::Named | Verdict::Class | Verdict::Recalibrated => &self.after,
+            _ => &self.before,
+        }
+    }
+}
+
+/// A hypothesis that may be the answer.
+struct Answer {
+    verdict: Verdict,
+    after: Tried,
+    /// Names of what cannot be told from it.
+    equivalent: Vec<String>,
+}
+
+/// The verdict on what effects did to the windows one by one.
+pub fn judge<P: Progress>(trials: &Trials<P>, alone: Alone) -> Found {
+    let Alone { before, recalibrated, singles } = alone;
+    match joint_error(&before) {
+        Some(error) if !singles.is_empty() => Gap { trials, before, recalibrated, error }.judge(singles),
+        // Too little moves for anything to show.
+        _ => Found {
+            verdict: Verdict::NoPower,
+            recalibrated: before.clone(),
+            after: before.clone(),
+            before,
+            equivalent: Vec::new(),
+            place: None,
+            other_law: None,
+            tried: Vec::new(),
+        },
+    }
+}
+
+/// A gap between model and measurement, or none.
+struct Gap<'t, P> {
+    trials: &'t Trials<'t, P>,
+    before: Tried,
+    recalibrated: Tried,
+    /// Windowed error of the wall as given.
+    error: f64,
+}
+
+impl<P: Progress> Gap<'_, P> {
+    fn judge(self, singles: Vec<Tried>) -> Found {
+        let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.recalibrated, best));
+        if gain < WORTH_A_NAME {
+            if is_noise(&self.before) {
+                let verdict = if could_show(&self.trials.data, &self.recalibrated, &singles) {
+                    Verdict::None
+                } else {
+                    Verdict::NoPower
+                };
+                let after = self.before.clone();
+                return self.found(Answer { verdict, after, equivalent: Vec::new() }, singles);
+            }
+            if is_noise(&self.recalibrated) || closes(&self.recalibrated, self.error) {
+                return self.within_the_wall(singles);
+            }
+        }
+        self.with_effects(singles, gain)
+    }
+
+    /// One effect or two by name, or the place of what is missing.
+    fn with_effects(self, singles: Vec<Tried>, gain: f64) -> Found {
+        let singles = self.trials.with_imitations(self.trials.with_far_settled(singles), self.error);
+        let one = self.named(&singles, &self.recalibrated);
+        // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
+        let far = joint_error(&self.recalibrated).is_some_and(|error| error > HELD_OUT);
+        if one.is_none() && !far && gain <= WORTH_PAIRS {
+            return self.placed(None, singles);
+        }
+        let (answer, tried) = self.with_pairs(one, singles);
+        let Some(answer) = answer else { return self.placed(None, tried) };
+        let answer = Answer { after: self.trials.settled(answer.after), ..answer };
+        let other_law = OtherLaw::beside(&self.trials.data, &answer.after);
+        if other_law.speaks() {
+            return self.placed(Some(other_law), tried);
+        }
+        let tried = self.trials.ordered(tried);
+        Found { other_law: Some(other_law), ..self.found(answer, tried) }
+    }
+
+    /// The better of the answer among single effects and that among pairs, and everything tried.
+    fn with_pairs(&self, one: Option<Answer>, mut tried: Vec<Tried>) -> (Option<Answer>, Vec<Tried>) {
+        let trials = self.trials;
+        let best_single = |tried: &[Tried]| best_answer(tried).unwrap_or(&self.recalibrated).clone();
+        let pairs = trials.pairs(&tried, &best_single(&tried), &self.before, self.error, one.is_some());
+        let mut one = one;
+        // A pair of which one effect does nothing is the other alone, fitted better.
+        if let Some(pair) = pairs.first().filter(|pair| !does_something(pair)) {
+            tried = trials.ordered(tried.into_iter().map(|t| trials.better_part(t, pair)).collect());
+            one = self.named(&tried, &self.recalibrated);
+        }
+        let single = best_single(&tried);
+        let two = self.named(&pairs, &single).filter(|two| worth_two(&trials.data, &single, &two.after));
+        tried.extend(pairs);
+        (two.or(one), tried)
+    }
+
+    /// The best hypothesis that closes the gap, is an answer, and is worth its name beside a simpler one; with what cannot
+    /// be told from it.
+    fn named(&self, tried: &[Tried], simpler: &Tried) -> Option<Answer> {
+        let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
+        let best = best_answer(closing.iter().copied())?;
+        if self.gain(simpler, best) < WORTH_A_NAME {
+            return None;
+        }
+        // A number of the wall that does clearly better than every effect: a symptom, no answer.
+        let first = closing.first().filter(|t| kinds(t).is_none());
+        if first.is_some_and(|t| self.gain(best, t) > EQUIVALENT) {
+            return None;
+        }
+        let equivalent = self.equivalent(best, &closing);
+        let verdict = if equivalent.is_empty() { Verdict::Named } else { Verdict::Class };
+        Some(Answer { verdict, after: best.clone(), equivalent })
+    }
+
+    /// Names of the best and of what cannot be told from it; none if that is nothing.
+    fn equivalent(&self, best: &Tried, closing: &[&Tried]) -> Vec<String> {
+        let own = kinds(best);
+        let limit = against(&self.trials.data, best) + EQUIVALENT;
+        let as_good = |t: &&&Tried| against(&self.trials.data, t) < limit && kinds(t) != own;
+        let others = closing.iter().filter(as_good);
+        let others =
+            others.filter(|t| !t.hypothesis.additions.contains(&Addition::Placebo)).collect::<Vec<_>>();
+        let mut equivalent = Vec::new();
+        if !others.is_empty() {
+            for name in names(best).into_iter().chain(others.iter().flat_map(|t| names(t))) {
+                if !equivalent.contains(&name) {
+                    equivalent.push(name);
+                }
+            }
+        }
+        equivalent
+    }
+
+    /// A gap that the wall's own numbers close: an answer, unless what moved had not been known and effects do as well.
+    fn within_the_wall(self, singles: Vec<Tried>) -> Found {
+        let unknown = self.moved_unknown();
+        if !unknown.is_empty() {
+            let instead = self.effects_instead();
+            if let Some(answer) = self.as_good_as_the_wall(&instead, &unknown) {
+                return self.found(answer, instead);
+            }
+        }
+        let after = self.recalibrated.clone();
+        self.found(Answer { verdict: Verdict::Recalibrated, after, equivalent: Vec::new() }, singles)
+    }
+
+    /// Uncertain numbers of the wall that were not known and moved.
+    fn moved_unknown(&self) -> Vec<Nuisance> {
+        let Tried { hypothesis, fit, .. } = &self.recalibrated;
+        let moved = |nuisance: &&Nuisance| {
+            let key = match nuisance {
+                Nuisance::Number(number, _) => number.key.to_owned(),
+                Nuisance::Coefficient(l, _) => format!("C_{}", l + 1),
+            };
+            let found = hypothesis.unknowns.iter().zip(&fit.values).find(|(u, _)| u.key == key);
+            let change = found.map_or(0.0, |(u, value)| (value / u.start - 1.0).abs());
+            nuisance.is_wide() && change > MOVED
+        };
+        self.trials.experiment.nuisances.iter().filter(moved).copied().collect()
+    }
+
+    /// Effects in place of numbers of the wall, as if these were known.
+    fn effects_instead(&self) -> Vec<Tried> {
+        let known = |n: &Nuisance| match *n {
+            Nuisance::Number(number, sd) => Nuisance::Number(number, sd.min(KNOWN)),
+            Nuisance::Coefficient(l, sd) => Nuisance::Coefficient(l, sd.min(KNOWN)),
+        };
+        let Experiment { nuisances, wall, .. } = self.trials.experiment;
+        let nuisances = nuisances.iter().map(known).collect::<Vec<_>>();
+        // A second spring that hardly yields is the floor's own, by another name.
+        let other_law = |a: &Addition| a.role().is_some_and(|role| role != Role::Memory);
+        let sets = candidates(wall.parameters()).into_iter().filter(other_law).map(|a| vec![a]);
+        let what = "effects in place of what was not known";
+        self.trials.try_all(what, &nuisances, &[&self.before], &sets.collect::<Vec<_>>())
+    }
+
+    /// The class of an effect that does as well as numbers of the wall that were not known, and of these.
+    fn as_good_as_the_wall(&self, instead: &[Tried], unknown: &[Nuisance]) -> Option<Answer> {
+        let limit = against(&self.trials.data, &self.recalibrated) + EQUIVALENT;
+        let answer = self.named(instead, &self.before)?;
+        if against(&self.trials.data, &answer.after) >= limit {
+            return None;
+        }
+        let mut equivalent = answer.equivalent;
+        if equivalent.is_empty() {
+            equivalent = names(&answer.after);
+        }
+        equivalent.extend(unknown.iter().map(|n| match n {
+            Nuisance::Number(number, _) => name_of_number(number),
+            Nuisance::Coefficient(..) => EffectKind::ImpactDissipation.name().to_owned(),
+        }));
+        equivalent.dedup();
+        Some(Answer { verdict: Verdict::Class, after: answer.after, equivalent })
+    }
+
+    /// No law of the catalogue follows, but where the force is missing may show.
+    fn placed(self, other_law: Option<OtherLaw>, tried: Vec<Tried>) -> Found {
+        // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
+        let measured = || {
+            let physics = self.before.hypothesis.physics(&self.before.fit.values)?;
+            acts_at_top(&force_points(&self.trials.experiment.tests, &physics)).then_some("top")
+        };
+        let place = measured().or_else(|| place(&self.trials.data, &self.recalibrated, &tried));
+        let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
+        let tried = self.trials.ordered(tried);
+        let after = self.recalibrated.clone();
+        let answer = Answer { verdict, after, equivalent: Vec::new() };
+        Found { place, other_law, ..self.found(answer, tried) }
+    }
+
+    /// What one hypothesis gains over another.
+    fn gain(&self, over: &Tried, of: &Tried) -> f64 {
+        against(&self.trials.data, over) - against(&self.trials.data, of)
+    }
+
+    fn found(self, Answer { verdict, after, equivalent }: Answer, tried: Vec<Tried>) -> Found {
+        let Self { before, recalibrated, .. } = self;
+        Found { verdict, before, recalibrated, after, equivalent, place: None, other_law: None, tried }
+    }
+}

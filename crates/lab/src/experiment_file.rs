@@ -1,0 +1,316 @@
+//! Experiment files (TOML): the wall, what was known before, the tests, and how to calibrate.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use mrbd_files::error::{InputError, Result};
+use mrbd_files::toml_file;
+use mrbd_kernel::model::ImpactLaw;
+
+/// An experiment file as written; its paths are relative to its folder.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExperimentFile {
+    /// Wall file.
+    pub wall: PathBuf,
+    /// Relative standard deviations of what was known before, by key of the wall file.
+    #[serde(default)]
+    pub prior: BTreeMap<String, f64>,
+    /// How to calibrate.
+    #[serde(default)]
+    pub calibrate: CalibrateTable,
+    /// The tests.
+    pub tests: Vec<TestTable>,
+}
+
+/// `[calibrate]`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CalibrateTable {
+    /// Seed of every random number.
+    pub seed: u64,
+    /// Impact law; absent: the wall's.
+    pub law: Option<ImpactLaw>,
+    /// Capture velocity, rad/s; absent: the wall's.
+    pub capture_velocity_rad_s: Option<f64>,
+    /// Accuracy of the simulations.
+    pub tolerance: f64,
+    /// File of bounds of C_1 … C_8; absent: Table 2 of the source.
+    pub coefficients: Option<PathBuf>,
+    /// What to calibrate; absent: C_1 … C_8.
+    pub parameters: Vec<ParameterTable>,
+    /// Vectors in a generation of the paper's search.
+    pub population: usize,
+    /// The sum of WME has settled when it falls by less than this share ...
+    pub settle_share: f64,
+    /// ... over this many generations.
+    pub settle_generations: usize,
+    /// Generations after which the paper's search ends anyway.
+    pub most_generations: u32,
+    /// Vectors of a second joint search from another beginning, beyond the comparison at equal numbers of simulations.
+    pub refine_vectors: usize,
+    /// Capture velocities at which the joint search is repeated, rad/s; empty: none.
+    pub capture_study_rad_s: Vec<f64>,
+    /// Bootstrap replicates behind the intervals.
+    pub replicates: usize,
+}
+
+impl Default for CalibrateTable {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            law: None,
+            capture_velocity_rad_s: None,
+            tolerance: 1e-6,
+            coefficients: None,
+            parameters: Vec::new(),
+            population: 21,
+            settle_share: 1e-3,
+            settle_generations: 5,
+            most_generations: 60,
+            refine_vectors: 2500,
+            capture_study_rad_s: vec![1e-4, 1e-3, 1e-2],
+            replicates: 1000,
+        }
+    }
+}
+
+/// `[[calibrate.parameters]]`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ParameterTable {
+    /// `C_1` … `C_8`, `restitution` for all of them, `corner_widths` for both, or a key of the wall file.
+    pub key: String,
+    /// Lower bound; absent: Table 2 for C_l, three prior standard deviations for the rest.
+    pub lower: Option<f64>,
+    /// Upper bound.
+    pub upper: Option<f64>,
+}
+
+/// `[[tests]]`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TestTable {
+    /// Name in results.
+    pub name: String,
+    /// Horizontal record of the table.
+    pub record: PathBuf,
+    /// Time between samples of records that do not tell it, s.
+    pub record_step_s: Option<f64>,
+    /// Factor on the record.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Vertical record of the table, at the same step; absent: none.
+    pub vertical: Option<PathBuf>,
+    /// Factor on the vertical record; absent: that on the horizontal one.
+    pub vertical_scale: Option<f64>,
+    /// Measured channels (CSV).
+    pub measured: PathBuf,
+    /// Whether the search sees the test.
+    #[serde(default, rename = "use")]
+    pub purpose: Purpose,
+    /// Time of the record at which the measured time is zero, s, or `"match"`: found from the first motion.
+    #[serde(default)]
+    pub start_s: StartTime,
+    /// The first seconds of the measurement, at rest, whose mean is taken off every channel; 0: nothing is.
+    #[serde(default)]
+    pub rest_s: f64,
+    /// Samples farther apart than this leave a gap; absent: 2.5 times their median distance, s.
+    pub gap_s: Option<f64>,
+    /// Stretches of the record's time that count in the misfit, s; empty: everything measured.
+    #[serde(default)]
+    pub windows_s: Vec<[f64; 2]>,
+    /// When the wall collapsed, in the record's time, s; absent: when a rotation passes its collapse rotation.
+    pub collapse_s: Option<f64>,
+    /// Reading of a displacement of the lower body, from which θ_1 follows.
+    pub lower_reading: Option<Reading>,
+    /// Reading of a displacement of the upper body, from which θ_2 follows.
+    pub upper_reading: Option<Reading>,
+}
+
+/// When a measurement started.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StartTime {
+    /// Time of the record at which the measured time is zero, s.
+    Given(f64),
+    /// Where the first simulated motion fits best.
+    Match,
+}
+
+impl Default for StartTime {
+    fn default() -> Self {
+        StartTime::Given(0.0)
+    }
+}
+
+impl<'de> Deserialize<'de> for StartTime {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> std::result::Result<Self, D::Error> {
+        let refuse = |found: String| {
+            serde::de::Error::custom(format!("start_s: found {found}, allowed: finite seconds, or \"match\""))
+        };
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::Float(start_s) if start_s.is_finite() => Ok(StartTime::Given(start_s)),
+            toml::Value::Integer(start_s) => Ok(StartTime::Given(start_s as f64)),
+            toml::Value::String(word) if word == "match" => Ok(StartTime::Match),
+            other => Err(refuse(other.to_string())),
+        }
+    }
+}
+
+/// A horizontal displacement relative to the table, m.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Reading {
+    /// Column of the measured file.
+    pub column: String,
+    /// Height of the reading above the base of the wall, m.
+    pub height_m: f64,
+}
+
+/// Whether the search sees a test.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Purpose {
+    /// It does.
+    #[default]
+    Fit,
+    /// It does not; its misfit shows how the result predicts.
+    HoldOut,
+}
+
+impl Purpose {
+    /// Name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Purpose::Fit => "fit",
+            Purpose::HoldOut => "hold-out",
+        }
+    }
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+impl ExperimentFile {
+    /// Reads and checks an experiment file; the files it names are not opened.
+    ///
+    /// # Errors
+    /// Input errors that name the file, the key, what was found and what is allowed.
+    pub fn load(path: &Path) -> Result<Self> {
+        Self::parse(path, &toml_file::read(path)?)
+    }
+
+    /// Checks the text of an experiment file that came from `path`.
+    ///
+    /// # Errors
+    /// As [`ExperimentFile::load`].
+    pub fn parse(path: &Path, text: &str) -> Result<Self> {
+        let file: Self = toml_file::parse(path, text)?;
+        file.check(path)?;
+        Ok(file)
+    }
+
+    fn check(&self, path: &Path) -> Result<(), InputError> {
+        let refuse =
+            |key: String, found: String, allowed: &str| Err(InputError::key(path, key, found, allowed));
+        for (key, sd) in &self.prior {
+            if !(sd.is_finite() && *sd > 0.0) {
+                return refuse(
+                    format!("prior.{key}"),
+                    sd.to_string(),
+                    "a relative standard deviation above 0",
+                );
+            }
+        }
+        if !self.tests.iter().any(|test| test.purpose == Purpose::Fit) {
+            return refuse("tests".into(), "no test to fit".into(), "at least one test with use = \"fit\"");
+        }
+        for (i, test) in self.tests.iter().enumerate() {
+            test.check(path, i)?;
+            if self.tests[..i].iter().any(|other| other.name == test.name) {
+                return refuse(
+                    format!("tests[{i}].name"),
+                    format!("{:?} again", test.name),
+                    "each name once",
+                );
+            }
+        }
+        self.calibrate.check(path)
+    }
+}
+
+impl CalibrateTable {
+    fn check(&self, path: &Path) -> Result<(), InputError> {
+        let require = |key: &str, found: String, holds: bool, allowed: &str| {
+            let error = || InputError::key(path, format!("calibrate.{key}"), found, allowed);
+            if holds { Ok(()) } else { Err(error()) }
+        };
+        let tolerance_holds = (1e-12..=1e-2).contains(&self.tolerance);
+        require("tolerance", self.tolerance.to_string(), tolerance_holds, "1e-12 to 1e-2")?;
+        let population_holds = (5..=10_000).contains(&self.population);
+        require("population", self.population.to_string(), population_holds, "5 to 10000")?;
+        let share_holds = (0.0..1.0).contains(&self.settle_share);
+        require("settle_share", self.settle_share.to_string(), share_holds, "0 or more, below 1")?;
+        let generations = self.settle_generations;
+        require("settle_generations", generations.to_string(), generations >= 1, "1 or more")?;
+        require(
+            "most_generations",
+            self.most_generations.to_string(),
+            self.most_generations >= 1,
+            "1 or more",
+        )?;
+        let replicates_hold = (20..=100_000).contains(&self.replicates);
+        require("replicates", self.replicates.to_string(), replicates_hold, "20 to 100000")?;
+        let velocity_holds = |v: &f64| v.is_finite() && *v >= 0.0;
+        let capture_holds = self.capture_study_rad_s.iter().all(velocity_holds);
+        let found = format!("{:?}", self.capture_study_rad_s);
+        require("capture_study_rad_s", found, capture_holds, "finite numbers, 0 or more")?;
+        let capture = self.capture_velocity_rad_s;
+        let found = format!("{capture:?}");
+        require(
+            "capture_velocity_rad_s",
+            found,
+            capture.iter().all(velocity_holds),
+            "a finite number, 0 or more",
+        )
+    }
+}
+
+impl TestTable {
+    fn check(&self, path: &Path, index: usize) -> Result<(), InputError> {
+        let require = |key: &str, found: String, holds: bool, allowed: &str| {
+            let error = || InputError::key(path, format!("tests[{index}].{key}"), found, allowed);
+            if holds { Ok(()) } else { Err(error()) }
+        };
+        require("name", format!("{:?}", self.name), !self.name.trim().is_empty(), "a name")?;
+        require("scale", self.scale.to_string(), self.scale.is_finite(), "a finite number")?;
+        let vertical_scale = self.vertical_scale;
+        let holds = vertical_scale.is_none_or(|x| x.is_finite() && self.vertical.is_some());
+        require(
+            "vertical_scale",
+            format!("{vertical_scale:?}"),
+            holds,
+            "a finite number, beside a vertical record",
+        )?;
+        let rest_holds = self.rest_s.is_finite() && self.rest_s >= 0.0;
+        require("rest_s", self.rest_s.to_string(), rest_holds, "a finite number of seconds, 0 or more")?;
+        let gap_holds = self.gap_s.is_none_or(|gap| gap.is_finite() && gap > 0.0);
+        require("gap_s", format!("{:?}", self.gap_s), gap_holds, "a finite number of seconds above 0")?;
+        let collapse_holds = self.collapse_s.is_none_or(|s| s.is_finite() && s > 0.0);
+        require("collapse_s", format!("{:?}", self.collapse_s), collapse_holds, "a finite number above 0")?;
+        for window in &self.windows_s {
+            let holds = window[0].is_finite() && window[1].is_finite() && window[0] < window[1];
+            require("windows_s", format!("{window:?}"), holds, "pairs [from, to] with from < to, s")?;
+        }
+        let ordered = self.windows_s.windows(2).all(|pair| pair[0][1] <= pair[1][0]);
+        require(
+            "windows_s",
+            format!("{:?}", self.windows_s),
+            ordered,
+            "stretches in order that do not overlap",
+        )
+    }
+}

@@ -1,0 +1,7 @@
+//! Statistics that more than one part of the project needs: order statistics, the normal distribution where its tails matter,
+//! correlations.
+
+pub mod normal;
+mod order;
+
+pub use order::{correlation, quantile};

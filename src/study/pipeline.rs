@@ -1,0 +1,196 @@
+//! The pipeline file: which study to run, over which records, under which assumptions.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::study_table::StudyTables;
+pub use super::study_table::{Cloud, Drawn, Incremental, Kind, Limit, Loading, Stripes, Study};
+pub use super::sweep_table::{Parameter, ParameterLists, SweepTable};
+use crate::error::{InputError, Result};
+use crate::survey::Configuration;
+use crate::survey::sampling::Sampling;
+use crate::survey::{Assumptions, Changes};
+use mrbd_files::toml_file;
+
+/// A named set of assumptions under which the whole study is run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Variant {
+    /// Name in results and tables.
+    pub name: String,
+    /// What it assumes.
+    pub assumptions: Assumptions,
+}
+
+/// A pipeline file, checked; its paths are resolved against its folder.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pipeline {
+    /// The file.
+    pub path: PathBuf,
+    /// Its text, as read.
+    pub text: String,
+    /// Name of the study, and of its output folder.
+    pub name: String,
+    /// Survey of the façades.
+    pub survey: PathBuf,
+    /// Coefficients C_l.
+    pub coefficients: PathBuf,
+    /// Suite of records.
+    pub suite: PathBuf,
+    /// Kind of the study.
+    pub kind: Kind,
+    /// Which façades, and how strongly they are shaken.
+    pub study: Study,
+    /// Assumptions to run it under, the one to compare with first; never empty.
+    pub variants: Vec<Variant>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PipelineFile {
+    name: String,
+    survey: PathBuf,
+    coefficients: PathBuf,
+    suite: PathBuf,
+    #[serde(default)]
+    assumptions: Changes,
+    variants: Vec<VariantTable>,
+    #[serde(default)]
+    kind: Kind,
+    sweep: Option<SweepTable>,
+    configurations: Option<Vec<Configuration>>,
+    sampling: Option<Sampling>,
+    cloud: Option<Cloud>,
+    stripes: Option<Stripes>,
+    incremental: Option<Incremental>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct VariantTable {
+    name: String,
+    #[serde(default)]
+    set: Changes,
+}
+
+impl Pipeline {
+    /// Reads and checks a pipeline file; the files it names are not opened.
+    ///
+    /// # Errors
+    /// Input errors that name the file, the key, what was found and what is allowed.
+    pub fn load(path: &Path) -> Result<Self> {
+        Self::parse(path, toml_file::read(path)?)
+    }
+
+    /// Checks the text of a pipeline file that came from `path`.
+    ///
+    /// # Errors
+    /// As [`Pipeline::load`].
+    pub fn parse(path: &Path, text: String) -> Result<Self> {
+        let file: PipelineFile = toml_file::parse(path, &text)?;
+        check_name(path, &file.name)?;
+        let beside = |name: PathBuf| path.parent().unwrap_or(Path::new("")).join(name);
+        let variants = variants(path, file.assumptions, file.variants)?;
+        let tables = StudyTables {
+            sweep: file.sweep,
+            configurations: file.configurations,
+            sampling: file.sampling,
+            cloud: file.cloud,
+            stripes: file.stripes,
+            incremental: file.incremental,
+        };
+        let study = tables.study(path, file.kind, &variants)?;
+        Ok(Self {
+            path: path.to_path_buf(),
+            text,
+            name: file.name,
+            survey: beside(file.survey),
+            coefficients: beside(file.coefficients),
+            suite: beside(file.suite),
+            kind: file.kind,
+            study,
+            variants,
+        })
+    }
+}
+
+/// Refuses a name that is no folder's.
+pub(crate) fn check_name(path: &Path, name: &str) -> Result<()> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if name.is_empty() || !name.chars().all(plain) {
+        let allowed = "letters, digits, - and _: the output folder is named after it";
+        return Err(InputError::key(path, "name", format!("{name:?}"), allowed).into());
+    }
+    Ok(())
+}
+
+fn variants(path: &Path, common: Changes, tables: Vec<VariantTable>) -> Result<Vec<Variant>> {
+    let common = common.onto(&Assumptions::default());
+    common.check(path, "assumptions")?;
+    if tables.is_empty() {
+        return Err(InputError::key(path, "variants", "an empty list", "at least one variant").into());
+    }
+    let mut names = BTreeSet::new();
+    let mut variants = Vec::with_capacity(tables.len());
+    for (index, table) in tables.into_iter().enumerate() {
+        let key = format!("variants[{index}]");
+        if table.name.is_empty() || !names.insert(table.name.clone()) {
+            let found = format!("{:?}", table.name);
+            return Err(InputError::key(path, format!("{key}.name"), found, "a name, each once").into());
+        }
+        let assumptions = table.set.onto(&common);
+        assumptions.check(path, &format!("{key}.set"))?;
+        variants.push(Variant { name: table.name, assumptions });
+    }
+    Ok(variants)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mrbd_kernel::model::ImpactLaw;
+
+    const SWEEP: &str = include_str!("../../pipelines/sweep.toml");
+
+    fn parse(text: &str) -> Result<Pipeline> {
+        Pipeline::parse(Path::new("pipelines/sweep.toml"), text.to_owned())
+    }
+
+    #[test]
+    fn published_sweep_has_the_six_parameters_of_both_configurations() {
+        let pipeline = parse(SWEEP).expect("the repository's own pipeline");
+        let Study::Sweep(sweep) = &pipeline.study else { panic!("a sweep") };
+        assert_eq!(sweep.slenderness, (4..=12).map(|i| f64::from(2 * i)).collect::<Vec<_>>());
+        assert_eq!(sweep.parameters(Configuration::Perpendicular).len(), 6);
+        assert!(sweep.parameters(Configuration::Parallel).contains(&Parameter::CarriageMass));
+        assert_eq!(pipeline.survey, Path::new("pipelines/../inputs/survey.toml"));
+    }
+
+    #[test]
+    fn regress_variants_change_only_the_keys_they_name() {
+        let pipeline = parse(SWEEP).expect("the repository's own pipeline");
+        let base = &pipeline.variants[0].assumptions;
+        assert_eq!(*base, Assumptions::default());
+        let contact = &pipeline.variants[1].assumptions;
+        assert_eq!(*contact, Assumptions { law: ImpactLaw::Contact, ..base.clone() });
+    }
+
+    #[test]
+    fn rejects_faults_with_their_key() {
+        let refused = |from: &str, to: &str| {
+            let text = SWEEP.replacen(from, to, 1);
+            assert_ne!(text, SWEEP, "the test must change the file");
+            parse(&text).expect_err("must be refused").to_string()
+        };
+        assert!(refused("name = \"sweep\"", "name = \"../x\"").contains(": name: found \"../x\""));
+        assert!(refused("8.0, 10.0", "10.0, 8.0").contains("sweep.slenderness"));
+        assert!(refused("\"thickness\", ", "\"thickness\", \"thickness\", ").contains("each parameter once"));
+        assert!(refused("\"strength\"", "\"strenght\"").contains("strenght"));
+        assert!(refused("length_m = 1.0", "length_m = -1.0").contains("assumptions.length_m: found -1"));
+        assert!(refused("length_m = 2.0", "length_m = inf").contains("variants[3].set.length_m: found inf"));
+        assert!(refused("name = \"contact\"", "name = \"base\"").contains("variants[1].name"));
+        assert!(refused("tail_s = 5.0", "tail = 5.0").contains("tail"));
+        assert!(refused("tolerance = 1e-6", "tolerance = 0.0").contains("assumptions.tolerance"));
+    }
+}

@@ -1,0 +1,138 @@
+//! Façades drawn from the survey: the configuration varies slowest, then the intensity or the limit, and fastest the draw.
+//!
+//! Both configurations, all intensities and all variants have the same draws, so that what differs between them is not
+//! chance. A façade that no wall is stays in the list, and fails.
+
+use std::path::Path;
+
+use super::id::Fingerprint;
+use super::run::{Growth, Origin, Scaling};
+use super::setting::Setting;
+use crate::error::{InputError, Result};
+use crate::study::pipeline::{Drawn, Loading, Pipeline};
+use crate::survey::Assumptions;
+use crate::survey::sampling::{FacadeSampler, Refused, Variable};
+use crate::survey::{Configuration, Survey};
+use mrbd_records::{Suite, SuiteRecord};
+
+/// The settings of a study of drawn façades.
+#[derive(Debug, Clone)]
+pub(super) struct DrawnFacades {
+    samplers: Vec<(Configuration, FacadeSampler)>,
+    coefficients: [f64; 8],
+    drawn: Drawn,
+}
+
+impl DrawnFacades {
+    /// Settings of a pipeline's study.
+    ///
+    /// # Errors
+    /// Input errors for distributions, truncations or correlations that cannot be, and for records that cannot be scaled.
+    pub fn new(
+        pipeline: &Pipeline,
+        drawn: &Drawn,
+        survey: &Survey,
+        coefficients: [f64; 8],
+        suite: &Suite,
+    ) -> Result<Self> {
+        let sampler = |&configuration: &Configuration| {
+            let sampler = FacadeSampler::new(survey, configuration, &drawn.sampling);
+            Ok((configuration, sampler.map_err(|refused| placed(refused, pipeline))?))
+        };
+        let samplers = drawn.configurations.iter().map(sampler).collect::<Result<_>>()?;
+        check_scalable(&pipeline.path, &drawn.loading, suite)?;
+        Ok(Self { samplers, coefficients, drawn: drawn.clone() })
+    }
+
+    /// Number of settings.
+    pub fn len(&self) -> u64 {
+        self.drawn.runs_per_draw() as u64 * self.drawn.sampling.count
+    }
+
+    /// The setting at a position below [`DrawnFacades::len`], under the record at `record_index` of the suite.
+    pub fn at(&self, position: u64, record_index: usize, assumptions: &Assumptions) -> Setting {
+        let count = self.drawn.sampling.count;
+        let (draw, rest) = (position % count, (position / count) as usize);
+        let (configuration, sampler) = &self.samplers[rest / self.drawn.loading.strata()];
+        Setting {
+            configuration: *configuration,
+            origin: Origin::Draw(draw),
+            facade: sampler.facade(draw, assumptions),
+            coefficients: self.coefficients,
+            scaling: self.scaling(rest % self.drawn.loading.strata(), || sampler.further(draw, record_index)),
+        }
+    }
+
+    /// Probability that truncations took from each variable, by configuration: those above 0.
+    pub fn truncated(&self) -> Vec<(Configuration, Variable, f64)> {
+        let of = |(configuration, sampler): &(Configuration, FacadeSampler)| {
+            let cut = Variable::ALL
+                .map(|variable| (*configuration, variable, sampler.marginal(variable).cut_probability()));
+            cut.into_iter().filter(|(_, _, probability)| *probability > 0.0).collect::<Vec<_>>()
+        };
+        self.samplers.iter().flat_map(of).collect()
+    }
+
+    /// Adds what decides the list to a hash: what is asked for, and the first draws that came of it.
+    pub fn hashed(&self, hash: Fingerprint, ids: impl Iterator<Item = String>) -> Fingerprint {
+        // Numbers and texts always serialise.
+        let asked = serde_json::to_string(&self.drawn).unwrap_or_default();
+        let hash = hash.text("drawn", &asked).numbers("coefficients", &self.coefficients);
+        let hash = self.samplers.iter().fold(hash, |hash, (configuration, sampler)| {
+            let distributions = Variable::ALL.map(|variable| sampler.marginal(variable));
+            hash.text(configuration.name(), &format!("{distributions:?}"))
+        });
+        ids.fold(hash, |hash, id| hash.text("run", &id))
+    }
+
+    /// What was asked for.
+    pub fn drawn(&self) -> &Drawn {
+        &self.drawn
+    }
+
+    fn scaling(&self, stratum: usize, uniform: impl Fn() -> f64) -> Scaling {
+        match &self.drawn.loading {
+            Loading::OwnScale => Scaling::Factor(1.0),
+            Loading::Cloud(cloud) => {
+                let [from, to] = [cloud.from, cloud.to].map(f64::ln);
+                Scaling::Factor((from + (to - from) * uniform()).exp())
+            }
+            Loading::Stripes(stripes) => Scaling::To(stripes.measure, stripes.levels[stratum]),
+            Loading::Incremental(of) => Scaling::Growing(Growth {
+                limit: of.limits[stratum],
+                measure: of.measure,
+                range: [of.from, of.to],
+                growth: of.growth,
+                bracket: of.bracket,
+            }),
+        }
+    }
+}
+
+/// A fault of the sampling where it stands: in the pipeline or in the survey.
+fn placed(refused: Refused, pipeline: &Pipeline) -> InputError {
+    match refused.key.starts_with("sampling.") {
+        true => refused.at(&pipeline.path),
+        false => refused.at(&pipeline.survey),
+    }
+}
+
+/// A record without motion has no factor to an intensity.
+fn check_scalable(path: &Path, loading: &Loading, suite: &Suite) -> Result<()> {
+    let (key, measure) = match loading {
+        Loading::OwnScale | Loading::Cloud(_) => return Ok(()),
+        Loading::Stripes(stripes) => ("stripes.measure", stripes.measure),
+        Loading::Incremental(incremental) => ("incremental.measure", incremental.measure),
+    };
+    let still = |record: &&SuiteRecord| {
+        let value = measure.of(&record.intensity);
+        !(value.is_finite() && value > 0.0)
+    };
+    match suite.records.iter().find(still) {
+        None => Ok(()),
+        Some(record) => {
+            let found = format!("{} of record {:?}, which is not above 0", measure.name(), record.name);
+            Err(InputError::key(path, key, found, "records that can be scaled to an intensity").into())
+        }
+    }
+}

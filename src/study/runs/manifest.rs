@@ -1,0 +1,226 @@
+//! Where a study's results come from, written before the first result.
+
+use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use super::schema::SCHEMA_VERSION;
+use crate::error::{Error, InputError, Result};
+use crate::store::durable::{folder_of, write_durably, write_durably_if_absent};
+use crate::study::pipeline::{Kind, Pipeline, Variant};
+use crate::study::plan::{Plan, RecordHash};
+use mrbd_files::FileNote;
+use mrbd_kernel::model::G_M_S2;
+use mrbd_records::SuiteRecord;
+use serde::{Deserialize, Serialize};
+
+/// Provenance of an output folder: tool, plan, inputs, assumptions.
+///
+/// `kind` tells what the runs are; readers choose by it. `sweep`: the mean façade, one parameter at a time. The others are
+/// of façades drawn from the survey, with a `draw` for each run and neither `parameter` nor `level`: `monte_carlo` under
+/// the records as the suite has them, `cloud` each run at a `factor` of its own, `stripes` at intensities that were chosen
+/// (columns `intensity_measure`, `intensity`), `incremental` at the intensity that first exceeds a `limit`
+/// (`limit_exceeded`, `stood_intensity`). What was asked for stands in `study`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Version of the program.
+    pub tool_version: String,
+    /// Version of the columns.
+    pub schema_version: u32,
+    /// Kind of the study.
+    pub kind: Kind,
+    /// Name of the study.
+    pub plan: String,
+    /// SHA-256 of the list of runs.
+    pub plan_sha256: String,
+    /// Number of runs.
+    pub runs: u64,
+    /// Runs stored at once: how the plan is cut into blocks.
+    pub block_runs: u64,
+    /// Seed of random draws; none where nothing is drawn.
+    pub seed: Option<u64>,
+    /// What is drawn: configurations, sampling, loading, and the probability that each truncation took; null for a sweep.
+    pub study: serde_json::Value,
+    /// The records.
+    pub suite: SuiteNote,
+    /// Files that were read, with their hashes.
+    pub inputs: Vec<FileNote>,
+    /// Acceleration of gravity, m/s².
+    pub gravity_m_s2: f64,
+    /// Assumptions, by variant.
+    pub variants: serde_json::Value,
+    /// When the run began, seconds since 1970.
+    pub started_unix_s: u64,
+}
+
+/// A suite of records.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SuiteNote {
+    /// Its name.
+    pub name: String,
+    /// Whether its records are generated rather than recorded.
+    pub generated: bool,
+    /// Its records.
+    pub records: Vec<RecordNote>,
+}
+
+/// One record as it was run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RecordNote {
+    /// Its name.
+    pub name: String,
+    /// Its event.
+    pub event: String,
+    /// Factor it was scaled by.
+    pub scale: f64,
+    /// SHA-256 of its samples after scaling.
+    pub sha256: String,
+    /// The same of its vertical component, if it has one.
+    pub vertical_sha256: Option<String>,
+}
+
+impl Manifest {
+    /// The manifest of a plan stored in blocks of `block_runs`, begun now; `suite_path` is the suite file that was read.
+    ///
+    /// # Errors
+    /// Input errors if an input file is gone.
+    pub fn of(plan: &Plan, pipeline: &Pipeline, suite_path: &Path, block_runs: u64) -> Result<Self> {
+        let files = [
+            ("pipeline", pipeline.path.as_path()),
+            ("survey", &pipeline.survey),
+            ("coefficients", &pipeline.coefficients),
+            ("suite", suite_path),
+        ];
+        let variants: Vec<&Variant> = plan.variants().collect();
+        Ok(Self {
+            tool_version: env!("CARGO_PKG_VERSION").to_owned(),
+            schema_version: SCHEMA_VERSION,
+            kind: plan.kind(),
+            plan: plan.name().to_owned(),
+            plan_sha256: plan.sha256(),
+            runs: plan.len(),
+            block_runs,
+            seed: plan.drawn().map(|drawn| drawn.sampling.seed),
+            study: study_note(plan),
+            suite: SuiteNote::of(plan),
+            inputs: files
+                .into_iter()
+                .map(|(role, path)| FileNote::of(role, path))
+                .collect::<Result<_, _>>()?,
+            gravity_m_s2: G_M_S2,
+            variants: serde_json::json!(variants),
+            started_unix_s: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+        })
+    }
+
+    /// Whether a file is a manifest of this tool, of whatever version; not where there is none.
+    ///
+    /// # Errors
+    /// An input error for a file that is something else.
+    pub fn is_any_version(path: &Path) -> Result<bool> {
+        let bytes = match std::fs::read(path) {
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(false),
+            read => read.map_err(|e| Error::io("read", path, e))?,
+        };
+        let manifest = serde_json::from_slice::<serde_json::Value>(&bytes).unwrap_or_default();
+        if manifest["plan_sha256"].is_string() && manifest["tool_version"].is_string() {
+            return Ok(true);
+        }
+        Err(InputError::file(path, "no manifest of a study", "the manifest of a study").into())
+    }
+
+    /// Reads a manifest; none where there is none.
+    ///
+    /// # Errors
+    /// An input error for a file that is no manifest.
+    pub fn read(path: &Path) -> Result<Option<Self>> {
+        match std::fs::read(path) {
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(e) => Err(Error::io("read", path, e)),
+            Ok(bytes) => Self::parse(path, &bytes).map(Some),
+        }
+    }
+
+    fn parse(path: &Path, bytes: &[u8]) -> Result<Self> {
+        let refuse = |found: String, allowed: String| InputError::file(path, found, allowed).into();
+        let broken = |e: serde_json::Error| refuse(e.to_string(), "the manifest of a study".to_owned());
+        let value: serde_json::Value = serde_json::from_slice(bytes).map_err(broken)?;
+        match value["schema_version"].as_u64() {
+            Some(version) if version != u64::from(SCHEMA_VERSION) => {
+                let by = value["tool_version"].as_str().unwrap_or("another version");
+                let found = format!("results with columns of version {version}, written by mrbd {by}");
+                let allowed =
+                    format!("columns of version {SCHEMA_VERSION}: run the study again with --force");
+                Err(refuse(found, allowed))
+            }
+            _ => serde_json::from_value(value).map_err(broken),
+        }
+    }
+
+    /// Writes it.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the disk refuses.
+    pub fn write(&self, path: &Path) -> Result<()> {
+        write_durably(path, self.text(path).as_bytes())
+    }
+
+    /// Writes it unless another process did first; whether this one wrote.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the disk refuses.
+    pub(super) fn write_if_absent(&self, path: &Path) -> Result<bool> {
+        write_durably_if_absent(path, self.text(path).as_bytes())
+    }
+
+    fn text(&self, path: &Path) -> String {
+        let folder = folder_of(path);
+        let inputs = self.inputs.iter().map(|note| note.clone().seen_from(folder)).collect();
+        format!("{:#}\n", serde_json::json!(Manifest { inputs, ..self.clone() }))
+    }
+
+    /// What every Parquet file of the study says about itself: no times, so that equal studies give equal bytes.
+    pub fn file_metadata(&self) -> Vec<(String, String)> {
+        let pair = |key: &str, value: String| (format!("mrbd.{key}"), value);
+        vec![
+            pair("tool_version", self.tool_version.clone()),
+            pair("schema_version", self.schema_version.to_string()),
+            pair("kind", self.kind.name().to_owned()),
+            pair("plan", self.plan.clone()),
+            pair("plan_sha256", self.plan_sha256.clone()),
+            pair("seed", self.seed.map_or("none".to_owned(), |seed| seed.to_string())),
+            pair("study", self.study.to_string()),
+            pair("suite", self.suite.name.clone()),
+            pair("suite_generated", self.suite.generated.to_string()),
+            pair("gravity_m_s2", self.gravity_m_s2.to_string()),
+            pair("variants", self.variants.to_string()),
+        ]
+    }
+}
+
+/// What is drawn, and what truncations took of it.
+fn study_note(plan: &Plan) -> serde_json::Value {
+    let Some(drawn) = plan.drawn() else { return serde_json::Value::Null };
+    let mut note = serde_json::json!(drawn);
+    for (configuration, variable, probability) in plan.truncated() {
+        note["truncated_probability"][configuration.name()][variable.name()] = probability.into();
+    }
+    note
+}
+
+impl SuiteNote {
+    fn of(plan: &Plan) -> Self {
+        let motions = plan.motions();
+        let record = |(record, hash): (&SuiteRecord, &RecordHash)| RecordNote {
+            name: record.name.clone(),
+            event: record.event.clone(),
+            scale: record.scale,
+            sha256: hash.horizontal.clone(),
+            vertical_sha256: hash.vertical.clone(),
+        };
+        Self {
+            name: motions.suite.name.clone(),
+            generated: motions.suite.generated,
+            records: motions.suite.records.iter().zip(&motions.hashes).map(record).collect(),
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! The folder of a study: Parquet files with one row a run, and where they came from.
+
+mod folder;
+mod manifest;
+mod manifest_differences;
+mod parts;
+mod schema;
+
+pub use folder::{Earlier, OutputFolder};
+pub use manifest::{Manifest, RecordNote, SuiteNote};
+pub use parts::{RunFile, listed_run_files, run_files};
+pub use schema::{COLUMNS, SCHEMA_VERSION};

@@ -1,0 +1,302 @@
+//! The files of runs in an output folder: blocks as they are finished, and one file a record in the end.
+//!
+//! ```text
+//! blocks/record=<name>/block-<index>-<checksum>.parquet    while a record is unfinished
+//! runs/record=<name>/part-1.parquet                        afterwards
+//! checksums.json                                           SHA-256 of the latter
+//! ```
+//!
+//! A record's part counts only once its checksum is on the disk; until then its blocks do.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+
+use super::folder::{OutputFolder, as_folder_name};
+use super::schema::COLUMNS;
+use crate::error::{Error, InputError, Result};
+use crate::store::column::Column;
+use crate::store::durable::{UNFINISHED, write_durably};
+use crate::store::parquet_file::{Pages, ParquetFile};
+use crate::study::batch::Finished;
+use mrbd_files::checksum::sha256;
+
+/// Digits of a checksum in a file's name: a damaged file passes once in 10¹⁹.
+const DIGITS: usize = 16;
+
+/// Rows read at once when blocks are put together: more than any block of a sensible size has.
+const ROWS_AT_ONCE: usize = 1 << 16;
+
+/// A file of runs and what its SHA-256 must begin with.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RunFile {
+    /// The file.
+    pub path: PathBuf,
+    checksum: String,
+}
+
+impl RunFile {
+    /// Whether the file is there and holds what was written.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if it is there and cannot be read.
+    pub fn is_whole(&self) -> Result<bool> {
+        match File::open(&self.path).and_then(sha256) {
+            Ok(found) => Ok(found.starts_with(&self.checksum)),
+            Err(e) if e.kind() == ErrorKind::NotFound => Ok(false),
+            Err(e) => Err(Error::io("read", &self.path, e)),
+        }
+    }
+}
+
+/// Checksums of parts, by the folder name of the record.
+type Checksums = BTreeMap<String, String>;
+
+impl OutputFolder {
+    /// Stores the runs of a block; it is there whole when this returns.
+    ///
+    /// # Errors
+    /// [`Error::Io`] or [`Error::Table`] if the disk refuses.
+    pub fn write_block(&self, record: &str, index: u64, runs: &[Finished]) -> Result<()> {
+        let folder = make(&self.blocks_folder(record))?;
+        let mut file = self.begin(&folder, Pages::Plain)?;
+        file.write(runs)?;
+        let name = |sha256: &str| folder.join(format!("block-{index:06}-{}.parquet", &sha256[..DIGITS]));
+        file.finish_as(name).map(|_| ())
+    }
+
+    /// The blocks of a record that are on the disk, by their positions; the last file of a position counts.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the folder cannot be read.
+    pub fn blocks(&self, record: &str) -> Result<Vec<(u64, RunFile)>> {
+        block_files(&self.blocks_folder(record))
+    }
+
+    /// The file of a record, if it was finished.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::blocks`]; an input error for a `checksums.json` that is none.
+    pub fn part(&self, record: &str) -> Result<Option<RunFile>> {
+        let checksum = read_checksums(self.path())?.remove(&hive(record));
+        Ok(checksum.map(|checksum| RunFile { path: self.part_path(record), checksum }))
+    }
+
+    /// Puts blocks together into the file of a record, in their order.
+    ///
+    /// # Errors
+    /// [`Error::Io`] or [`Error::Table`] if the disk refuses; the blocks stay.
+    pub fn write_part<'a>(&self, record: &str, blocks: impl Iterator<Item = &'a PathBuf>) -> Result<()> {
+        let folder = make(&self.path().join("runs").join(hive(record)))?;
+        let mut part = self.begin(&folder, Pages::Small)?;
+        for block in blocks {
+            append(&mut part, block)?;
+        }
+        let sha256 = part.finish_as(|_| self.part_path(record))?;
+        let mut checksums = read_checksums(self.path())?;
+        checksums.insert(hive(record), sha256);
+        write_checksums(self.path(), &checksums)
+    }
+
+    /// Forgets a part that is damaged, so that its runs count as missing.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the disk refuses.
+    pub fn discard_part(&self, record: &str) -> Result<()> {
+        let mut checksums = read_checksums(self.path())?;
+        checksums.remove(&hive(record));
+        write_checksums(self.path(), &checksums)?;
+        match fs::remove_file(self.part_path(record)) {
+            Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io("remove", &self.part_path(record), e)),
+            _ => Ok(()),
+        }
+    }
+
+    /// Removes the blocks of a record whose part is finished.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the disk refuses.
+    pub fn remove_blocks(&self, record: &str) -> Result<()> {
+        remove_folder(&self.blocks_folder(record))
+    }
+
+    /// Removes what killed processes left half-written, and the folder of blocks if it is empty.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if the disk refuses.
+    pub fn remove_leftovers(&self) -> Result<()> {
+        remove_folder(&self.path().join("blocks"))?;
+        let mut folders = vec![self.path().to_path_buf()];
+        folders.extend(entries(&self.path().join("runs"))?.into_iter().filter(|entry| entry.is_dir()));
+        for folder in folders {
+            for file in entries(&folder)?.into_iter().filter(|file| name_of(file).starts_with(UNFINISHED)) {
+                fs::remove_file(&file).map_err(|e| Error::io("remove", &file, e))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn begin(&self, folder: &Path, pages: Pages) -> Result<ParquetFile<Finished>> {
+        let columns: &'static [Column<Finished>] = COLUMNS;
+        let manifest = self.manifest();
+        let drawn = manifest.kind.is_drawn();
+        ParquetFile::create_in(folder, columns, &manifest.file_metadata(), drawn, pages)
+    }
+
+    fn blocks_folder(&self, record: &str) -> PathBuf {
+        self.path().join("blocks").join(hive(record))
+    }
+
+    fn part_path(&self, record: &str) -> PathBuf {
+        self.path().join("runs").join(hive(record)).join("part-1.parquet")
+    }
+}
+
+/// The Parquet files of a study's runs, sorted by path; of an unfinished study, those there are. Each holds what was written:
+/// figures are not made of anything else.
+///
+/// # Errors
+/// An input error for a folder without any, and for a file that is damaged or gone; [`Error::Io`] if one cannot be read.
+pub fn run_files(path: &Path) -> Result<Vec<PathBuf>> {
+    let files = listed(path)?;
+    if files.is_empty() {
+        let allowed = "the output folder of `mrbd run`, with runs/record=*/part-1.parquet";
+        return Err(InputError::file(path, "no results", allowed).into());
+    }
+    for file in &files {
+        if !file.is_whole()? {
+            let allowed = "the file as it was written; `mrbd run … --resume` does its runs again";
+            return Err(InputError::file(&file.path, "damaged, or gone", allowed).into());
+        }
+    }
+    Ok(files.into_iter().map(|file| file.path).collect())
+}
+
+/// The same files, not checked; none for a folder without any.
+///
+/// # Errors
+/// As [`OutputFolder::part`].
+pub fn listed_run_files(path: &Path) -> Result<Vec<PathBuf>> {
+    Ok(listed(path)?.into_iter().map(|file| file.path).collect())
+}
+
+/// The files of a study's runs, sorted by path, not checked.
+fn listed(path: &Path) -> Result<Vec<RunFile>> {
+    let finished = read_checksums(path)?;
+    let part = |(record, checksum): (&String, &String)| RunFile {
+        path: path.join("runs").join(record).join("part-1.parquet"),
+        checksum: checksum.clone(),
+    };
+    let mut files = finished.iter().map(part).collect::<Vec<_>>();
+    for folder in entries(&path.join("blocks"))?.into_iter().filter(|entry| entry.is_dir()) {
+        if !finished.contains_key(&name_of(&folder)) {
+            files.extend(block_files(&folder)?.into_iter().map(|(_, file)| file));
+        }
+    }
+    files.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(files)
+}
+
+fn append(part: &mut ParquetFile<Finished>, block: &Path) -> Result<()> {
+    let failed = |e: &dyn std::fmt::Display| Error::table(block, e);
+    let file = File::open(block).map_err(|e| Error::io("read", block, e))?;
+    let reader = ParquetRecordBatchReaderBuilder::try_new(file)
+        .and_then(|builder| builder.with_batch_size(ROWS_AT_ONCE).build())
+        .map_err(|e| failed(&e))?;
+    for batch in reader {
+        part.write_batch(&batch.map_err(|e| failed(&e))?)?;
+    }
+    Ok(())
+}
+
+fn block_files(folder: &Path) -> Result<Vec<(u64, RunFile)>> {
+    let mut files: Vec<_> = entries(folder)?.into_iter().filter_map(block_file).collect();
+    files.sort_by(|a, b| (a.0, &a.1.path).cmp(&(b.0, &b.1.path)));
+    Ok(files)
+}
+
+/// `block-000012-0123456789abcdef.parquet`; other files are none of ours.
+fn block_file(path: PathBuf) -> Option<(u64, RunFile)> {
+    let name = name_of(&path);
+    let (index, checksum) = name.strip_prefix("block-")?.strip_suffix(".parquet")?.split_once('-')?;
+    let checksum = (checksum.len() == DIGITS).then(|| checksum.to_owned())?;
+    Some((index.parse().ok()?, RunFile { path, checksum }))
+}
+
+fn checksums_path(path: &Path) -> PathBuf {
+    path.join("checksums.json")
+}
+
+fn read_checksums(path: &Path) -> Result<Checksums> {
+    let path = checksums_path(path);
+    match fs::read(&path) {
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(Checksums::new()),
+        Err(e) => Err(Error::io("read", &path, e)),
+        Ok(bytes) => serde_json::from_slice(&bytes)
+            .map_err(|e| InputError::file(&path, e.to_string(), "SHA-256 by record").into()),
+    }
+}
+
+fn write_checksums(path: &Path, checksums: &Checksums) -> Result<()> {
+    let text = format!("{:#}\n", serde_json::json!(checksums));
+    write_durably(&checksums_path(path), text.as_bytes())
+}
+
+fn hive(record: &str) -> String {
+    format!("record={}", as_folder_name(record))
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn make(folder: &Path) -> Result<PathBuf> {
+    fs::create_dir_all(folder).map_err(|e| Error::io("make the folder", folder, e))?;
+    Ok(folder.to_path_buf())
+}
+
+fn remove_folder(folder: &Path) -> Result<()> {
+    match fs::remove_dir_all(folder) {
+        Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io("remove", folder, e)),
+        _ => Ok(()),
+    }
+}
+
+fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
+    match fs::read_dir(folder) {
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+        Err(e) => Err(Error::io("read", folder, e)),
+        Ok(list) => list
+            .map(|entry| entry.map(|entry| entry.path()).map_err(|e| Error::io("read", folder, e)))
+            .collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rejects_a_folder_without_results() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let error = run_files(folder.path()).expect_err("no results");
+        assert_eq!(error.exit_code(), 2);
+    }
+
+    #[test]
+    fn regress_other_files_are_no_blocks() {
+        let of = |name: &str| block_file(PathBuf::from(name)).map(|(index, _)| index);
+        assert_eq!(of("x/block-000012-0123456789abcdef.parquet"), Some(12));
+        for other in [
+            "block-12.parquet",
+            ".unfinished-x",
+            "block-000012-0123.parquet",
+            "block-a-0123456789abcdef.parquet",
+        ] {
+            assert_eq!(of(other), None, "{other}");
+        }
+    }
+}
