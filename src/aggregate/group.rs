@@ -53,3 +53,45 @@ impl Group {
         values
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use arrow_array::types::Int32Type;
+    use arrow_array::{ArrayRef, DictionaryArray, Float64Array, UInt64Array};
+
+    use super::*;
+    use crate::store::frame::read;
+    use crate::store::frame::testing::write;
+
+    fn labels(texts: [&str; 5]) -> ArrayRef {
+        Arc::new(texts.into_iter().collect::<DictionaryArray<Int32Type>>())
+    }
+
+    #[test]
+    fn analytic_groups_in_the_order_of_the_plan_with_their_sorted_numbers() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let theta = [Some(0.3), Some(0.1), Some(0.2), None, Some(9.0)];
+        let columns: Vec<(&str, ArrayRef)> = vec![
+            ("run", Arc::new(UInt64Array::from(vec![4, 3, 2, 1, 0]))),
+            ("variant", labels(["b", "a", "b", "b", "a"])),
+            ("outcome", labels(["stood", "stood", "stood", "stood", "collapsed"])),
+            ("theta", Arc::new(Float64Array::from(theta.to_vec()))),
+        ];
+        let file = write(folder.path(), "runs.parquet", columns);
+        let frame = read(&[file], &["run", "variant", "outcome", "theta"]).expect("readable");
+        let groups = in_plan_order(&frame, &["variant"]).expect("groups");
+        let [a, b] = &groups[..] else { panic!("{} groups", groups.len()) };
+        assert_eq!((a.first_run, &a.rows[..]), (0, &[1, 4][..]));
+        assert_eq!((b.first_run, &b.rows[..]), (1, &[0, 2, 3][..]));
+        assert_eq!(b.first(&frame).text("variant").expect("a text"), "b");
+        let outcomes = frame.texts("outcome").expect("texts");
+        let theta = frame.numbers("theta").expect("numbers");
+        assert_eq!(a.how_many(outcomes, "collapsed"), 1);
+        assert_eq!(a.sorted(theta, outcomes, "stood"), [0.1], "that of a collapsed wall is its bound");
+        assert_eq!((b.len(), b.sorted(theta, outcomes, "stood")), (3, vec![0.2, 0.3]));
+        let refused = b.first(&frame).named("variant", |_| None::<()>).expect_err("not known").to_string();
+        assert_eq!(refused, "column variant holds \"b\", which this version does not know");
+    }
+}

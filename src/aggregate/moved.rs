@@ -50,10 +50,8 @@ pub(super) fn moved(
     for same in frame.groups(&keys)?.iter() {
         let is_base = |&row: &usize| runs.variants.get(row) == Some(base.name.as_str());
         let (before, after): (Vec<usize>, Vec<usize>) = same.into_iter().partition(is_base);
-        for (&after, &before) in
-            after.iter().flat_map(|after| before.iter().map(move |before| (after, before)))
-        {
-            runs.tell(after, before, comparison.usable, &mut tallies);
+        for &after in &after {
+            before.iter().for_each(|&before| runs.tell(after, before, comparison.usable, &mut tallies));
         }
     }
     let mut moved: Vec<_> = tallies.into_values().collect();
@@ -128,5 +126,70 @@ impl<'a> Runs<'a> {
             _ => false,
         };
         now != then || (now == Some(usable) && self.compared.iter().any(further))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use arrow_array::types::Int32Type;
+    use arrow_array::{ArrayRef, BooleanArray, DictionaryArray, Float64Array, UInt64Array};
+
+    use super::*;
+    use crate::store::frame::testing::write;
+
+    const COMPARISON: Comparison =
+        Comparison { labels: &[], numbers: &["draw"], outcome: "exceeded", usable: "true", compared: &["x"] };
+
+    /// Runs of `a`, then the same of `b`: no draw, alike, a little more, much more, another end, no answer twice.
+    fn file(folder: &std::path::Path) -> PathBuf {
+        let text = |text: &str| -> ArrayRef {
+            Arc::new([text; 12].into_iter().collect::<DictionaryArray<Int32Type>>())
+        };
+        let variants: DictionaryArray<Int32Type> =
+            (0..12).map(|run| if run < 6 { "a" } else { "b" }).collect();
+        let draws = [None, Some(0), Some(1), Some(2), Some(3), Some(4)];
+        let yes = Some(true);
+        let ends = [yes, yes, yes, yes, yes, None, yes, yes, yes, yes, Some(false), None];
+        let x = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 9.0, 1.0, 1.009, 1.011, 1.0, 9.0];
+        let columns: Vec<(&str, ArrayRef)> = vec![
+            ("run", Arc::new(UInt64Array::from_iter_values(0..12))),
+            ("variant", Arc::new(variants)),
+            ("configuration", text("parallel")),
+            ("record", text("r")),
+            ("draw", Arc::new(draws.iter().chain(&draws).copied().collect::<UInt64Array>())),
+            ("exceeded", Arc::new(BooleanArray::from(ends.to_vec()))),
+            ("x", Arc::new(Float64Array::from(x.to_vec()))),
+        ];
+        write(folder, "runs.parquet", columns)
+    }
+
+    fn note(name: &str) -> VariantNote {
+        VariantNote {
+            name: name.to_owned(),
+            length_m: 1.0,
+            density_kg_m3: 1800.0,
+            law: String::new(),
+            capture_velocity_rad_s: 0.0,
+            tolerance: 1e-6,
+            suite: String::new(),
+            suite_generated: false,
+            runs: 6,
+            collapsed: 0,
+            failed: 1,
+            energy_residual: None,
+        }
+    }
+
+    #[test]
+    fn analytic_runs_move_by_another_end_or_by_more_than_the_share() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let files = [file(folder.path())];
+        let told = moved(&files, &[note("a"), note("b")], &COMPARISON).expect("readable");
+        let expected =
+            Moved { variant: "b".to_owned(), configuration: "parallel".to_owned(), runs: 5, moved: 2 };
+        assert_eq!(told, [expected]);
+        assert_eq!(moved(&files, &[note("a")], &COMPARISON).expect("nothing to read"), []);
     }
 }

@@ -5,6 +5,8 @@
 
 mod labels;
 mod read;
+#[cfg(test)]
+pub(crate) mod testing;
 mod values;
 
 use std::collections::BTreeMap;

@@ -90,24 +90,13 @@ fn at(path: &Path, error: impl std::fmt::Display) -> PolarsError {
 mod tests {
     use std::sync::Arc;
 
+    use super::super::testing::write;
+    use super::*;
     use arrow_array::types::Int32Type;
     use arrow_array::{
         ArrayRef, BooleanArray, Date32Array, DictionaryArray, Float64Array, Int32Array, ListArray,
         StringArray, UInt64Array,
     };
-    use parquet::arrow::ArrowWriter;
-
-    use super::*;
-
-    fn write(folder: &Path, name: &str, columns: Vec<(&str, ArrayRef)>) -> PathBuf {
-        let batch = RecordBatch::try_from_iter(columns).expect("a batch");
-        let path = folder.join(name);
-        let mut file =
-            ArrowWriter::try_new(File::create(&path).expect("a file"), batch.schema(), None).expect("begun");
-        file.write(&batch).expect("written");
-        file.close().expect("closed");
-        path
-    }
 
     fn labels(texts: [Option<&str>; 3]) -> ArrayRef {
         Arc::new(texts.into_iter().collect::<DictionaryArray<Int32Type>>())
