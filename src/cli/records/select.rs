@@ -37,7 +37,7 @@ pub struct SelectArgs {
     /// Most records of one event.
     #[arg(long, value_name = "N", default_value_t = 2)]
     most_of_event: usize,
-    /// In a folder, the first N characters of a file name name the event; 0: every file is of its own.
+    /// In a folder, the first N characters of a file name identify the event; 0: every file is of its own.
     #[arg(long, value_name = "N", default_value_t = 0)]
     event_prefix: usize,
     /// Candidates that are combined; time grows with the number of combinations.
