@@ -25,7 +25,7 @@
 //!
 //! Each joint is closed, or open about one of its two corners: nine contact states, rest and the paper's patterns
 //! 1a to 4b ([`model::Contact`]). In each the wall obeys Jᵀ M (J θ'' + centripetal + ground) = Jᵀ F. A closed joint opens
-//! when the force at one of its corners reaches zero ([`model::RockingWall::settle`]); an open joint closes in a plastic
+//! when the force at one of its corners reaches zero ([`model::RockingWall::next_contact`]); an open joint closes in a plastic
 //! impact that conserves angular momentum about the corners that stay in contact, scaled by the coefficient C_l of the
 //! change of pattern ([`model::RockingWall::impact`]).
 //!

@@ -181,7 +181,7 @@ impl Touching {
         Self { ground: contact.ground.is_closed(), crack: contact.crack.is_closed() }
     }
 
-    pub(super) fn told(self, touches: bool) -> &'static str {
+    pub(super) fn word(self, touches: bool) -> &'static str {
         if touches { "touching" } else { "open" }
     }
 

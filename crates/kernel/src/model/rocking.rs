@@ -1,13 +1,12 @@
 //! The nine contact states of one wall, each with its arms and equations of motion.
 
 use super::MechanicsError;
-use super::balance::Aftermath;
 use super::contact::{Contact, Joint, Pivot, Touching};
-use super::joint::{JointForces, Masses};
-use super::laws::Laws;
+use super::geometry::{Arms, Pair, Rotations, TurnedArms};
+use super::joint_forces::{JointForces, Masses, Reactions};
+use super::laws::{Laws, PiecewiseLaws};
 use super::motion::{Motion, MotionRate};
-use super::posture::{Arms, Pair, Posture, Turns};
-use super::restraint::{Regime, Restraint};
+use super::regime::Regime;
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 
@@ -41,7 +40,7 @@ pub struct RockingWall {
     /// C_1 … C_8 with the factors of effects.
     pub(super) coefficients: [f64; 8],
     /// Laws at the top with kinks, if there are any ...
-    pub(super) restraint: Option<Restraint>,
+    pub(super) piecewise_laws: Option<PiecewiseLaws>,
     /// ... below which speed the top stands, m/s ...
     pub(super) least_speed_m_s: f64,
     /// ... and the branch they are in.
@@ -55,7 +54,7 @@ impl RockingWall {
         let laws = Laws::new(p.carriage_mass_kg, p.stiffness_n_per_m, &wall.effects);
         let mut rocking = Self {
             coefficients: wall.coefficients(),
-            restraint: Restraint::new(laws, &wall.effects),
+            piecewise_laws: PiecewiseLaws::new(laws, &wall.effects),
             least_speed_m_s: 0.0,
             regime: Regime::default(),
             masses: Masses::new(wall, laws.carriage_mass_kg),
@@ -81,8 +80,8 @@ impl RockingWall {
         &self.motions[contact.index()]
     }
 
-    pub(super) fn posture(&self, contact: Contact, turns: Turns) -> Posture {
-        Posture::new(&self.arms[contact.index()], turns)
+    pub(super) fn turned_arms(&self, contact: Contact, rotations: Rotations) -> TurnedArms {
+        TurnedArms::new(&self.arms[contact.index()], rotations)
     }
 
     /// Angular accelerations and powers in a contact state under a ground acceleration in m/s².
@@ -114,7 +113,7 @@ impl RockingWall {
         // An eccentric top makes the two sides differ; the heavier one, so that a mirror changes nothing.
         let about = |ground: Pivot| {
             let motion = self.motion(Contact { ground, crack: Pivot::Closed });
-            motion.mass_matrix(Turns::new([0.0; 2])).quadratic([1.0, 1.0])
+            motion.mass_matrix(Rotations::new([0.0; 2])).quadratic([1.0, 1.0])
         };
         let mass = about(Pivot::Right).max(about(Pivot::Left));
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
@@ -130,7 +129,8 @@ impl RockingWall {
 
     /// Stiffness at the top while every spring acts, N/m.
     fn stiffest_n_per_m(&self) -> f64 {
-        let further = self.restraint.map_or(0.0, |restraint| restraint.further_stiffness_n_per_m());
+        let further =
+            self.piecewise_laws.map_or(0.0, |piecewise_laws| piecewise_laws.further_stiffness_n_per_m());
         self.wall.parameters().stiffness_n_per_m + further
     }
 
@@ -142,7 +142,7 @@ impl RockingWall {
         theta_dd: Pair,
         ground: Vector,
     ) -> JointForces {
-        self.motion(contact).aftermath(state.theta, state.omega, theta_dd, ground).forces
+        self.motion(contact).reactions(state.theta, state.omega, theta_dd, ground).forces
     }
 
     /// Smallest corner force of the closed joints, over the weight of the wall; none where all joints are open.
@@ -180,20 +180,25 @@ impl RockingWall {
     ///
     /// # Errors
     /// [`MechanicsError::NoContactState`] where there is none.
-    pub fn settle(&self, contact: Contact, state: &State, ground: Vector) -> Result<Contact, MechanicsError> {
-        self.settled(contact, state, ground).map(|(settled, _)| settled)
-    }
-
-    /// [`RockingWall::settle`] with the motion in that state, where it is known.
-    pub(crate) fn settled(
+    pub fn next_contact(
         &self,
         contact: Contact,
         state: &State,
         ground: Vector,
-    ) -> Result<(Contact, Option<(MotionRate, Aftermath)>), MechanicsError> {
+    ) -> Result<Contact, MechanicsError> {
+        self.next_contact_and_motion(contact, state, ground).map(|(next, _)| next)
+    }
+
+    /// [`RockingWall::next_contact`] with the motion in that state, where it is known.
+    pub(crate) fn next_contact_and_motion(
+        &self,
+        contact: Contact,
+        state: &State,
+        ground: Vector,
+    ) -> Result<(Contact, Option<(MotionRate, Reactions)>), MechanicsError> {
         for opened in 0..=2 {
             for candidate in self.states_opening(contact, opened) {
-                if let Some(carried) = self.carried(contact, candidate, state, ground) {
+                if let Some(carried) = self.admissible_motion(contact, candidate, state, ground) {
                     return Ok((candidate, Some(carried)));
                 }
             }
@@ -234,26 +239,33 @@ impl RockingWall {
             .flat_map(move |&ground| cracks.iter().map(move |&crack| Contact { ground, crack }))
     }
 
-    pub(super) fn carries(&self, before: Contact, candidate: Contact, state: &State, ground: Vector) -> bool {
-        self.carried(before, candidate, state, ground).is_some()
-    }
-
-    /// The motion in a contact state that carries its forces and whose opened joints accelerate apart.
-    fn carried(
+    pub(super) fn is_admissible(
         &self,
         before: Contact,
         candidate: Contact,
         state: &State,
         ground: Vector,
-    ) -> Option<(MotionRate, Aftermath)> {
-        let (rate, after) = self.motion(candidate).arrival_at(state.theta, state.omega, ground);
+    ) -> bool {
+        self.admissible_motion(before, candidate, state, ground).is_some()
+    }
+
+    /// The motion in a contact state that carries its forces and whose opened joints accelerate apart.
+    fn admissible_motion(
+        &self,
+        before: Contact,
+        candidate: Contact,
+        state: &State,
+        ground: Vector,
+    ) -> Option<(MotionRate, Reactions)> {
+        let (rate, reactions) =
+            self.motion(candidate).rate_and_reactions_at(state.theta, state.omega, ground);
         let apart = |joint: Joint| {
             let opens = before.at(joint).is_closed() && candidate.at(joint).is_open();
             !opens || candidate.at(joint).sign() * opening(joint, rate.theta_dd) > 0.0
         };
-        let carries =
-            self.joints().all(apart) && self.least_hold(candidate, &after).is_none_or(|least| least >= 0.0);
-        carries.then_some((rate, after))
+        let carries = self.joints().all(apart)
+            && self.smallest_reserve(candidate, &reactions).is_none_or(|least| least >= 0.0);
+        carries.then_some((rate, reactions))
     }
 }
 

@@ -36,7 +36,7 @@ impl Vector {
 
     /// d/dθ of a vector that turns with θ: (X, Y) becomes (Y, -X).
     #[inline(always)]
-    pub(crate) fn turned(self) -> Self {
+    pub(crate) fn perpendicular(self) -> Self {
         Self::new(self.y, -self.x)
     }
 

@@ -1,30 +1,30 @@
 //! What happens first inside a step: a joint closes, a joint opens, a body passes its collapse rotation.
 
-use crate::model::{Contact, Joint, Kink, Pair, Touching, opening};
-use crate::solver::{Bernstein, Quintic};
+use crate::model::{Contact, Joint, Kink, Pair, RockingWall, Touching, opening};
+use crate::solver::{Bernstein, Point, Quintic, hermite};
 
 /// What ends a step early.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Event {
     /// A body passes its collapse rotation.
-    Collapses,
+    Collapse,
     /// An open joint closes; closed joints touch too.
-    Strikes(Touching),
+    Impact(Touching),
     /// A closed joint lifts at a corner, or friction can no longer hold the top.
-    Opens,
+    Opening,
     /// A law at the top comes to a kink.
-    Bends(Kink),
+    Kink(Kink),
 }
 
 impl Event {
     /// The gap that closes.
     pub fn gap(self) -> Option<fn(Pair) -> f64> {
         match self {
-            Event::Strikes(Touching { crack: true, ground: false }) => {
+            Event::Impact(Touching { crack: true, ground: false }) => {
                 Some(|pair| opening(Joint::Crack, pair))
             }
-            Event::Strikes(Touching { crack: true, ground: true }) => Some(|pair| pair[1]),
-            Event::Strikes(_) => Some(|pair| opening(Joint::Ground, pair)),
+            Event::Impact(Touching { crack: true, ground: true }) => Some(|pair| pair[1]),
+            Event::Impact(_) => Some(|pair| opening(Joint::Ground, pair)),
             _ => None,
         }
     }
@@ -54,7 +54,7 @@ pub(super) fn first_event(
     force_at: impl Fn(f64) -> f64,
 ) -> Option<(Event, f64)> {
     let opening = match corner_force {
-        (Some(start), Some(end)) => first_lift(start, end, force_at).map(|share| (Event::Opens, share)),
+        (Some(start), Some(end)) => first_lift(start, end, force_at).map(|share| (Event::Opening, share)),
         _ => None,
     };
     // Most steps are far from everything, and their coefficients prove it.
@@ -64,8 +64,8 @@ pub(super) fn first_event(
         return opening;
     }
     let collapse = if stands { None } else { first_collapse(motion, collapse_rad) };
-    let collapse = collapse.map(|share| (Event::Collapses, share));
-    let strike = first_strike(contact, motion);
+    let collapse = collapse.map(|share| (Event::Collapse, share));
+    let strike = first_closing(contact, motion);
     [collapse, strike, opening].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
@@ -86,7 +86,7 @@ fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
-fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
+fn first_closing(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
     let [lower, upper] = motion.bounds();
     let ground = closing(contact.ground.sign(), motion.coordinate(0), lower);
     let crack = closing(contact.crack.sign(), motion.difference(), upper);
@@ -96,7 +96,7 @@ fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
         ground: now(ground) || contact.ground.is_closed(),
         crack: now(crack) || contact.crack.is_closed(),
     };
-    Some((Event::Strikes(touching), first))
+    Some((Event::Impact(touching), first))
 }
 
 /// Share at which a gap of a joint that is open on this side first closes; `size` is that of the rotations it is the
@@ -161,6 +161,72 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
         }
     }
     negative.0
+}
+
+/// The first kink inside a step and the share of the step at which it lies.
+///
+/// The top's displacement over the step is the quintic through its displacements, velocities and accelerations at both
+/// ends, as that of the rotations is.
+#[inline]
+pub(super) fn first_kink(
+    wall: &RockingWall,
+    contact: Contact,
+    start: &Point,
+    end: &Point,
+    h: f64,
+) -> Option<(Kink, f64)> {
+    wall.piecewise_laws().and_then(|_| first_of(wall, contact, start, end, h))
+}
+
+#[cold]
+fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h: f64) -> Option<(Kink, f64)> {
+    if wall.is_held() {
+        // A top that is held moves by roundings only, which are no kinks.
+        return None;
+    }
+    let top = |p: &Point| wall.top(contact, p.position, p.velocity, p.acceleration);
+    let (from, to) = (top(start), top(end));
+    // What x_C and its velocity are sums of.
+    let width_m = wall.wall().parameters().thickness_m;
+    let speed_m_s =
+        wall.top_speed_size(contact, start.velocity).max(wall.top_speed_size(contact, end.velocity));
+    let share = |kink: Kink| match kink {
+        Kink::Passes { limit_m, sign, .. } => {
+            let left = |[x_c, v_c, a_c]: [f64; 3]| [limit_m - x_c, -v_c, -a_c].map(|term| sign * term);
+            let rounding_m = ROUNDINGS * f64::EPSILON * (width_m + limit_m.abs());
+            first_end(hermite(left(from), left(to), h), rounding_m)
+        }
+        Kink::Stops { sign } => {
+            // The cubic through velocities and accelerations: the quintic's slope would divide a displacement's roundings
+            // by a step that may be as short as they are.
+            let ([_, v_0, a_0], [_, v_1, a_1]) = (from, to);
+            let v_c = Bernstein([v_0, v_0 + h * a_0 / 3.0, v_1 - h * a_1 / 3.0, v_1]);
+            first_end(v_c.times(sign), ROUNDINGS * f64::EPSILON * speed_m_s)
+        }
+    };
+    let kinks = wall.piecewise_laws()?.kinks(&wall.regime());
+    let roots = kinks.filter_map(|kink| share(kink).map(|share| (kink, share)));
+    roots.reduce(|a, b| if b.1 < a.1 { b } else { a })
+}
+
+/// Share at which what is left to a kink turns negative, where it may begin at zero: then its first coefficient beyond
+/// roundings tells whether it turns negative at once or comes back later.
+fn first_end<const N: usize>(mut left: Bernstein<N>, rounding: f64) -> Option<f64> {
+    let first = left.0.iter().position(|c| c.abs() > rounding)?;
+    if left.0[first] < 0.0 {
+        return Some(0.0);
+    }
+    left.0[..first].fill(0.0);
+    left.first_root()
+}
+
+/// What is left to a kink at an instant, and how fast it falls.
+pub(super) fn left_to_kink(wall: &RockingWall, contact: Contact, kink: Kink, at: &Point) -> (f64, f64) {
+    let [x_c, v_c, a_c] = wall.top(contact, at.position, at.velocity, at.acceleration);
+    match kink {
+        Kink::Passes { limit_m, .. } => (x_c - limit_m, v_c),
+        Kink::Stops { .. } => (v_c, a_c),
+    }
 }
 
 #[cfg(test)]

@@ -3,13 +3,12 @@
 mod events;
 mod ground_path;
 mod history;
-mod kinks;
 mod response;
 mod rest;
 mod run;
 mod side_by_side;
 mod simulator;
-mod tally;
+mod totals;
 
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
@@ -61,7 +60,7 @@ impl Default for Accuracy {
 
 /// Runs one wall; pure: the same inputs give the same bits on any thread.
 pub fn simulate(wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
-    Simulator::new(wall, shaking, accuracy).prepared().alone()
+    Simulator::new(wall, shaking, accuracy).prepared().run_alone()
 }
 
 /// Runs one wall and tells an observer every stretch of it; the response has the same bits as without.

@@ -10,27 +10,27 @@
 use super::ground_path::Piece;
 use crate::model::{Contact, RockingWall, State, Vector};
 
-/// Corner forces at rest: `x` times a_x plus `y` times a_y plus `standing`.
+/// Corner forces at rest: `x` times a_x plus `y` times a_y plus `constant`.
 #[derive(Debug, Clone, Copy, Default)]
 struct CornerForce {
     x: f64,
     y: f64,
-    standing: f64,
+    constant: f64,
 }
 
 impl CornerForce {
     /// The same force over a positive number.
     fn over(&self, divisor: f64) -> Self {
-        Self { x: self.x / divisor, y: self.y / divisor, standing: self.standing / divisor }
+        Self { x: self.x / divisor, y: self.y / divisor, constant: self.constant / divisor }
     }
 
     fn plus(&self, other: &Self) -> Self {
-        Self { x: self.x + other.x, y: self.y + other.y, standing: self.standing + other.standing }
+        Self { x: self.x + other.x, y: self.y + other.y, constant: self.constant + other.constant }
     }
 
     #[inline]
     fn at(&self, ground: Vector) -> f64 {
-        self.x * ground.x + self.y * ground.y + self.standing
+        self.x * ground.x + self.y * ground.y + self.constant
     }
 }
 
@@ -46,12 +46,12 @@ pub(crate) struct RestLimits {
 }
 
 /// A corner that never lifts.
-const PRESSED: CornerForce = CornerForce { x: 0.0, y: 0.0, standing: 1.0 };
+const PRESSED: CornerForce = CornerForce { x: 0.0, y: 0.0, constant: 1.0 };
 
 impl RestLimits {
     pub fn new(wall: &RockingWall) -> Self {
         let mut limits = Self::of_corners(wall);
-        let friction_n = wall.restraint().map_or(0.0, |restraint| restraint.friction_n());
+        let friction_n = wall.piecewise_laws().map_or(0.0, |piecewise_laws| piecewise_laws.friction_n());
         if friction_n > 0.0 {
             limits.with_friction = with_friction(wall, &limits.corners, friction_n);
             limits.corners = [PRESSED; 4];
@@ -73,7 +73,7 @@ impl RestLimits {
                     // Both ways, so that the mirrored wall gets the mirrored number to the bit.
                     x: 0.5 * (pushed[side] - pulled[side]),
                     y: lifted[side] - still[side],
-                    standing: still[side],
+                    constant: still[side],
                 };
             }
         }
@@ -97,7 +97,7 @@ impl RestLimits {
     }
 
     /// The least of what holds the wall at rest; it moves when this is negative.
-    pub fn hold(&self, ground: Vector) -> f64 {
+    pub fn reserve(&self, ground: Vector) -> f64 {
         self.conditions().map(|condition| condition.at(ground)).fold(f64::INFINITY, f64::min)
     }
 
@@ -135,12 +135,17 @@ impl RestLimits {
 
 /// What must not be negative for a force at the top within ±F_c to press all corners.
 fn with_friction(wall: &RockingWall, corners: &[CornerForce; 4], friction_n: f64) -> Vec<CornerForce> {
-    let most = CornerForce { standing: friction_n, ..CornerForce::default() };
+    let most = CornerForce { constant: friction_n, ..CornerForce::default() };
     let (mut from_below, mut from_above) = (vec![most], vec![most]);
     let mut conditions = Vec::new();
     // As large as the friction, so that it stands out of the roundings; both ways, for the mirror's sake.
     let [pushed, pulled] = [friction_n, -friction_n].map(|force_n| {
-        wall.pushed(force_n).joint_forces(Contact::REST, &State::default(), [0.0; 2], Vector::default())
+        wall.with_top_force(force_n).joint_forces(
+            Contact::REST,
+            &State::default(),
+            [0.0; 2],
+            Vector::default(),
+        )
     });
     for joint in wall.joints() {
         let width_m = wall.width_m(joint);

@@ -107,7 +107,7 @@ impl Simulator {
     ///
     /// A start that is no time from 0 on with finite rotations and velocities gives a run that failed.
     pub fn run_from(&self, start: &Start, end_s: f64, observer: &mut dyn Observer) -> Response {
-        self.watched_from(start, end_s, observer).alone()
+        self.watched_from(start, end_s, observer).run_alone()
     }
 
     /// The whole run, to be run beside others.

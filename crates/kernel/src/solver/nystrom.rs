@@ -52,7 +52,7 @@ impl Values for f64x2 {
 pub struct Rate<V = f64x2> {
     /// Accelerations.
     pub acceleration: V,
-    /// Rates of the quadratures.
+    /// PointVelocities of the quadratures.
     pub quadrature: V,
 }
 
@@ -76,7 +76,7 @@ pub struct Step {
     pub end: Point,
     /// What the quadratures gained.
     pub quadrature: [f64; 2],
-    /// Rates of the quadratures at the end.
+    /// PointVelocities of the quadratures at the end.
     pub end_quadrature_rate: [f64; 2],
     /// Estimated error of the positions of the embedded method of order 4, in their unit.
     pub position_error: [f64; 2],
