@@ -113,7 +113,7 @@ impl Contact {
         PATTERN_NAMES[self.index()]
     }
 
-    /// The pattern's number, 1 to 4; none at rest.
+    /// The pattern's number, 1 to 4; `None` at rest.
     pub fn pattern_number(self) -> Option<u8> {
         match (self.ground.sign(), self.crack.sign()) {
             (0.0, 0.0) => None,

@@ -1,7 +1,8 @@
 //! Impacts: instantaneous, plastic, without sliding or bouncing (model section 5).
 //!
-//! The velocities after an impact are the projection, in the mass metric, of those before onto the velocities
-//! that the new contact state allows; the coefficient of the change of pattern then scales them.
+//! The velocities after an impact are a projection, in the mass metric, of those before. They are projected
+//! onto the velocities that the new contact state allows. The coefficient of the change of pattern then
+//! scales them.
 
 use super::MechanicsError;
 use super::Table2Change;
@@ -47,7 +48,7 @@ impl Table2Change {
     }
 }
 
-/// An impact while it is worked out: the posture, and the velocities of the mass points before.
+/// An impact while it is worked out: the rotations, and the velocities of the mass points before.
 struct Collision {
     touching: Touching,
     rotations: Rotations,
@@ -127,8 +128,8 @@ impl RockingWall {
         }
     }
 
-    /// By how much a contact state is admissible: the smallest corner impulse of its closed joints or separation of its
-    /// opened ones, over the momentum or speed before; and the velocities in it.
+    /// By how much a contact state is admissible, and the velocities in it. The margin is the smallest corner
+    /// impulse of closed joints or separation of opened ones. It is taken over the momentum or speed before.
     fn margin(&self, to: Contact, collision: &Collision) -> (f64, Pair) {
         let arms = self.turned_arms(to, collision.rotations);
         let omega = self.projected_onto(to, &arms, collision);
@@ -176,8 +177,8 @@ impl RockingWall {
         p.height_m / narrowest
     }
 
-    /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
-    /// the impact, until none is left.
+    /// Closes touching joints that would open slower than the capture velocity. Each time it projects once
+    /// more from before the impact.
     fn captured(&self, plastic: Contact, projected: Pair, collision: &Collision) -> (Contact, Pair) {
         let (mut contact, mut omega) = (plastic, projected);
         loop {

@@ -1,7 +1,7 @@
 //! Forces and impulses through the joints by d'Alembert's balance of everything above (model section 4).
 //!
-//! Impulses are balanced over the mass points; forces, which a run needs after every step, in the static moments of
-//! [`super::motion`].
+//! Impulses are balanced over the mass points. Forces, which a run needs after every step, are balanced in
+//! the static moments of [`super::motion`].
 
 use fearless_simd::dispatch;
 use wide::f64x2;
@@ -16,8 +16,8 @@ use crate::fused::{fused, fused_pair};
 /// Force through a joint and its moment about the joint's middle: newtons and newton metres,
 /// or their impulses.
 ///
-/// `normal` and `shear` are taken in the axes of the joint, which turns with the body below it:
-/// only so is the force at a corner zero exactly when the joint starts to open about the other one.
+/// `normal` and `shear` are taken in the axes of the joint, which turns with the body below it. Only so does
+/// a corner force vanish exactly when the joint starts to open about the other corner.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct JointForce {
     /// Along the joint, towards +x.
@@ -97,7 +97,7 @@ impl Masses {
         self.m[0] * speed(v.g1) + self.m[1] * speed(v.g2) + (self.m_d + self.m_dp) * speed(v.c)
     }
 
-    /// Generalised momenta Jᵀ M v of a state with this posture for velocities of the mass points that came from another.
+    /// Generalised momenta Jᵀ M v in a contact state, for velocities of the mass points before the impact.
     pub fn momenta(&self, arms: &TurnedArms, v: &PointVelocities) -> [f64; 2] {
         let p = arms;
         let lower = v.g1 * self.m[0];
@@ -123,7 +123,7 @@ pub(crate) struct Reactions {
 }
 
 impl Motion {
-    /// The rate at a posture and what comes of it: what a run asks for after every step.
+    /// The rate and the reactions in a configuration, as a run needs them after every step.
     #[inline(always)]
     pub fn rate_and_reactions(
         &self,

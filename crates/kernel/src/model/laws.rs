@@ -1,4 +1,5 @@
-//! The forces on a wall beyond its weight and inertia: smooth laws, and laws with kinks that are smooth in each regime.
+//! The forces on a wall beyond its weight and inertia. Some laws are smooth; those with kinks are smooth in
+//! each regime.
 
 use wide::f64x2;
 
@@ -148,7 +149,7 @@ impl PiecewiseLaws {
         negative.max(positive) + self.yielding.map_or(0.0, |spring| spring.stiffness_n_per_m)
     }
 
-    /// The regime at a displacement and velocity of the top, with a plastic displacement that is moved to where the
+    /// The regime at a displacement and velocity of the top. The plastic displacement moves to where the
     /// spring holds no more than its force.
     pub fn regime_at(&self, x_c_m: f64, v_c_m_s: f64, plastic_m: f64) -> Regime {
         let gap = if x_c_m.abs() > self.gap_m { Side::of(x_c_m) } else { Side::Between };

@@ -1,4 +1,4 @@
-//! The mass matrix of the two rotations, which of them are free, and how fast small motions change under it.
+//! The mass matrix of the two rotations, which of them are free, and how fast small motions change.
 
 use super::contact::Contact;
 use super::geometry::{Pair, Rotations};
@@ -77,9 +77,9 @@ impl MassMatrix {
 }
 
 impl Motion {
-    /// Rate at which small motions about zero rotation can change under springs at the top of a stiffness in N/m, 1/s:
-    /// with M θ'' + D θ' + K θ = 0, no frequency squared is above the trace of M⁻¹ K and no damping rate above that of
-    /// M⁻¹ D, because both have no negative eigenvalue; gravity counts as if it restored.
+    /// Rate at which small motions about zero rotation can change, 1/s, under a stiffness at the top in N/m.
+    /// With M θ'' + D θ' + K θ = 0, no frequency squared is above the trace of M⁻¹ K. No damping rate is
+    /// above the trace of M⁻¹ D: neither matrix has a negative eigenvalue. Gravity counts as if it restored.
     pub fn fastest_rate_per_s(&self, stiffness_n_per_m: f64) -> f64 {
         let laws = &self.laws;
         let top = |factor: f64| {

@@ -1,9 +1,10 @@
 //! The mechanics of a wall of one or two rocking bodies; knows no files and no integrator.
 //!
-//! A [`Wall`] is geometry, masses, restraint and impact law, checked once. A [`RockingWall`] is a wall ready to move:
-//! for each [`Contact`] state its equations of motion ([`RockingWall::rate`]), the forces through its joints
-//! ([`RockingWall::joint_forces`]), where it goes when a joint opens ([`RockingWall::next_contact`]) and what an impact does
-//! ([`RockingWall::impact`]). Axes: x out of the wall's plane, y up; rotations are absolute, clockwise positive, zero at rest.
+//! A [`Wall`] is geometry, masses, restraint and impact law, checked once. A [`RockingWall`] is a wall ready
+//! to move. For each [`Contact`] state it has the equations of motion ([`RockingWall::rate`]) and the forces
+//! through the joints ([`RockingWall::joint_forces`]). It gives the contact state after an opening
+//! ([`RockingWall::next_contact`]) and after an impact ([`RockingWall::impact`]). Axes: x out of the wall's
+//! plane, y up; rotations are absolute, clockwise positive, zero at rest.
 
 mod contact;
 mod effect;

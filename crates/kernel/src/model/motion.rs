@@ -1,14 +1,14 @@
 //! The equations of motion of one contact state (model section 3), in the scalar form that runs.
 //!
-//! With r_Q, r_C and the static moments V = m_1 r_1 + (m_2 + m_d) r_Q and U = m_2 r_2 + m_d r_C, the law
-//! Jᵀ M (J θ'' + centripetal + ground) = Jᵀ F becomes, with Y, X the components of an arm:
+//! The static moments are V = m_1 r_1 + (m_2 + m_d) r_Q and U = m_2 r_2 + m_d r_C. With X, Y the components
+//! of an arm, Jᵀ M (J θ'' + centripetal + ground) = Jᵀ F becomes:
 //!
 //! - M_11 = I_1O + m_dp Y_Q²,  M_22 = I_2Q + m_dp Y_C²,  M_12 = r_Q·U + m_dp Y_Q Y_C
 //! - f_1 = -(V_y a_x - V_x a_y) + κ ω_2² + Y_Q (F - m_dp a_dp),
 //! - f_2 = -(U_y a_x - U_x a_y) - κ ω_1² + Y_C (F - m_dp a_dp),
 //!
-//! with κ = Y_Q U_x - X_Q U_y and a_dp = a_x - X_Q ω_1² - X_C ω_2² the part of the carriage's acceleration
-//! that is known before θ''.
+//! Here κ = Y_Q U_x - X_Q U_y and a_dp = a_x - X_Q ω_1² - X_C ω_2². The latter is the part of the carriage's
+//! acceleration that is known before θ''.
 
 use fearless_simd::{Level, dispatch};
 use wide::f64x2;
@@ -73,7 +73,7 @@ pub(crate) struct Motion {
     pub(super) upper_mass: f64,
     /// Moment of inertia of the lower body about O, kg m².
     pub(super) lower_inertia: f64,
-    /// C - O and V + U at zero rotation, and the moment of inertia about O of a wall that turns as one.
+    /// Of a wall that turns as one: C - O and V + U at zero rotation, and the moment of inertia about O.
     pub(super) whole_arm: Vector,
     pub(super) whole_moment: Vector,
     pub(super) whole_inertia: f64,
@@ -83,8 +83,8 @@ pub(crate) struct Motion {
     pub level: Level,
 }
 
-/// Everything that turns, at one posture, side by side: the first lane is the lower body (r_Q, V), the second the upper
-/// (r_C, U). Every term of the equations is made of it.
+/// Arms and static moments turned by the rotations. The first lane is the lower body (r_Q, V), the second the
+/// upper (r_C, U). Every term of the equations is made of it.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Configuration {
     pub(super) sin: f64x2,
@@ -97,7 +97,7 @@ pub(crate) struct Configuration {
     pub(super) s_y: f64x2,
 }
 
-/// The law at a posture and velocities: M θ'' = f, and what its terms are made of.
+/// The equations M θ'' = f in a configuration at given velocities, and what their terms are made of.
 pub(super) struct Equations {
     pub(super) mass: MassMatrix,
     pub(super) f: f64x2,
@@ -158,7 +158,7 @@ impl Motion {
         self.held = held && self.freedom != Freedom::None;
     }
 
-    /// Whether [`Motion::monolithic_rate`] tells the rate.
+    /// Whether [`Motion::monolithic_rate`] gives the rate.
     #[inline(always)]
     pub fn turns_as_one(&self) -> bool {
         self.freedom == Freedom::Monolithic && !self.held
@@ -198,7 +198,7 @@ impl Motion {
         MassMatrix { m11, m12: (x_q * u_x + y_q * u_y) + m_dp * y_q * y_c, m22 }
     }
 
-    /// Mass matrix Jᵀ M J of the two rotations at a posture, whether free or not.
+    /// Mass matrix Jᵀ M J at these rotations, whether they are free or not.
     pub fn mass_matrix(&self, Rotations([(sin_1, cos_1), (sin_2, cos_2)]): Rotations) -> MassMatrix {
         self.mass_matrix_of(&self.configuration_from(f64x2::new([sin_1, sin_2]), f64x2::new([cos_1, cos_2])))
     }
@@ -209,14 +209,14 @@ impl Motion {
         dispatch!(self.level, _ => self.rate_at(&self.configuration(theta), omega, ground)).into()
     }
 
-    /// The same at a posture that is known.
+    /// The same in a configuration that is known.
     #[inline(always)]
     pub fn rate_at(&self, t: &Configuration, omega: f64x2, ground: Vector) -> RatePair {
         self.rate_by(&self.equations(t, omega, ground), t, omega, ground)
     }
 
-    /// The rate of a wall that turns as one (pattern 3 and the uncracked wall, where most of the time is spent): one arm
-    /// r = r_Q + r_C and one static moment W = V + U.
+    /// The rate of a wall that turns as one: pattern 3 and the uncracked wall. Most of the time is spent
+    /// there. It has one arm r = r_Q + r_C and one static moment W = V + U.
     #[inline(always)]
     pub fn monolithic_rate(&self, theta: f64, omega: f64, ground: Vector) -> RatePair {
         let turn = sin_cos(theta);

@@ -1,8 +1,9 @@
-//! The regime of a wall whose laws at the top have kinks, jumps or memory, and the contact states it leaves the wall.
+//! The regime of a wall whose laws at the top have kinks, jumps or memory, and its contact states.
 //!
-//! Friction, a gap, one-sided and yielding springs are such laws. At any instant the top is in one [`Regime`], in which
-//! each is smooth: a stiffness, a constant force, a constant drag. A regime ends at a [`Kink`]: a displacement at which a
-//! spring begins or ceases to act, or the stop of the top. Runs locate kinks as they locate impacts.
+//! Friction, a gap, one-sided and yielding springs are such laws. At any instant the top is in one
+//! [`Regime`]. There each law is smooth: a stiffness, a constant force, a constant drag. A regime ends at a
+//! [`Kink`], where a spring begins or ceases to act or the top stops. Runs locate kinks as they locate
+//! impacts.
 
 use super::MechanicsError;
 use super::contact::Contact;
@@ -13,7 +14,8 @@ use super::rocking::{FORCE_ROUNDING, RockingWall, State};
 use super::vector::Vector;
 use super::wall::G_M_S2;
 
-/// Where a quantity stands: below, within or above an interval around zero; sliding to -x, sticking, sliding to +x.
+/// Where a quantity lies: below, within or above an interval around zero. Of sliding: to -x, not at all, to
+/// +x.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Side {
     /// Below, or towards -x.
@@ -79,11 +81,12 @@ pub(crate) enum Change {
     Yields(Side),
 }
 
-/// A speed of the top within this share of those it is the difference of is none: some hundred roundings.
+/// A speed of the top within this share of what it is the difference of is zero: some hundred roundings.
 const SPEED_ROUNDING: f64 = 1e-13;
 
-/// A top slower than this share of α h over the time of response stands: its energy is a rounding of the wall's. Without
-/// it the bursts of ever smaller impacts in which friction brings a wall to rest would have no end.
+/// A top slower than this share of α h over the time of response is at rest. Its energy is a rounding of the
+/// wall's. Without it the bursts of ever smaller impacts in which friction brings a wall to rest would have
+/// no end.
 const LEAST_SPEED: f64 = 1e-8;
 
 impl RockingWall {
@@ -92,7 +95,7 @@ impl RockingWall {
         self.piecewise_laws.as_ref()
     }
 
-    /// Speed of the top, m/s, below which it stands.
+    /// Speed of the top, m/s, below which it is at rest.
     pub(super) fn least_speed_m_s(&self) -> f64 {
         LEAST_SPEED * self.wall().alpha_rad() * self.wall().parameters().height_m / self.response_time_s()
     }
@@ -102,7 +105,7 @@ impl RockingWall {
         self.regime
     }
 
-    /// Makes the laws of a regime those of the wall; a wall whose laws have no kinks stays as it is.
+    /// Makes the laws of a regime those of the wall. A wall whose laws have no kinks stays as it is.
     pub(crate) fn enter_regime(&mut self, regime: Regime) {
         let Some(piecewise_laws) = self.piecewise_laws else { return };
         self.regime = regime;
@@ -130,7 +133,7 @@ impl RockingWall {
         self.motion(contact).top(theta, omega, theta_dd)
     }
 
-    /// The speed of the top, m/s, if none of it cancelled.
+    /// The sum of the magnitudes of which the speed of the top is the sum, m/s.
     pub(crate) fn top_speed_size(&self, contact: Contact, omega: Pair) -> f64 {
         self.motion(contact).top_speed_size(omega)
     }
@@ -154,8 +157,9 @@ impl RockingWall {
         pushed
     }
 
-    /// What still holds a contact state as it is, over the weight of the wall: the smallest corner force of the closed
-    /// joints, and what friction could hold beyond what it does; none where nothing is to hold.
+    /// The smallest reserve that keeps a contact state as it is, over the weight of the wall. It is the
+    /// smallest corner force of the closed joints, or what friction could hold beyond what it does. `None`
+    /// where nothing is to hold.
     #[inline]
     pub(crate) fn smallest_reserve(&self, contact: Contact, reactions: &Reactions) -> Option<f64> {
         let corners = self.smallest_corner_force(contact, &reactions.forces);
@@ -169,13 +173,13 @@ impl RockingWall {
         }
     }
 
-    /// Which way the top slides at a velocity in m/s; between: it stands.
+    /// Which way the top slides at a velocity in m/s; [`Side::Between`] at rest.
     fn sliding(&self, contact: Contact, omega: Pair, v_c_m_s: f64) -> Side {
         let rounding = SPEED_ROUNDING * self.motion(contact).top_speed_size(omega);
         if v_c_m_s.abs() <= rounding.max(self.least_speed_m_s) { Side::Between } else { Side::of(v_c_m_s) }
     }
 
-    /// The velocities from which friction takes the last of the top's, where it all but stands.
+    /// The velocities without those of a top that friction has all but stopped.
     pub(crate) fn with_slow_top_stopped(&self, contact: Contact, state: &State) -> Pair {
         let friction_n = self.piecewise_laws.map_or(0.0, |piecewise_laws| piecewise_laws.friction_n());
         let [_, v_c, _] = self.motion(contact).top(state.theta, state.omega, [0.0; 2]);
@@ -185,15 +189,15 @@ impl RockingWall {
         }
     }
 
-    /// [`RockingWall::next_contact`] for a wall whose laws at the top have kinks: finds the contact state together with the
-    /// way in which the top slides or sticks, and enters that regime.
+    /// [`RockingWall::next_contact`] for a wall whose laws at the top have kinks. It finds the contact state
+    /// together with the way the top slides or sticks, and enters that regime.
     ///
-    /// The friction's force does not depend on the joints' forces, so that what minimises Gauss' constraint is unique:
-    /// one way of sliding in one contact state. `rest_reserve` is what holds the wall at rest
-    /// ([`crate::simulate`] knows it beforehand), where friction and corners share a load no equation divides.
+    /// The friction's force does not depend on the joints' forces. What minimises Gauss' constraint is then
+    /// unique: one way of sliding in one contact state. `rest_reserve` is what holds the wall at rest, known
+    /// to [`crate::simulate`] beforehand. At rest friction and corners share a load that no equation divides.
     ///
     /// # Errors
-    /// [`MechanicsError::NoContactState`] where there is none.
+    /// [`MechanicsError::NoContactState`] where no state is admissible.
     pub(crate) fn next_contact_and_regime(
         &mut self,
         piecewise_laws: &PiecewiseLaws,

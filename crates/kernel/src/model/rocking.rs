@@ -10,13 +10,13 @@ use super::regime::Regime;
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 
-/// Least velocity that still counts as opening, as a share of α over the time of response: a flight this slow rises to
-/// less than a rounding of α and is over within roundings of the time. Without it a wall whose capture velocity is zero
-/// would come to rest through infinitely many impacts.
+/// Least velocity that still counts as opening, as a share of α over the time of response. A flight this slow
+/// rises to less than a rounding of α and ends within roundings of the time. Without it a wall whose capture
+/// velocity is zero would come to rest through infinitely many impacts.
 const LEAST_CAPTURE: f64 = 1e-8;
 
-/// Corner forces within this share of the weight count as zero where no state carries the forces exactly: the rounding of
-/// the top's position times the stiffest spring.
+/// Corner forces within this share of the weight count as zero where no state carries the forces exactly. It
+/// is the rounding of the top's position times the stiffest spring.
 pub(super) const FORCE_ROUNDING: f64 = 1e-9;
 
 /// Rotations (rad) and angular velocities (rad/s) of the two bodies.
@@ -41,7 +41,7 @@ pub struct RockingWall {
     pub(super) coefficients: [f64; 8],
     /// Laws at the top with kinks, if there are any ...
     pub(super) piecewise_laws: Option<PiecewiseLaws>,
-    /// ... below which speed the top stands, m/s ...
+    /// ... below which speed the top is at rest, m/s ...
     pub(super) least_speed_m_s: f64,
     /// ... and the branch they are in.
     pub(super) regime: Regime,
@@ -99,15 +99,15 @@ impl RockingWall {
         self.motion(contact).top_displacement_m(theta)
     }
 
-    /// Horizontal displacement of the middle of the crack (of the top of an uncracked wall), relative to the ground, m,
-    /// at a rotation of the lower body.
+    /// Horizontal displacement of the middle of the crack, relative to the ground, m, at a rotation of the
+    /// lower body. Of an uncracked wall it is that of the top.
     pub fn crack_displacement_m(&self, theta_1: f64) -> f64 {
         let o_x = Pivot::of_angle(theta_1).sign() * self.width_m(Joint::Ground) / 2.0;
         o_x + Vector::new(-o_x, self.wall.height_m[0]).rotated(theta_1.sin_cos()).x
     }
 
-    /// Time in which an error of velocity becomes one of rotation, s: the inverse of the frequency of small motion of
-    /// the whole wall on the spring, or of its rocking where there is no spring.
+    /// Time in which an error of velocity becomes one of rotation, s. It is the inverse of the frequency of
+    /// small motion of the whole wall on the spring. Where there is no spring it is that of its rocking.
     pub fn response_time_s(&self) -> f64 {
         let p = self.wall.parameters();
         // An eccentric top makes the two sides differ; the heavier one, so that a mirror changes nothing.
@@ -145,7 +145,8 @@ impl RockingWall {
         self.motion(contact).reactions(state.theta, state.omega, theta_dd, ground).forces
     }
 
-    /// Smallest corner force of the closed joints, over the weight of the wall; none where all joints are open.
+    /// Smallest corner force of the closed joints, over the weight of the wall; `None` where all joints are
+    /// open.
     ///
     /// While it is not negative the closed joints stay closed: the paper's |M_E| <= |M_I| (Eqs. 3 to 6).
     pub fn smallest_corner_force(&self, contact: Contact, forces: &JointForces) -> Option<f64> {
@@ -174,12 +175,12 @@ impl RockingWall {
         self.wall.width_m[joint as usize]
     }
 
-    /// The contact state in which the wall goes on from a state whose joints in `contact` are closed or open:
-    /// the one in which fewest joints open, its closed joints compressed at both corners and its opened joints
-    /// accelerating apart (model section 4).
+    /// The contact state that follows a state whose joints in `contact` are closed or open (model section 4).
+    /// It is the one in which fewest joints open. Its closed joints are compressed at both corners, its
+    /// opened joints accelerate apart.
     ///
     /// # Errors
-    /// [`MechanicsError::NoContactState`] where there is none.
+    /// [`MechanicsError::NoContactState`] where no state is admissible.
     pub fn next_contact(
         &self,
         contact: Contact,

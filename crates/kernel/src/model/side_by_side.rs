@@ -1,10 +1,11 @@
 //! The equations of motion of several walls side by side, in the lanes of vector registers.
 //!
-//! The same sums in the same order as in [`super::motion`] and [`super::balance`], lane by lane: a wall moves the same to the
-//! bit alone and beside others. Only for walls whose effects the lanes know, as the catalogue says; the others move alone.
+//! The same sums in the same order as in [`super::motion`] and [`super::joint_forces`], lane by lane. A wall
+//! moves the same to the bit alone and beside others. Only for walls whose effects the lanes know, as the
+//! catalogue says; the others move alone.
 //!
-//! What works on lanes is `#[inline(always)]`, closures are avoided: only so does all of it become part of the one function
-//! that is compiled for the vector instructions of a processor.
+//! What works on lanes is `#[inline(always)]`, and closures are avoided. Only so does all of it become part
+//! of the one function compiled for the vector instructions of a processor.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -28,7 +29,7 @@ pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> F<S> {
     F::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
 }
 
-/// The motions of several contact states side by side: all of walls that turn as one, or none.
+/// The motions of several contact states side by side: either all turn as one, or all do not.
 pub(crate) struct Motions<S: Simd, const AS_ONE: bool> {
     upper: mask64x4<S>,
     any_upper: bool,
@@ -51,7 +52,7 @@ pub(crate) struct Motions<S: Simd, const AS_ONE: bool> {
     offset: F<S>,
 }
 
-/// Arms and static moments at one posture.
+/// Arms and static moments turned by the rotations.
 #[derive(Clone, Copy)]
 pub(crate) struct ConfigurationLanes<S: Simd> {
     sin_1: F<S>,
@@ -106,15 +107,15 @@ struct LaneLaws {
 }
 
 impl LaneLaws {
-    /// Every law by its name: a new one does not compile here until the lanes do its sums, or the catalogue says of its
-    /// effect that they do not.
+    /// Every law by its name, so that a new one does not compile here at first. Either the lanes do its sums,
+    /// or the catalogue says of its effect that they do not.
     #[inline(always)]
     fn of(motion: &Motion) -> Self {
         let Laws {
             carriage_mass_kg: m_dp,
             stiffness_n_per_m: stiffness,
             spring_offset_n: offset,
-            // Energy, of which a step needs none.
+            // Energy, which a step does not need.
             stored_offset_j: _,
             // Of effects that the catalogue calls unknown to the lanes.
             cubic_n_per_m3: _,

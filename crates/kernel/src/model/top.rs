@@ -1,4 +1,4 @@
-//! The top C: where it is and how fast, what a force there does, and the motion of a wall whose top friction holds.
+//! The top C: its displacement and velocity, what a force there does, and the motion while friction holds it.
 
 use wide::f64x2;
 
@@ -11,8 +11,8 @@ use super::rocking::RockingWall;
 impl Motion {
     /// The motion with the top held in place, a_C = 0, and the force by which friction holds it, N.
     ///
-    /// Of the accelerations without it, θ''_0, the force λ makes θ'' = θ''_0 + M⁻¹ Jᵀ λ with J = (Y_Q, Y_C), so that
-    /// λ = -a_C0 / (J M⁻¹ Jᵀ). What can move in one way only stands still.
+    /// The force λ makes θ'' = θ''_0 + M⁻¹ Jᵀ λ of the accelerations θ''_0 without it, with J = (Y_Q, Y_C).
+    /// So λ = -a_C0 / (J M⁻¹ Jᵀ). What can move in one way only does not move.
     #[cold]
     #[inline(never)]
     pub(super) fn with_held_top(
@@ -51,15 +51,16 @@ impl Motion {
         [omega[0] - share * y_q, omega[1] - share * y_c]
     }
 
-    /// Largest speed (m/s) the top could have at these velocities if none cancelled: what its roundings are of.
+    /// Largest speed the top could have at velocities of these sizes, m/s: what its roundings are relative
+    /// to.
     pub fn top_speed_size(&self, omega: Pair) -> f64 {
         self.q.y * omega[0].abs() + self.c.y * omega[1].abs()
     }
 }
 
 impl RockingWall {
-    /// J_x = ∂x_C/∂θ: how far the top moves sideways as each body turns, m; a horizontal force there times it is its
-    /// moment pair.
+    /// J_x = ∂x_C/∂θ, m: how far the top moves sideways as each body turns. A horizontal force there times
+    /// J_x is its pair of moments.
     pub fn top_arms_m(&self, contact: Contact, theta: Pair) -> Pair {
         let motion = self.motion(contact);
         [[1.0, 0.0], [0.0, 1.0]].map(|omega| motion.top(theta, omega, [0.0; 2])[1])
@@ -71,15 +72,15 @@ impl RockingWall {
         motion.mass_matrix(Rotations::new(theta)).solve(motion.freedom, self.top_arms_m(contact, theta))
     }
 
-    /// The pair of moments M θ'' that angular accelerations ask for, N m.
+    /// The pair of moments M θ'' that these angular accelerations need, N m.
     pub fn moments_n_m(&self, contact: Contact, theta: Pair, theta_dd: Pair) -> Pair {
         let m = self.motion(contact).mass_matrix(Rotations::new(theta));
         let [a1, a2] = theta_dd;
         [m.m11 * a1 + m.m12 * a2, m.m12 * a1 + m.m22 * a2]
     }
 
-    /// Force of everything at the top that acts by its displacement (m) and velocity (m/s), N; a spring that yields has
-    /// this plastic displacement, m, before.
+    /// Force of everything at the top that acts by its displacement (m) and velocity (m/s), N. A yielding
+    /// spring starts from this plastic displacement, m.
     pub fn top_force_n(&self, x_c_m: f64, v_c_m_s: f64, plastic_m: f64) -> f64 {
         let laws = match &self.piecewise_laws {
             Some(piecewise_laws) => piecewise_laws.laws(&piecewise_laws.regime_at(x_c_m, v_c_m_s, plastic_m)),

@@ -1,4 +1,4 @@
-//! What happens first inside a step: a joint closes, a joint opens, a body passes its collapse rotation.
+//! What happens first inside a step: a joint closes or opens, a law has a kink, a body collapses.
 
 use crate::model::{Contact, Joint, Kink, Pair, RockingWall, Touching, opening};
 use crate::solver::{Bernstein, Point, Quintic, hermite};
@@ -12,7 +12,7 @@ pub(super) enum Event {
     Impact(Touching),
     /// A closed joint lifts at a corner, or friction can no longer hold the top.
     Opening,
-    /// A law at the top comes to a kink.
+    /// A law at the top has a kink.
     Kink(Kink),
 }
 
@@ -32,19 +32,20 @@ impl Event {
 
 /// Two closings nearer than this share of a step are one: roundings could not tell their order.
 const SAME_INSTANT: f64 = 1e-12;
-/// A lift-off located this well, as a share of a step, needs no better: an opening is placed as much later anyway.
+/// A lift-off need not be located better than this share of a step. An opening is placed as much later
+/// anyway.
 const NEAR_ENOUGH: f64 = 1e-9;
 /// Roundings a rotation gathers over a step of some ten operations.
 const ROUNDINGS: f64 = 8.0;
-/// Corner forces are looked at inside a step where the nearer end is within this share of their size and change of
-/// zero: between ends that are farther away a smooth force cannot dip below zero, because the motion turns by less
-/// than a tenth of a radian of its own period within a step.
+/// Corner forces are looked at inside a step where one at an end is small beside its size and change. Between
+/// ends that are farther away a smooth force cannot dip below zero. The motion turns by less than a tenth of
+/// a radian of its own period within a step.
 const NEAR_ZERO: f64 = 0.05;
 
 /// The first event inside a step and the share of the step at which it happens.
 ///
-/// Ties go to collapse, then to the closing of joints, then to opening: a collapsed wall does not strike, and a joint
-/// that closes changes the forces that would open another.
+/// Ties go to collapse, then to the closing of joints, then to opening. A collapsed wall has no impacts, and
+/// a joint that closes changes the forces that would open another.
 #[inline]
 pub(super) fn first_event(
     contact: Contact,
@@ -150,7 +151,8 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
             positive = (share, force);
         }
     }
-    // A force that is linear gives false position a positive side within roundings of zero, from which it does not move.
+    // Of a linear force, false position gets a positive side within roundings of zero and does not move from
+    // it.
     let located = negative.0 - positive.0 <= NEAR_ENOUGH;
     while !located && negative.0 - positive.0 > SAME_INSTANT {
         let middle = 0.5 * (positive.0 + negative.0);
@@ -165,8 +167,8 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
 
 /// The first kink inside a step and the share of the step at which it lies.
 ///
-/// The top's displacement over the step is the quintic through its displacements, velocities and accelerations at both
-/// ends, as that of the rotations is.
+/// The top's displacement over the step is a quintic, as that of the rotations is. It goes through its
+/// displacements, velocities and accelerations at both ends.
 #[inline]
 pub(super) fn first_kink(
     wall: &RockingWall,
@@ -197,8 +199,8 @@ fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h:
             first_end(hermite(left(from), left(to), h), rounding_m)
         }
         Kink::Stops { sign } => {
-            // The cubic through velocities and accelerations: the quintic's slope would divide a displacement's roundings
-            // by a step that may be as short as they are.
+            // The cubic through velocities and accelerations. The quintic's slope would divide roundings of a
+            // displacement by a step that may be as short.
             let ([_, v_0, a_0], [_, v_1, a_1]) = (from, to);
             let v_c = Bernstein([v_0, v_0 + h * a_0 / 3.0, v_1 - h * a_1 / 3.0, v_1]);
             first_end(v_c.times(sign), ROUNDINGS * f64::EPSILON * speed_m_s)
@@ -209,8 +211,8 @@ fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h:
     roots.reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
-/// Share at which what is left to a kink turns negative, where it may begin at zero: then its first coefficient beyond
-/// roundings tells whether it turns negative at once or comes back later.
+/// Share at which what is left to a kink turns negative. Where it begins at zero, its first coefficient
+/// beyond roundings decides: it turns negative at once, or later.
 fn first_end<const N: usize>(mut left: Bernstein<N>, rounding: f64) -> Option<f64> {
     let first = left.0.iter().position(|c| c.abs() > rounding)?;
     if left.0[first] < 0.0 {
@@ -235,7 +237,7 @@ mod tests {
 
     #[test]
     fn analytic_a_force_on_a_line_vanishes_where_the_line_does() {
-        // Linear to the last digit, so that false position comes to stand within roundings of the root.
+        // Linear to the last digit, so that false position stops within roundings of the root.
         for k in 1..1000 {
             let root = f64::from(k) * 1e-3;
             let line = |share: f64| 7.743666e-4 - 7.743666e-4 / root * share;

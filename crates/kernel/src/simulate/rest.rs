@@ -1,11 +1,11 @@
-//! Rest: the ground acceleration at which a wall that stands still starts to move.
+//! Rest: the ground acceleration at which a wall at rest starts to move.
 //!
-//! At rest every corner force is linear in the ground acceleration, so the record can be searched sample by sample
-//! without integrating, and the instant inside a sample is exact.
+//! At rest every corner force is linear in the ground acceleration. So the record is searched sample by
+//! sample without integrating, and the instant inside a sample is exact.
 //!
-//! Friction at the top can take any force λ within ±F_c. A corner force c + D λ stays positive above or below some λ,
-//! and a λ that suits all exists as long as every bound from below lies below every bound from above: conditions that
-//! are linear in the ground acceleration again.
+//! Friction at the top can take any force λ within ±F_c. A corner force c + D λ stays positive above or below
+//! some λ. A λ that suits all corners exists while every bound from below lies below every bound from above.
+//! These conditions are linear in the ground acceleration again.
 
 use super::ground_path::Piece;
 use crate::model::{Contact, RockingWall, State, Vector};
@@ -34,14 +34,15 @@ impl CornerForce {
     }
 }
 
-/// When a wall at rest moves, and what it asks of friction while it stands.
+/// When a wall at rest starts to move, and its friction demand until then.
 #[derive(Debug, Clone)]
 pub(crate) struct RestLimits {
     /// At the ground, left and right, then at the crack; a crack that is not there never lifts.
     corners: [CornerForce; 4],
     /// Mass that pushes sideways over mass that presses down, at the ground and at the crack.
     sideways_over_down: [f64; 2],
-    /// In place of the corners, what must not be negative for friction at the top to hold the wall; empty without.
+    /// In place of the corners: what must not be negative for friction to hold the wall. Empty without
+    /// friction.
     with_friction: Vec<CornerForce>,
 }
 
@@ -105,8 +106,8 @@ impl RestLimits {
         self.corners.iter().chain(&self.with_friction)
     }
 
-    /// Offset in a piece, not before `from_s`, at which the first corner lifts; none if all are pressed at its end,
-    /// for between two such ends a linear force cannot vanish.
+    /// Offset in a piece, not before `from_s`, at which the first corner lifts. `None` if all are pressed at
+    /// its end: between two such ends a linear force cannot vanish.
     #[inline]
     pub fn lift_off_s(&self, piece: &Piece, from_s: f64) -> Option<f64> {
         let (start, end) = (piece.at(from_s), piece.at(piece.length_s));
@@ -121,7 +122,7 @@ impl RestLimits {
         Some(from_s + first * (piece.length_s - from_s))
     }
 
-    /// |H|/N at the ground and at the crack while the wall stands under a ground acceleration.
+    /// Share |a_x| / (g + a_y) of a ground acceleration; times its factor it is |H|/N at a joint at rest.
     #[inline]
     pub fn friction(&self, ground: Vector) -> f64 {
         ground.x.abs() / (crate::model::G_M_S2 + ground.y)
@@ -138,7 +139,7 @@ fn with_friction(wall: &RockingWall, corners: &[CornerForce; 4], friction_n: f64
     let most = CornerForce { constant: friction_n, ..CornerForce::default() };
     let (mut from_below, mut from_above) = (vec![most], vec![most]);
     let mut conditions = Vec::new();
-    // As large as the friction, so that it stands out of the roundings; both ways, for the mirror's sake.
+    // As large as the friction, so that it exceeds the roundings; both ways, for the mirror's sake.
     let [pushed, pulled] = [friction_n, -friction_n].map(|force_n| {
         wall.with_top_force(force_n).joint_forces(
             Contact::REST,

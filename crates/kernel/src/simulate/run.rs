@@ -1,4 +1,4 @@
-//! The loop of one run: stand, move, open, strike, until the end.
+//! The loop of one run: rest, motion, openings and impacts, until the end.
 
 mod event;
 mod rest;
@@ -20,7 +20,7 @@ pub(super) use step::StepRequest;
 /// A contact state, and the motion in it where that is known.
 type NextContact = (Contact, Option<(MotionRate, Reactions)>);
 
-/// Where the run stands.
+/// A run between two of its steps.
 pub(super) struct Run<O> {
     wall: RockingWall,
     ground: GroundPath,
@@ -45,14 +45,14 @@ pub(super) struct Run<O> {
     stopped: Option<Stop>,
 }
 
-/// What the step is for that a run has asked for.
+/// What the requested step is for.
 #[derive(Debug, Clone, Copy)]
 enum Task {
-    /// To get on: over a length in s.
+    /// To advance, over a length in s.
     Advance { h: f64 },
-    /// Up to where a longer step met an event: over a length, which may grow to `most_s`.
+    /// Up to an event inside a longer step, over a length that may grow to `most_s`.
     ReachEvent { event: Event, h: f64, most_s: f64 },
-    /// Nearer to the event than this step was, whose gap was so large.
+    /// Nearer to the event than this step, which left this gap.
     RefineEvent { event: Event, h: f64, most_s: f64, step: Step, gap: f64, corrections: u32 },
 }
 
@@ -106,7 +106,7 @@ impl<O: Observer> Run<O> {
         self.end()
     }
 
-    /// Starts the run; then [`Run::needs_step`] tells how it goes on.
+    /// Starts the run; then [`Run::needs_step`] brings it to its first step.
     pub fn begin(&mut self, start_s: f64) {
         self.stopped = self.start(start_s).err();
         (self.k, self.offset_s) = self.ground.place(start_s);
@@ -118,8 +118,8 @@ impl<O: Observer> Run<O> {
         self.stopped = Some(Stop::Failed { time_s, reason });
     }
 
-    /// Stands as long as nothing moves; whether a step is to be taken then: [`Run::step_request`], [`Run::finish_step`]. If not, the run
-    /// is over: [`Run::end`].
+    /// Rests as long as nothing moves, and says whether a step is to be taken then. If so,
+    /// [`Run::step_request`] and [`Run::finish_step`] follow. If not, the run is over: [`Run::end`].
     #[inline]
     pub fn needs_step(&mut self) -> bool {
         if self.stopped.is_some() {
@@ -149,7 +149,7 @@ impl<O: Observer> Run<O> {
         }
     }
 
-    /// Goes on with the step that was asked for.
+    /// Continues with the step that was requested.
     #[inline]
     pub fn finish_step(&mut self, step: &Step, reactions: &Reactions) {
         let Some(piece) = self.piece else { return };
@@ -207,7 +207,7 @@ impl<O: Observer> Run<O> {
         })
     }
 
-    /// Goes on in the contact state that carries the joint forces, opening joints where it must.
+    /// Enters the contact state that carries the joint forces, opening joints where it must.
     fn enter(&mut self, contact: Contact, ground: Vector, time_s: f64) -> Result<(), Stop> {
         let (next, known) = self.next_contact(contact, ground).map_err(|e| failed(time_s, &e))?;
         if next != contact {
@@ -244,7 +244,7 @@ impl<O: Observer> Run<O> {
         Ok((next, None))
     }
 
-    /// Goes on to where a step is to be taken; false at the end of the record and its free motion.
+    /// Advances to where a step is to be taken; false at the end of the run.
     fn advance_to_step(&mut self) -> Result<bool, Stop> {
         // The piece is looked at where it is: to copy what was just written would wait for the writing.
         while let Some(&Piece { length_s, .. }) = self.piece.as_ref() {

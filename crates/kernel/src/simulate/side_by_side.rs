@@ -1,6 +1,7 @@
-//! Runs side by side: those that ask for a step of the same kind take it together, in the lanes of vector registers.
+//! Runs side by side: those that request a step of the same kind take it together, in vector lanes.
 //!
-//! What a run gives does not depend on those beside it: every lane does the sums that the run would do alone.
+//! The response of a run does not depend on those beside it. Every lane does the sums that the run would do
+//! alone.
 
 use std::ops::Mul;
 
@@ -103,7 +104,7 @@ impl<S: Simd, const AS_ONE: bool> ShakenMotion<S, AS_ONE> {
         [self.from[0] + self.slope[0] * offset_s, self.from[1] + self.slope[1] * offset_s]
     }
 
-    /// What the landing told of every lane.
+    /// The reactions of every lane at the end of the step.
     #[inline(always)]
     fn reactions(&self) -> [Reactions; LANES] {
         self.reactions.as_ref().map_or([Reactions::default(); LANES], ReactionLanes::unpacked)
@@ -244,7 +245,7 @@ fn steps(level: Level, as_one: bool, requests: &[StepRequest; LANES]) -> [(Step,
     }
 }
 
-/// Runs that are at work at once: enough that there mostly are as many of a kind as there are lanes.
+/// Runs in the pool at once: enough that mostly there are as many of a kind as lanes.
 const AT_ONCE: usize = 6 * LANES;
 
 /// A wall under a shaking, ready to run beside others from a time in seconds on.
@@ -274,7 +275,7 @@ impl<O: Observer> Prepared<O> {
     }
 }
 
-/// Runs what `next` gives side by side until it gives no more, and hands `done` each response with its number, as they end.
+/// Runs what `next` gives side by side until it gives no more. `done` gets each response with its number, as runs end.
 ///
 /// A response is that of [`super::simulate`] to the bit, whatever runs beside it.
 pub fn simulate_side_by_side(
@@ -301,12 +302,12 @@ pub fn simulate_watched_side_by_side<'o>(
     Pool::new(Level::new(), next, done).all();
 }
 
-/// Runs at work. Its loop is compiled here, in one unit with the motion, for runs that are watched and that are not.
+/// Runs at work. Its loop is compiled here, in one unit with the motion, for watched runs and for others.
 struct Pool<'w, O> {
     next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
     done: &'w mut dyn FnMut(usize, Response),
     slots: Vec<Option<(usize, Run<O>)>>,
-    /// Slots that ask for a step of a wall that turns as one, and of one whose bodies turn apart.
+    /// Slots that request a step of a wall that turns as one, and of one whose bodies turn apart.
     as_one: Vec<usize>,
     apart: Vec<usize>,
     /// Vector instructions that this processor has.
@@ -338,7 +339,7 @@ impl<'w, O: Observer> Pool<'w, O> {
         Some((number, prepared.begun()))
     }
 
-    /// Brings the run in a slot, or the next one in its place, to where it asks for a step that others may share.
+    /// Brings the run in a slot, or the next one there, to a request that others may share.
     fn queue_step(&mut self, slot: usize) {
         while let Some((_, run)) = &mut self.slots[slot] {
             if !run.needs_step() {
@@ -366,7 +367,7 @@ impl<'w, O: Observer> Pool<'w, O> {
         self.slots[slot] = self.begin_next();
     }
 
-    /// Takes the steps of the kind that most slots ask for; false when none asks.
+    /// Takes the steps of the kind that most slots request; false when there is no request.
     fn step(&mut self) -> bool {
         let one = self.as_one.len() >= self.apart.len();
         let queue = if one { &mut self.as_one } else { &mut self.apart };

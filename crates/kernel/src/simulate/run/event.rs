@@ -1,4 +1,4 @@
-//! On over a step, or up to the first event inside it: found, placed, and let happen.
+//! A step, or the part of it up to its first event: found, located, applied.
 
 use super::super::events::{Event, first_event, first_kink, left_to_kink};
 use super::super::ground_path::Piece;
@@ -7,24 +7,25 @@ use super::{Run, Stop, Task, failed};
 use crate::model::{Joint, Kink, Reactions, Touching, Vector, opening};
 use crate::solver::{Point, Quintic, Step};
 
-/// An opening is placed this share of a sample step after the instant its corner force vanishes, so that the joint
-/// does accelerate apart; it moves nothing by more than roundings.
+/// An opening is placed this share of a sample step after the instant its corner force vanishes. So the joint
+/// does accelerate apart, and nothing moves by more than roundings.
 pub(super) const AFTER_OPENING: f64 = 1e-9;
 
-/// A share of a sample step so short that a parabola is exact over it: its cube times any jerk of a wall is below
-/// roundings. A share and no time, so that a wall four times as large moves the same to the bit.
+/// A share of a sample step so short that a parabola is exact over it. Its cube times any jerk of a wall is
+/// below roundings. A share and no time, so that a wall four times as large moves the same to the bit.
 const SHORT: f64 = 2e-7;
 /// Newton corrections of an event's time; one suffices but for grazing impacts.
 const MOST_CORRECTIONS: u32 = 4;
 
-/// Events without progress, one after another, that count as a defect: the longest burst of impacts, that of a wall sixty
-/// times as high as thick with a capture velocity of zero, takes some ten thousand to come to rest.
+/// Events without progress, one after another, that count as a defect. The longest burst of impacts takes
+/// some ten thousand until rest. It is that of a wall sixty times as high as thick with a capture velocity of
+/// zero.
 const MOST_EVENTS_AT_ONCE: u32 = 50_000;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
 const PROGRESS: f64 = 1e-6;
 
 impl<O: Observer> Run<O> {
-    /// Moves over a step, or asks for one up to the first event inside it.
+    /// Keeps a step, or requests one up to the first event inside it.
     #[inline]
     pub(super) fn advance(&mut self, piece: &Piece, step: &Step, reactions: &Reactions) -> Result<(), Stop> {
         if !self.controller.accepts(step) {
@@ -65,7 +66,7 @@ impl<O: Observer> Run<O> {
         self.wall.smallest_reserve(self.contact, &reactions).unwrap_or(f64::INFINITY)
     }
 
-    /// Asks for a step up to the event.
+    /// Requests a step up to the event.
     fn approach_event(&mut self, event: Event, share: f64, piece: &Piece, whole_s: f64) -> Result<(), Stop> {
         if let (Event::Kink(kink), true) = (event, share == 0.0) {
             let from_s = self.offset_s;
@@ -79,7 +80,7 @@ impl<O: Observer> Run<O> {
         Ok(())
     }
 
-    /// Lets the event happen at the end of a step.
+    /// Applies the event at the end of a step.
     pub(super) fn apply_event(&mut self, event: Event, piece: &Piece, step: &Step) -> Result<(), Stop> {
         self.task = Task::Advance { h: 0.0 };
         let from_s = self.offset_s;
@@ -98,7 +99,8 @@ impl<O: Observer> Run<O> {
         Ok(())
     }
 
-    /// What is left to an event at an instant, and its rate; none for events that a share of a step places well enough.
+    /// What is left to an event at an instant, and its rate. `None` for events that a share of a step locates
+    /// well enough.
     #[inline]
     pub(super) fn left_to(&self, event: Event, at: &Point) -> Option<(f64, f64)> {
         if let Event::Kink(kink) = event {
@@ -107,7 +109,7 @@ impl<O: Observer> Run<O> {
         event.gap().map(|gap| (gap(at.position), gap(at.velocity)))
     }
 
-    /// Goes on beyond a kink of the laws at the top.
+    /// Enters the regime beyond a kink of the laws at the top.
     fn pass_kink(&mut self, kink: Kink, ground: Vector, time_s: f64) -> Result<(), Stop> {
         if matches!(kink, Kink::Stops { .. }) {
             self.now.velocity =
@@ -118,12 +120,12 @@ impl<O: Observer> Run<O> {
         self.enter(self.contact, ground, time_s)
     }
 
-    /// Moves the end of a step onto the zero of what is left to an event, told together with its rate: the quintic that
-    /// found it is only as accurate as the step.
+    /// Moves the end of a step onto the zero of what is left to an event. The quintic that found the event is
+    /// only as accurate as the step.
     ///
-    /// To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow, and what is
-    /// small beside the wall's rotation is not small beside it. Not beyond the step that was searched: behind it may lie
-    /// the end of the piece.
+    /// To roundings whatever the tolerance. In a burst of ever smaller impacts a flight is short and slow.
+    /// What is small beside the wall's rotation is not small beside the flight. Not beyond the step that was
+    /// searched: behind it may lie the end of the piece.
     #[inline]
     pub(super) fn refine_event(
         &mut self,
@@ -159,7 +161,7 @@ impl<O: Observer> Run<O> {
         Ok(())
     }
 
-    /// An impact: joints that touch close exactly, velocities change, and the wall goes on.
+    /// An impact: joints that touch close exactly, velocities change, the contact state follows.
     pub(super) fn impact(&mut self, touching: Touching, ground: Vector, time_s: f64) -> Result<(), Stop> {
         let touching = Touching {
             ground: self.touches(Joint::Ground, touching.ground),
@@ -185,8 +187,8 @@ impl<O: Observer> Run<O> {
         self.enter(impact.contact, ground, time_s)
     }
 
-    /// Whether a joint takes part in an impact: it is closed, or does not separate and either strikes or stands within a
-    /// rounding of contact, so that its own impact would follow at the same instant.
+    /// Whether a joint takes part in an impact. It does not separate, and it closes or is within a rounding
+    /// of contact. Its own impact would else follow at the same instant.
     fn touches(&self, joint: Joint, closes: bool) -> bool {
         let sign = self.contact.at(joint).sign();
         let gap = sign * opening(joint, self.now.position);

@@ -1,4 +1,4 @@
-//! While the wall stands still: through as much of the record as holds it.
+//! A run at rest: through as much of the record as leaves the wall there.
 
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
@@ -7,7 +7,7 @@ use super::{Run, Stop};
 use crate::model::Contact;
 
 impl<O: Observer> Run<O> {
-    /// Stands through all pieces from the `k`-th on at whose ends no corner has lifted; gives the first that is left.
+    /// Rests through all pieces from the `k`-th on at whose ends no corner has lifted; gives the first other.
     pub(super) fn rest_through_pieces(&mut self, k: usize) -> usize {
         let mut friction = 0.0_f64;
         let next = self.ground.first_end_against(k, |ground| {
@@ -17,7 +17,7 @@ impl<O: Observer> Run<O> {
             }
             holds
         });
-        // The piece that ends the run may be cut short: it is left to be stood piece by piece.
+        // The piece that ends the run may be cut short: it is left to be run by itself.
         let next = next.min(self.ground.whole_pieces());
         if next <= k {
             return k;
@@ -26,7 +26,7 @@ impl<O: Observer> Run<O> {
         next
     }
 
-    /// Stands on in the piece until a corner lifts or it ends.
+    /// Rests in the piece until a corner lifts or it ends.
     #[inline(never)]
     pub(super) fn rest_in_piece(&mut self) -> Result<(), Stop> {
         let Some(piece) = self.piece else { return Ok(()) };
@@ -34,7 +34,7 @@ impl<O: Observer> Run<O> {
         Ok(())
     }
 
-    /// Stands until a corner lifts or the piece ends; gives the offset reached.
+    /// Rests until a corner lifts or the piece ends; gives the offset reached.
     fn rest_until_lift_off(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
         let lift_off = self.rest.lift_off_s(piece, from_s);
         let to_s = lift_off.map_or(piece.length_s, |s| self.after_opening(s, piece));

@@ -1,4 +1,4 @@
-//! The step that a run asks for, and how it is taken alone; [`super::super::side_by_side`] takes several.
+//! The step that a run requests, and how it is taken alone; [`super::super::side_by_side`] takes several.
 
 use fearless_simd::dispatch;
 use wide::f64x2;
@@ -7,7 +7,7 @@ use super::super::ground_path::Piece;
 use crate::model::{Configuration, Motion, Pair, RatePair, Reactions};
 use crate::solver::{Field, Nystrom, Point, Rate, Step};
 
-/// A step that a run asks for.
+/// A step that a run requests.
 pub(in super::super) struct StepRequest<'a> {
     pub motion: &'a Motion,
     pub piece: &'a Piece,
@@ -18,7 +18,7 @@ pub(in super::super) struct StepRequest<'a> {
 }
 
 impl StepRequest<'_> {
-    /// Takes the step; tells the joint forces at its end.
+    /// Takes the step, and writes the reactions at its end.
     #[inline]
     pub fn take(&self, reactions: &mut Reactions) -> Step {
         dispatch!(self.motion.level, _ => self.step(reactions))
@@ -33,9 +33,10 @@ impl StepRequest<'_> {
     }
 }
 
-/// The motion of a contact state under a piece of the record, and what its last landing told.
+/// The motion of a contact state under a piece of the record, and the reactions at the step's end.
 ///
-/// Both of the latter where they are: to copy what was just written, wider than it was written, would wait for the writing.
+/// Both of the latter stay where they are. A copy of what was just written, wider than it was written, would
+/// wait for the writing.
 struct ShakenMotion<'a, 'b> {
     motion: &'a Motion,
     from_s: f64,
@@ -57,7 +58,7 @@ impl Field for ShakenMotion<'_, '_> {
 
     #[inline(always)]
     fn land(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
-        // The posture of the last stage serves again, for the joint forces too.
+        // The configuration of the last stage serves again, for the joint forces too.
         if self.motion.turns_as_one() {
             self.configuration = self.motion.configuration(theta);
         }
