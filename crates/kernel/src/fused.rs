@@ -1,5 +1,5 @@
-//! A product and a sum rounded once, which processors do in the time of one of them: for sums whose other term is there before
-//! the product is.
+//! A product and a sum rounded once, which processors do in the time of one of them. It serves sums whose
+//! other term is there before the product is.
 //!
 //! Rounded once on every processor: one without the instruction takes longer and gives the same bits.
 

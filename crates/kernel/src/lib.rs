@@ -23,14 +23,15 @@
 //! | α_i = atan(b_i / h_i) | slenderness angles | rad |
 //! | s_1, s_2 | joint at the ground, at the crack: closed (0) or turning about its left (-1) or right (+1) corner | |
 //!
-//! Each joint is closed, or open about one of its two corners: nine contact states, rest and the paper's patterns
-//! 1a to 4b ([`model::Contact`]). In each the wall obeys Jᵀ M (J θ'' + centripetal + ground) = Jᵀ F. A closed joint opens
-//! when the force at one of its corners reaches zero ([`model::RockingWall::settle`]); an open joint closes in a plastic
-//! impact that conserves angular momentum about the corners that stay in contact, scaled by the coefficient C_l of the
-//! change of pattern ([`model::RockingWall::impact`]).
+//! Each joint is closed, or open about one of its two corners. That makes nine contact states: rest and the
+//! paper's patterns 1a to 4b ([`model::Contact`]). In each the wall obeys Jᵀ M (J θ'' + centripetal + ground)
+//! = Jᵀ F. A closed joint opens when the force at one of its corners reaches zero
+//! ([`model::RockingWall::next_contact`]). An open joint closes in a plastic impact
+//! ([`model::RockingWall::impact`]). It conserves angular momentum about the corners that stay in contact.
+//! The coefficient C_l of the change of pattern scales what comes out.
 //!
-//! The paper is "Vertical spanning wall elastically restrained at the top: validation and parametric dynamic analysis";
-//! equation, table and figure numbers in this documentation are its.
+//! The paper is "Vertical spanning wall elastically restrained at the top: validation and parametric dynamic
+//! analysis". Equation, table and figure numbers in this documentation are its.
 //!
 //! # The flow of a run
 //!

@@ -113,7 +113,7 @@ impl Contact {
         PATTERN_NAMES[self.index()]
     }
 
-    /// The pattern's number, 1 to 4; none at rest.
+    /// The pattern's number, 1 to 4; `None` at rest.
     pub fn pattern_number(self) -> Option<u8> {
         match (self.ground.sign(), self.crack.sign()) {
             (0.0, 0.0) => None,
@@ -181,7 +181,7 @@ impl Touching {
         Self { ground: contact.ground.is_closed(), crack: contact.crack.is_closed() }
     }
 
-    pub(super) fn told(self, touches: bool) -> &'static str {
+    pub(super) fn word(self, touches: bool) -> &'static str {
         if touches { "touching" } else { "open" }
     }
 

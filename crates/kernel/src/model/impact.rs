@@ -1,12 +1,13 @@
 //! Impacts: instantaneous, plastic, without sliding or bouncing (model section 5).
 //!
-//! The velocities after an impact are the projection, in the mass metric, of those before onto the velocities
-//! that the new contact state allows; the coefficient of the change of pattern then scales them.
+//! The velocities after an impact are a projection, in the mass metric, of those before. They are projected
+//! onto the velocities that the new contact state allows. The coefficient of the change of pattern then
+//! scales them.
 
 use super::MechanicsError;
 use super::Table2Change;
 use super::contact::{Contact, Pivot, Touching};
-use super::posture::{Pair, Posture, Rates, Turns};
+use super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
 use super::rocking::{RockingWall, State, opening};
 use super::wall::ImpactLaw;
 
@@ -47,11 +48,11 @@ impl Table2Change {
     }
 }
 
-/// An impact while it is worked out: the posture, and the velocities of the mass points before.
-struct Strike {
+/// An impact while it is worked out: the rotations, and the velocities of the mass points before.
+struct Collision {
     touching: Touching,
-    turns: Turns,
-    v_before: Rates,
+    rotations: Rotations,
+    v_before: PointVelocities,
     /// The faster of both bodies before, rad/s; not zero.
     speed: f64,
     /// What impulses at corners are small beside, N s; not zero.
@@ -64,20 +65,20 @@ impl RockingWall {
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
-        let strike = self.strike(from, touching, state);
+        let collision = self.collision(from, touching, state);
         let (mut count, mut plastic) = (0, None);
-        self.admissible(from, &strike, |to, omega| {
+        self.admissible(from, &collision, |to, omega| {
             count += 1;
             plastic = Some((to, omega));
         });
         let (1, Some((plastic, projected))) = (count, plastic) else {
             return Err(MechanicsError::ImpactOutcomes { from: from.name(), touching, state: *state, count });
         };
-        let (contact, projected) = self.captured(plastic, projected, &strike);
+        let (contact, projected) = self.captured(plastic, projected, &collision);
         let change = Table2Change::of(from, contact);
-        let omega = self.scaled(change, contact, projected, &strike);
-        let before_j = self.motion(from).kinetic_energy_j(strike.turns, state.omega);
-        let after_j = self.motion(contact).kinetic_energy_j(strike.turns, omega);
+        let omega = self.scaled(change, contact, projected, &collision);
+        let before_j = self.motion(from).kinetic_energy_j(collision.rotations, state.omega);
+        let after_j = self.motion(contact).kinetic_energy_j(collision.rotations, omega);
         Ok(Impact { contact, omega, change, captured: contact != plastic, loss_j: before_j - after_j })
     }
 
@@ -92,79 +93,81 @@ impl RockingWall {
         state: &State,
     ) -> [Option<Contact>; 9] {
         let mut outcomes = [None; 9];
-        self.admissible(from, &self.strike(from, touching, state), |to, _| outcomes[to.index()] = Some(to));
+        self.admissible(from, &self.collision(from, touching, state), |to, _| {
+            outcomes[to.index()] = Some(to)
+        });
         outcomes
     }
 
-    fn strike(&self, from: Contact, touching: Touching, state: &State) -> Strike {
-        let turns = Turns::new(state.theta);
-        let v_before = self.posture(from, turns).rates(state.omega);
+    fn collision(&self, from: Contact, touching: Touching, state: &State) -> Collision {
+        let rotations = Rotations::new(state.theta);
+        let v_before = self.turned_arms(from, rotations).velocities(state.omega);
         // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
         let [w1, w2] = v_before.theta.map(|w| w.abs().max(f64::MIN_POSITIVE));
         // A corner's impulse is a moment over a width: its roundings are those of the momentum times the slimness.
         let size = (self.masses.momentum_size(&v_before) * self.slimness()).max(f64::MIN_POSITIVE);
-        Strike { touching, turns, v_before, speed: w1.max(w2), impulse_size: size }
+        Collision { touching, rotations, v_before, speed: w1.max(w2), impulse_size: size }
     }
 
     /// Tells the admissible contact states, with the velocities in them.
     #[inline]
-    fn admissible(&self, from: Contact, strike: &Strike, mut tell: impl FnMut(Contact, Pair)) {
+    fn admissible(&self, from: Contact, collision: &Collision, mut report: impl FnMut(Contact, Pair)) {
         let (mut any, mut tie) = (false, None::<(Contact, Pair)>);
-        for to in self.states_touching(from, strike.touching) {
-            let (margin, omega) = self.margin(to, strike);
+        for to in self.states_touching(from, collision.touching) {
+            let (margin, omega) = self.margin(to, collision);
             if margin > ROUNDING {
                 any = true;
-                tell(to, omega);
+                report(to, omega);
             } else if margin >= -ROUNDING && tie.is_none_or(|(tied, _)| to.open_joints() < tied.open_joints())
             {
                 tie = Some((to, omega));
             }
         }
         if let (false, Some((to, omega))) = (any, tie) {
-            tell(to, omega);
+            report(to, omega);
         }
     }
 
-    /// By how much a contact state is admissible: the smallest corner impulse of its closed joints or separation of its
-    /// opened ones, over the momentum or speed before; and the velocities in it.
-    fn margin(&self, to: Contact, strike: &Strike) -> (f64, Pair) {
-        let posture = self.posture(to, strike.turns);
-        let omega = self.projected_onto(to, &posture, strike);
+    /// By how much a contact state is admissible, and the velocities in it. The margin is the smallest corner
+    /// impulse of closed joints or separation of opened ones. It is taken over the momentum or speed before.
+    fn margin(&self, to: Contact, collision: &Collision) -> (f64, Pair) {
+        let arms = self.turned_arms(to, collision.rotations);
+        let omega = self.projected_onto(to, &arms, collision);
         let separation = self
             .joints()
-            .filter(|joint| strike.touching.at(*joint) && to.at(*joint).is_open())
+            .filter(|joint| collision.touching.at(*joint) && to.at(*joint).is_open())
             .map(|joint| to.at(joint).sign() * opening(joint, omega))
             .fold(f64::INFINITY, f64::min)
-            / strike.speed;
+            / collision.speed;
         if separation < -ROUNDING {
             return (separation, omega);
         }
-        (separation.min(self.smallest_impulse(to, &posture, omega, strike)), omega)
+        (separation.min(self.smallest_impulse(to, &arms, omega, collision)), omega)
     }
 
     /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
-    fn projected_onto(&self, to: Contact, posture: &Posture, strike: &Strike) -> Pair {
+    fn projected_onto(&self, to: Contact, arms: &TurnedArms, collision: &Collision) -> Pair {
         let motion = self.motion(to);
-        let momenta = self.masses.momenta(posture, &strike.v_before);
-        motion.mass_matrix(strike.turns).solve(motion.freedom, momenta)
+        let momenta = self.masses.momenta(arms, &collision.v_before);
+        motion.mass_matrix(collision.rotations).solve(motion.freedom, momenta)
     }
 
-    fn projected(&self, to: Contact, strike: &Strike) -> Pair {
-        self.projected_onto(to, &self.posture(to, strike.turns), strike)
+    fn projected(&self, to: Contact, collision: &Collision) -> Pair {
+        self.projected_onto(to, &self.turned_arms(to, collision.rotations), collision)
     }
 
     /// Smallest impulse at the corners of the closed joints over the momentum before; infinite where all are open.
-    fn smallest_impulse(&self, to: Contact, posture: &Posture, omega: Pair, strike: &Strike) -> f64 {
+    fn smallest_impulse(&self, to: Contact, arms: &TurnedArms, omega: Pair, collision: &Collision) -> f64 {
         if to.ground.is_open() && to.crack.is_open() {
             return f64::INFINITY;
         }
-        let jump = posture.rates(omega).minus(strike.v_before);
-        let impulses = self.masses.impulses(posture, &jump);
+        let jump = arms.velocities(omega).minus(collision.v_before);
+        let impulses = self.masses.impulses(arms, &jump);
         self.joints()
             .filter(|joint| to.at(*joint).is_closed())
             .flat_map(|joint| impulses.at(joint).corners(self.width_m(joint)))
             .fold(f64::INFINITY, f64::min)
-            / strike.impulse_size
+            / collision.impulse_size
     }
 
     /// Height over the narrowest joint.
@@ -174,25 +177,31 @@ impl RockingWall {
         p.height_m / narrowest
     }
 
-    /// Closes touching joints that would open slower than the capture velocity, and projects once more from before
-    /// the impact, until none is left.
-    fn captured(&self, plastic: Contact, projected: Pair, strike: &Strike) -> (Contact, Pair) {
+    /// Closes touching joints that would open slower than the capture velocity. Each time it projects once
+    /// more from before the impact.
+    fn captured(&self, plastic: Contact, projected: Pair, collision: &Collision) -> (Contact, Pair) {
         let (mut contact, mut omega) = (plastic, projected);
         loop {
             let slow = self.joints().find(|joint| {
-                let opened = strike.touching.at(*joint) && contact.at(*joint).is_open();
+                let opened = collision.touching.at(*joint) && contact.at(*joint).is_open();
                 opened && opening(*joint, omega).abs() < self.capture_rad_s
             });
             match slow {
                 Some(joint) => contact = contact.with(joint, Pivot::Closed),
                 None => return (contact, omega),
             }
-            omega = self.projected(contact, strike);
+            omega = self.projected(contact, collision);
         }
     }
 
     /// Scales the projected velocities by the coefficient of the change.
-    fn scaled(&self, change: Option<Table2Change>, contact: Contact, omega: Pair, strike: &Strike) -> Pair {
+    fn scaled(
+        &self,
+        change: Option<Table2Change>,
+        contact: Contact,
+        omega: Pair,
+        collision: &Collision,
+    ) -> Pair {
         let restitution = self.wall().parameters().restitution;
         let Some(change) = change else { return omega };
         let c_l = self.coefficients[change.index()];
@@ -201,9 +210,9 @@ impl RockingWall {
             ImpactLaw::Whole => [0.0, 0.0],
             // The motion if every touching joint stuck: what the impact cannot see.
             ImpactLaw::Contact => {
-                let stuck = self.joints().filter(|joint| strike.touching.at(*joint));
+                let stuck = self.joints().filter(|joint| collision.touching.at(*joint));
                 let stuck = stuck.fold(contact, |state, joint| state.with(joint, Pivot::Closed));
-                self.projected(stuck, strike)
+                self.projected(stuck, collision)
             }
         };
         [0, 1].map(|i| u[i] + c_l * (omega[i] - u[i]))

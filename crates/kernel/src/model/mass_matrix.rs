@@ -1,7 +1,9 @@
-//! The mass matrix of the two rotations, and which of them a contact state leaves free.
+//! The mass matrix of the two rotations, which of them are free, and how fast small motions change.
 
 use super::contact::Contact;
-use super::posture::Pair;
+use super::geometry::{Pair, Rotations};
+use super::motion::Motion;
+use super::wall::G_M_S2;
 use crate::fused::fused;
 
 /// Which rotations a contact state leaves free.
@@ -71,5 +73,31 @@ impl MassMatrix {
     /// Twice the kinetic energy, ωᵀ M ω, J.
     pub fn quadratic(&self, omega: Pair) -> f64 {
         self.m11 * omega[0] * omega[0] + 2.0 * self.m12 * omega[0] * omega[1] + self.m22 * omega[1] * omega[1]
+    }
+}
+
+impl Motion {
+    /// Rate at which small motions about zero rotation can change, 1/s, under a stiffness at the top in N/m.
+    /// With M θ'' + D θ' + K θ = 0, no frequency squared is above the trace of M⁻¹ K. No damping rate is
+    /// above the trace of M⁻¹ D: neither matrix has a negative eigenvalue. Gravity counts as if it restored.
+    pub fn fastest_rate_per_s(&self, stiffness_n_per_m: f64) -> f64 {
+        let laws = &self.laws;
+        let top = |factor: f64| {
+            let (y_q, y_c) = (self.q.y, self.c.y);
+            MassMatrix { m11: factor * y_q * y_q, m12: factor * y_q * y_c, m22: factor * y_c * y_c }
+        };
+        // A cubic spring as it is at half the wall's thickness.
+        let cubic = (3.0 * laws.cubic_n_per_m3 * self.o_x * self.o_x).max(0.0);
+        let mut stiffness = top(stiffness_n_per_m + cubic);
+        stiffness.m11 += G_M_S2 * self.v.y;
+        stiffness.m22 += G_M_S2 * self.u.y;
+        let mut damping = top(laws.viscous_n_s_per_m);
+        let [c_ground, c_crack] = laws.joint_damping_n_m_s;
+        damping.m11 += c_ground + c_crack;
+        damping.m12 -= c_crack;
+        damping.m22 += c_crack;
+        let mass = self.mass_matrix(Rotations::new([0.0; 2]));
+        mass.trace_of_inverse_times(self.freedom, &stiffness).sqrt()
+            + mass.trace_of_inverse_times(self.freedom, &damping)
     }
 }

@@ -1,50 +1,45 @@
 //! The mechanics of a wall of one or two rocking bodies; knows no files and no integrator.
 //!
-//! A [`Wall`] is geometry, masses, restraint and impact law, checked once. A [`RockingWall`] is a wall ready to move:
-//! for each [`Contact`] state its equations of motion ([`RockingWall::rate`]), the forces through its joints
-//! ([`RockingWall::joint_forces`]), where it goes when a joint opens ([`RockingWall::settle`]) and what an impact does
-//! ([`RockingWall::impact`]). Axes: x out of the wall's plane, y up; rotations are absolute, clockwise positive, zero at rest.
+//! A [`Wall`] is geometry, masses, restraint and impact law, checked once. A [`RockingWall`] is a wall ready
+//! to move. For each [`Contact`] state it has the equations of motion ([`RockingWall::rate`]) and the forces
+//! through the joints ([`RockingWall::joint_forces`]). It gives the contact state after an opening
+//! ([`RockingWall::next_contact`]) and after an impact ([`RockingWall::impact`]). Axes: x out of the wall's
+//! plane, y up; rotations are absolute, clockwise positive, zero at rest.
 
-mod balance;
 mod contact;
-mod crushing;
 mod effect;
-mod held_top;
+mod geometry;
 mod impact;
-mod joint;
+mod joint_forces;
 mod laws;
 mod mass_matrix;
 mod motion;
-mod pace;
-mod posture;
-mod pushed;
-mod restrained;
-mod restraint;
+mod regime;
 mod rocking;
 mod side_by_side;
+mod top;
 mod vector;
 mod wall;
 
-pub(crate) use balance::Aftermath;
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
-pub use crushing::crushed_widths_m;
 pub(crate) use effect::GroundChange;
 pub use effect::{
     Effect, EffectChoice, EffectEntry, EffectError, EffectKind, EffectParameter, EffectVariant, Lanes, Place,
     Quantity, Reading, Role,
 };
+pub use geometry::Pair;
 pub use impact::Impact;
-pub use joint::{JointForce, JointForces};
+pub(crate) use joint_forces::Reactions;
+pub use joint_forces::{JointForce, JointForces};
 pub use motion::MotionRate;
-pub(crate) use motion::{Motion, RatePair, Turned};
-pub use posture::Pair;
-pub(crate) use restraint::Kink;
-pub use restraint::{Regime, Side};
+pub(crate) use motion::{Configuration, Motion, RatePair};
+pub(crate) use regime::Kink;
+pub use regime::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
-pub(crate) use side_by_side::{AftermathLanes, LANES, Motions, TurnedLanes, lanes};
+pub(crate) use side_by_side::{ConfigurationLanes, LANES, Motions, ReactionLanes, lanes};
 pub use vector::Vector;
-pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters};
+pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
 
 /// A rule of the mechanics was broken: a defect of the program, to report and not to hide.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -53,7 +48,7 @@ pub enum MechanicsError {
     #[error(
         "{count} admissible outcomes of an impact in pattern {from}, where there must be exactly one \
          (ground {}, crack {}, θ {:?} rad, θ' {:?} rad/s)",
-        touching.told(touching.ground), touching.told(touching.crack), state.theta, state.omega
+        touching.word(touching.ground), touching.word(touching.crack), state.theta, state.omega
     )]
     ImpactOutcomes {
         /// Pattern before the impact.

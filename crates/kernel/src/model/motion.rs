@@ -1,22 +1,22 @@
 //! The equations of motion of one contact state (model section 3), in the scalar form that runs.
 //!
-//! With r_Q, r_C and the static moments V = m_1 r_1 + (m_2 + m_d) r_Q and U = m_2 r_2 + m_d r_C, the law
-//! Jᵀ M (J θ'' + centripetal + ground) = Jᵀ F becomes, with Y, X the components of an arm:
+//! The static moments are V = m_1 r_1 + (m_2 + m_d) r_Q and U = m_2 r_2 + m_d r_C. With X, Y the components
+//! of an arm, Jᵀ M (J θ'' + centripetal + ground) = Jᵀ F becomes:
 //!
 //! - M_11 = I_1O + m_dp Y_Q²,  M_22 = I_2Q + m_dp Y_C²,  M_12 = r_Q·U + m_dp Y_Q Y_C
 //! - f_1 = -(V_y a_x - V_x a_y) + κ ω_2² + Y_Q (F - m_dp a_dp),
 //! - f_2 = -(U_y a_x - U_x a_y) - κ ω_1² + Y_C (F - m_dp a_dp),
 //!
-//! with κ = Y_Q U_x - X_Q U_y and a_dp = a_x - X_Q ω_1² - X_C ω_2² the part of the carriage's acceleration
-//! that is known before θ''.
+//! Here κ = Y_Q U_x - X_Q U_y and a_dp = a_x - X_Q ω_1² - X_C ω_2². The latter is the part of the carriage's
+//! acceleration that is known before θ''.
 
 use fearless_simd::{Level, dispatch};
 use wide::f64x2;
 
 use super::contact::Contact;
+use super::geometry::{Arms, Pair, Rotations};
 use super::laws::Laws;
 use super::mass_matrix::{Freedom, MassMatrix};
-use super::posture::{Arms, Pair, Turns};
 use super::vector::{Vector, sin_cos, sin_cos_pair};
 use super::wall::{G_M_S2, Wall};
 use crate::fused::{fused, fused_pair};
@@ -73,7 +73,7 @@ pub(crate) struct Motion {
     pub(super) upper_mass: f64,
     /// Moment of inertia of the lower body about O, kg m².
     pub(super) lower_inertia: f64,
-    /// C - O and V + U at zero rotation, and the moment of inertia about O of a wall that turns as one.
+    /// Of a wall that turns as one: C - O and V + U at zero rotation, and the moment of inertia about O.
     pub(super) whole_arm: Vector,
     pub(super) whole_moment: Vector,
     pub(super) whole_inertia: f64,
@@ -83,10 +83,10 @@ pub(crate) struct Motion {
     pub level: Level,
 }
 
-/// Everything that turns, at one posture, side by side: the first lane is the lower body (r_Q, V), the second the upper
-/// (r_C, U). Every term of the equations is made of it.
+/// Arms and static moments turned by the rotations. The first lane is the lower body (r_Q, V), the second the
+/// upper (r_C, U). Every term of the equations is made of it.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Turned {
+pub(crate) struct Configuration {
     pub(super) sin: f64x2,
     pub(super) cos: f64x2,
     /// X and Y of the arms r_Q and r_C, m.
@@ -97,8 +97,8 @@ pub(crate) struct Turned {
     pub(super) s_y: f64x2,
 }
 
-/// The law at a posture and velocities: M θ'' = f, and what its terms are made of.
-pub(super) struct Law {
+/// The equations M θ'' = f in a configuration at given velocities, and what their terms are made of.
+pub(super) struct Equations {
     pub(super) mass: MassMatrix,
     pub(super) f: f64x2,
     /// Squares of the angular velocities.
@@ -158,28 +158,28 @@ impl Motion {
         self.held = held && self.freedom != Freedom::None;
     }
 
-    /// Whether [`Motion::monolithic_rate`] tells the rate.
+    /// Whether [`Motion::monolithic_rate`] gives the rate.
     #[inline(always)]
     pub fn turns_as_one(&self) -> bool {
         self.freedom == Freedom::Monolithic && !self.held
     }
 
     /// Everything turned by the rotations, outside of a step.
-    pub fn posture(&self, theta: Pair) -> Turned {
-        dispatch!(self.level, _ => self.turned(f64x2::new(theta)))
+    pub fn configuration_at(&self, theta: Pair) -> Configuration {
+        dispatch!(self.level, _ => self.configuration(f64x2::new(theta)))
     }
 
-    /// Turns everything by the rotations.
+    /// Rotations everything by the rotations.
     #[inline(always)]
-    pub fn turned(&self, theta: f64x2) -> Turned {
+    pub fn configuration(&self, theta: f64x2) -> Configuration {
         let (sin, cos) = sin_cos_pair(theta);
-        self.turned_by(sin, cos)
+        self.configuration_from(sin, cos)
     }
 
     #[inline(always)]
-    fn turned_by(&self, sin: f64x2, cos: f64x2) -> Turned {
+    fn configuration_from(&self, sin: f64x2, cos: f64x2) -> Configuration {
         let [arm_x, arm_y, moment_x, moment_y] = self.lanes;
-        Turned {
+        Configuration {
             sin,
             cos,
             x: arm_x * cos + arm_y * sin,
@@ -190,7 +190,7 @@ impl Motion {
     }
 
     #[inline(always)]
-    fn mass_matrix_of(&self, t: &Turned) -> MassMatrix {
+    fn mass_matrix_of(&self, t: &Configuration) -> MassMatrix {
         let m_dp = self.laws.carriage_mass_kg;
         let ([x_q, _], [y_q, y_c]) = (t.x.to_array(), t.y.to_array());
         let ([_, u_x], [_, u_y]) = (t.s_x.to_array(), t.s_y.to_array());
@@ -198,25 +198,25 @@ impl Motion {
         MassMatrix { m11, m12: (x_q * u_x + y_q * u_y) + m_dp * y_q * y_c, m22 }
     }
 
-    /// Mass matrix Jᵀ M J of the two rotations at a posture, whether free or not.
-    pub fn mass_matrix(&self, Turns([(sin_1, cos_1), (sin_2, cos_2)]): Turns) -> MassMatrix {
-        self.mass_matrix_of(&self.turned_by(f64x2::new([sin_1, sin_2]), f64x2::new([cos_1, cos_2])))
+    /// Mass matrix Jᵀ M J at these rotations, whether they are free or not.
+    pub fn mass_matrix(&self, Rotations([(sin_1, cos_1), (sin_2, cos_2)]): Rotations) -> MassMatrix {
+        self.mass_matrix_of(&self.configuration_from(f64x2::new([sin_1, sin_2]), f64x2::new([cos_1, cos_2])))
     }
 
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
-        dispatch!(self.level, _ => self.rate_at(&self.turned(theta), omega, ground)).into()
+        dispatch!(self.level, _ => self.rate_at(&self.configuration(theta), omega, ground)).into()
     }
 
-    /// The same at a posture that is known.
+    /// The same in a configuration that is known.
     #[inline(always)]
-    pub fn rate_at(&self, t: &Turned, omega: f64x2, ground: Vector) -> RatePair {
-        self.rate_by(&self.law(t, omega, ground), t, omega, ground)
+    pub fn rate_at(&self, t: &Configuration, omega: f64x2, ground: Vector) -> RatePair {
+        self.rate_by(&self.equations(t, omega, ground), t, omega, ground)
     }
 
-    /// The rate of a wall that turns as one (pattern 3 and the uncracked wall, where most of the time is spent): one arm
-    /// r = r_Q + r_C and one static moment W = V + U.
+    /// The rate of a wall that turns as one: pattern 3 and the uncracked wall. Most of the time is spent
+    /// there. It has one arm r = r_Q + r_C and one static moment W = V + U.
     #[inline(always)]
     pub fn monolithic_rate(&self, theta: f64, omega: f64, ground: Vector) -> RatePair {
         let turn = sin_cos(theta);
@@ -245,7 +245,7 @@ impl Motion {
     }
 
     #[inline(always)]
-    pub(super) fn law(&self, t: &Turned, omega: f64x2, ground: Vector) -> Law {
+    pub(super) fn equations(&self, t: &Configuration, omega: f64x2, ground: Vector) -> Equations {
         let ([x_q, x_c], [y_q, _]) = (t.x.to_array(), t.y.to_array());
         let ([_, u_x], [_, u_y]) = (t.s_x.to_array(), t.s_y.to_array());
         let (a_x, a_y) = (ground.x, ground.y + G_M_S2);
@@ -262,39 +262,46 @@ impl Motion {
         let weight_and_ground = fused_pair(t.s_x, f64x2::splat(a_y), -t.s_y * a_x);
         let forces = fused_pair(f64x2::splat(kappa), f64x2::new([w2, -w1]), weight_and_ground);
         let mass = self.mass_matrix_of(t);
-        let law = Law { mass, f: forces, squares, x_c: x_c_m, v_c, damping: 0.0, spring_and_damping: spring };
+        let equations =
+            Equations { mass, f: forces, squares, x_c: x_c_m, v_c, damping: 0.0, spring_and_damping: spring };
         if !self.damped {
             let top = spring - m_dp * carriage_acceleration;
-            return Law { f: fused_pair(t.y, f64x2::splat(top), forces), ..law };
+            return Equations { f: fused_pair(t.y, f64x2::splat(top), forces), ..equations };
         }
         let damping = self.laws.damping_force_n(v_c);
         let top = spring + damping - m_dp * carriage_acceleration;
         let f = fused_pair(t.y, f64x2::splat(top), forces) + self.laws.joint_moments_n_m(omega);
-        Law { f, damping, spring_and_damping: spring + damping, ..law }
+        Equations { f, damping, spring_and_damping: spring + damping, ..equations }
     }
 
     #[inline(always)]
-    pub(super) fn rate_by(&self, law: &Law, t: &Turned, omega: f64x2, ground: Vector) -> RatePair {
+    pub(super) fn rate_by(
+        &self,
+        equations: &Equations,
+        t: &Configuration,
+        omega: f64x2,
+        ground: Vector,
+    ) -> RatePair {
         let [p_1, p_2] = (t.s_y * omega).to_array();
         let [l_1, l_2] = (t.s_x * omega).to_array();
-        let momentum_x = fused(self.laws.carriage_mass_kg, law.v_c, p_1 + p_2);
+        let momentum_x = fused(self.laws.carriage_mass_kg, equations.v_c, p_1 + p_2);
         let ground_power_w = fused(ground.y, l_1 + l_2, -ground.x * momentum_x);
         let loss_power_w = if self.damped {
             let [j_1, j_2] = (self.laws.joint_moments_n_m(omega) * omega).to_array();
-            -fused(law.damping, law.v_c, j_1 + j_2)
+            -fused(equations.damping, equations.v_c, j_1 + j_2)
         } else {
             0.0
         };
-        let mut theta_dd = law.mass.solve(self.freedom, law.f.to_array());
+        let mut theta_dd = equations.mass.solve(self.freedom, equations.f.to_array());
         if self.held {
-            theta_dd = self.held(law, t, theta_dd).0;
+            theta_dd = self.with_held_top(equations, t, theta_dd).0;
         }
         RatePair { theta_dd: f64x2::new(theta_dd), powers_w: f64x2::new([ground_power_w, loss_power_w]) }
     }
 
     /// Kinetic, gravity and spring energy at a state, J; gravity is zero at rest.
     pub fn energy_j(&self, theta: Pair, omega: Pair) -> f64 {
-        let t = self.posture(theta);
+        let t = self.configuration_at(theta);
         let kinetic = 0.5 * self.mass_matrix_of(&t).quadratic(omega);
         let [v_y, u_y] = t.s_y.to_array();
         let lifted = (v_y - self.v.y) + (u_y - self.u.y);
@@ -302,13 +309,13 @@ impl Motion {
     }
 
     /// Kinetic energy at a state, J.
-    pub fn kinetic_energy_j(&self, turns: Turns, omega: Pair) -> f64 {
-        0.5 * self.mass_matrix(turns).quadratic(omega)
+    pub fn kinetic_energy_j(&self, rotations: Rotations, omega: Pair) -> f64 {
+        0.5 * self.mass_matrix(rotations).quadratic(omega)
     }
 
     /// Horizontal displacement s_Cx of the top, m.
     pub fn top_displacement_m(&self, theta: Pair) -> f64 {
-        let t = self.posture(theta);
+        let t = self.configuration_at(theta);
         let [x_q, x_c] = t.x.to_array();
         (x_q + x_c) + self.o_c
     }

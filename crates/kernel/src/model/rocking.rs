@@ -1,23 +1,22 @@
 //! The nine contact states of one wall, each with its arms and equations of motion.
 
 use super::MechanicsError;
-use super::balance::Aftermath;
 use super::contact::{Contact, Joint, Pivot, Touching};
-use super::joint::{JointForces, Masses};
-use super::laws::Laws;
+use super::geometry::{Arms, Pair, Rotations, TurnedArms};
+use super::joint_forces::{JointForces, Masses, Reactions};
+use super::laws::{Laws, PiecewiseLaws};
 use super::motion::{Motion, MotionRate};
-use super::posture::{Arms, Pair, Posture, Turns};
-use super::restraint::{Regime, Restraint};
+use super::regime::Regime;
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 
-/// Least velocity that still counts as opening, as a share of α over the time of response: a flight this slow rises to
-/// less than a rounding of α and is over within roundings of the time. Without it a wall whose capture velocity is zero
-/// would come to rest through infinitely many impacts.
+/// Least velocity that still counts as opening, as a share of α over the time of response. A flight this slow
+/// rises to less than a rounding of α and ends within roundings of the time. Without it a wall whose capture
+/// velocity is zero would come to rest through infinitely many impacts.
 const LEAST_CAPTURE: f64 = 1e-8;
 
-/// Corner forces within this share of the weight count as zero where no state carries the forces exactly: the rounding of
-/// the top's position times the stiffest spring.
+/// Corner forces within this share of the weight count as zero where no state carries the forces exactly. It
+/// is the rounding of the top's position times the stiffest spring.
 pub(super) const FORCE_ROUNDING: f64 = 1e-9;
 
 /// Rotations (rad) and angular velocities (rad/s) of the two bodies.
@@ -41,8 +40,8 @@ pub struct RockingWall {
     /// C_1 … C_8 with the factors of effects.
     pub(super) coefficients: [f64; 8],
     /// Laws at the top with kinks, if there are any ...
-    pub(super) restraint: Option<Restraint>,
-    /// ... below which speed the top stands, m/s ...
+    pub(super) piecewise_laws: Option<PiecewiseLaws>,
+    /// ... below which speed the top is at rest, m/s ...
     pub(super) least_speed_m_s: f64,
     /// ... and the branch they are in.
     pub(super) regime: Regime,
@@ -55,7 +54,7 @@ impl RockingWall {
         let laws = Laws::new(p.carriage_mass_kg, p.stiffness_n_per_m, &wall.effects);
         let mut rocking = Self {
             coefficients: wall.coefficients(),
-            restraint: Restraint::new(laws, &wall.effects),
+            piecewise_laws: PiecewiseLaws::new(laws, &wall.effects),
             least_speed_m_s: 0.0,
             regime: Regime::default(),
             masses: Masses::new(wall, laws.carriage_mass_kg),
@@ -81,8 +80,8 @@ impl RockingWall {
         &self.motions[contact.index()]
     }
 
-    pub(super) fn posture(&self, contact: Contact, turns: Turns) -> Posture {
-        Posture::new(&self.arms[contact.index()], turns)
+    pub(super) fn turned_arms(&self, contact: Contact, rotations: Rotations) -> TurnedArms {
+        TurnedArms::new(&self.arms[contact.index()], rotations)
     }
 
     /// Angular accelerations and powers in a contact state under a ground acceleration in m/s².
@@ -100,21 +99,21 @@ impl RockingWall {
         self.motion(contact).top_displacement_m(theta)
     }
 
-    /// Horizontal displacement of the middle of the crack (of the top of an uncracked wall), relative to the ground, m,
-    /// at a rotation of the lower body.
+    /// Horizontal displacement of the middle of the crack, relative to the ground, m, at a rotation of the
+    /// lower body. Of an uncracked wall it is that of the top.
     pub fn crack_displacement_m(&self, theta_1: f64) -> f64 {
         let o_x = Pivot::of_angle(theta_1).sign() * self.width_m(Joint::Ground) / 2.0;
         o_x + Vector::new(-o_x, self.wall.height_m[0]).rotated(theta_1.sin_cos()).x
     }
 
-    /// Time in which an error of velocity becomes one of rotation, s: the inverse of the frequency of small motion of
-    /// the whole wall on the spring, or of its rocking where there is no spring.
+    /// Time in which an error of velocity becomes one of rotation, s. It is the inverse of the frequency of
+    /// small motion of the whole wall on the spring. Where there is no spring it is that of its rocking.
     pub fn response_time_s(&self) -> f64 {
         let p = self.wall.parameters();
         // An eccentric top makes the two sides differ; the heavier one, so that a mirror changes nothing.
         let about = |ground: Pivot| {
             let motion = self.motion(Contact { ground, crack: Pivot::Closed });
-            motion.mass_matrix(Turns::new([0.0; 2])).quadratic([1.0, 1.0])
+            motion.mass_matrix(Rotations::new([0.0; 2])).quadratic([1.0, 1.0])
         };
         let mass = about(Pivot::Right).max(about(Pivot::Left));
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
@@ -130,7 +129,8 @@ impl RockingWall {
 
     /// Stiffness at the top while every spring acts, N/m.
     fn stiffest_n_per_m(&self) -> f64 {
-        let further = self.restraint.map_or(0.0, |restraint| restraint.further_stiffness_n_per_m());
+        let further =
+            self.piecewise_laws.map_or(0.0, |piecewise_laws| piecewise_laws.further_stiffness_n_per_m());
         self.wall.parameters().stiffness_n_per_m + further
     }
 
@@ -142,10 +142,11 @@ impl RockingWall {
         theta_dd: Pair,
         ground: Vector,
     ) -> JointForces {
-        self.motion(contact).aftermath(state.theta, state.omega, theta_dd, ground).forces
+        self.motion(contact).reactions(state.theta, state.omega, theta_dd, ground).forces
     }
 
-    /// Smallest corner force of the closed joints, over the weight of the wall; none where all joints are open.
+    /// Smallest corner force of the closed joints, over the weight of the wall; `None` where all joints are
+    /// open.
     ///
     /// While it is not negative the closed joints stay closed: the paper's |M_E| <= |M_I| (Eqs. 3 to 6).
     pub fn smallest_corner_force(&self, contact: Contact, forces: &JointForces) -> Option<f64> {
@@ -174,26 +175,31 @@ impl RockingWall {
         self.wall.width_m[joint as usize]
     }
 
-    /// The contact state in which the wall goes on from a state whose joints in `contact` are closed or open:
-    /// the one in which fewest joints open, its closed joints compressed at both corners and its opened joints
-    /// accelerating apart (model section 4).
+    /// The contact state that follows a state whose joints in `contact` are closed or open (model section 4).
+    /// It is the one in which fewest joints open. Its closed joints are compressed at both corners, its
+    /// opened joints accelerate apart.
     ///
     /// # Errors
-    /// [`MechanicsError::NoContactState`] where there is none.
-    pub fn settle(&self, contact: Contact, state: &State, ground: Vector) -> Result<Contact, MechanicsError> {
-        self.settled(contact, state, ground).map(|(settled, _)| settled)
-    }
-
-    /// [`RockingWall::settle`] with the motion in that state, where it is known.
-    pub(crate) fn settled(
+    /// [`MechanicsError::NoContactState`] where no state is admissible.
+    pub fn next_contact(
         &self,
         contact: Contact,
         state: &State,
         ground: Vector,
-    ) -> Result<(Contact, Option<(MotionRate, Aftermath)>), MechanicsError> {
+    ) -> Result<Contact, MechanicsError> {
+        self.next_contact_and_motion(contact, state, ground).map(|(next, _)| next)
+    }
+
+    /// [`RockingWall::next_contact`] with the motion in that state, where it is known.
+    pub(crate) fn next_contact_and_motion(
+        &self,
+        contact: Contact,
+        state: &State,
+        ground: Vector,
+    ) -> Result<(Contact, Option<(MotionRate, Reactions)>), MechanicsError> {
         for opened in 0..=2 {
             for candidate in self.states_opening(contact, opened) {
-                if let Some(carried) = self.carried(contact, candidate, state, ground) {
+                if let Some(carried) = self.admissible_motion(contact, candidate, state, ground) {
                     return Ok((candidate, Some(carried)));
                 }
             }
@@ -234,26 +240,33 @@ impl RockingWall {
             .flat_map(move |&ground| cracks.iter().map(move |&crack| Contact { ground, crack }))
     }
 
-    pub(super) fn carries(&self, before: Contact, candidate: Contact, state: &State, ground: Vector) -> bool {
-        self.carried(before, candidate, state, ground).is_some()
-    }
-
-    /// The motion in a contact state that carries its forces and whose opened joints accelerate apart.
-    fn carried(
+    pub(super) fn is_admissible(
         &self,
         before: Contact,
         candidate: Contact,
         state: &State,
         ground: Vector,
-    ) -> Option<(MotionRate, Aftermath)> {
-        let (rate, after) = self.motion(candidate).arrival_at(state.theta, state.omega, ground);
+    ) -> bool {
+        self.admissible_motion(before, candidate, state, ground).is_some()
+    }
+
+    /// The motion in a contact state that carries its forces and whose opened joints accelerate apart.
+    fn admissible_motion(
+        &self,
+        before: Contact,
+        candidate: Contact,
+        state: &State,
+        ground: Vector,
+    ) -> Option<(MotionRate, Reactions)> {
+        let (rate, reactions) =
+            self.motion(candidate).rate_and_reactions_at(state.theta, state.omega, ground);
         let apart = |joint: Joint| {
             let opens = before.at(joint).is_closed() && candidate.at(joint).is_open();
             !opens || candidate.at(joint).sign() * opening(joint, rate.theta_dd) > 0.0
         };
-        let carries =
-            self.joints().all(apart) && self.least_hold(candidate, &after).is_none_or(|least| least >= 0.0);
-        carries.then_some((rate, after))
+        let carries = self.joints().all(apart)
+            && self.smallest_reserve(candidate, &reactions).is_none_or(|least| least >= 0.0);
+        carries.then_some((rate, reactions))
     }
 }
 

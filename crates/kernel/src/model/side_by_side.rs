@@ -1,17 +1,17 @@
 //! The equations of motion of several walls side by side, in the lanes of vector registers.
 //!
-//! The same sums in the same order as in [`super::motion`] and [`super::balance`], lane by lane: a wall moves the same to the
-//! bit alone and beside others. Only for walls whose effects the lanes know, as the catalogue says; the others move alone.
+//! The same sums in the same order as in [`super::motion`] and [`super::joint_forces`], lane by lane. A wall
+//! moves the same to the bit alone and beside others. Only for walls whose effects the lanes know, as the
+//! catalogue says; the others move alone.
 //!
-//! What works on lanes is `#[inline(always)]`, closures are avoided: only so does all of it become part of the one function
-//! that is compiled for the vector instructions of a processor.
+//! What works on lanes is `#[inline(always)]`, and closures are avoided. Only so does all of it become part
+//! of the one function compiled for the vector instructions of a processor.
 
 use std::f64::consts::FRAC_PI_4;
 
 use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
-use super::balance::Aftermath;
-use super::joint::{JointForce, JointForces};
+use super::joint_forces::{JointForce, JointForces, Reactions};
 use super::laws::Laws;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
@@ -29,7 +29,7 @@ pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> F<S> {
     F::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
 }
 
-/// The motions of several contact states side by side: all of walls that turn as one, or none.
+/// The motions of several contact states side by side: either all turn as one, or all do not.
 pub(crate) struct Motions<S: Simd, const AS_ONE: bool> {
     upper: mask64x4<S>,
     any_upper: bool,
@@ -52,9 +52,9 @@ pub(crate) struct Motions<S: Simd, const AS_ONE: bool> {
     offset: F<S>,
 }
 
-/// Arms and static moments at one posture.
+/// Arms and static moments turned by the rotations.
 #[derive(Clone, Copy)]
-pub(crate) struct TurnedLanes<S: Simd> {
+pub(crate) struct ConfigurationLanes<S: Simd> {
     sin_1: F<S>,
     cos_1: F<S>,
     /// r_Q, r_C, V, U.
@@ -71,7 +71,7 @@ pub(crate) struct RateLanes<S: Simd> {
     pub ground_power_w: F<S>,
 }
 
-struct Law<S: Simd> {
+struct Equations<S: Simd> {
     m11: F<S>,
     m12: F<S>,
     m22: F<S>,
@@ -82,9 +82,9 @@ struct Law<S: Simd> {
     spring: F<S>,
 }
 
-/// [`Aftermath`] of every lane.
+/// [`Reactions`] of every lane.
 #[derive(Clone, Copy)]
-pub(crate) struct AftermathLanes<S: Simd> {
+pub(crate) struct ReactionLanes<S: Simd> {
     ground: [F<S>; 3],
     crack: [F<S>; 3],
     top: [F<S>; 3],
@@ -107,15 +107,15 @@ struct LaneLaws {
 }
 
 impl LaneLaws {
-    /// Every law by its name: a new one does not compile here until the lanes do its sums, or the catalogue says of its
-    /// effect that they do not.
+    /// Every law by its name, so that a new one does not compile here at first. Either the lanes do its sums,
+    /// or the catalogue says of its effect that they do not.
     #[inline(always)]
     fn of(motion: &Motion) -> Self {
         let Laws {
             carriage_mass_kg: m_dp,
             stiffness_n_per_m: stiffness,
             spring_offset_n: offset,
-            // Energy, of which a step needs none.
+            // Energy, which a step does not need.
             stored_offset_j: _,
             // Of effects that the catalogue calls unknown to the lanes.
             cubic_n_per_m3: _,
@@ -199,10 +199,10 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
     }
 
     #[inline(always)]
-    pub fn turned(&self, theta: [F<S>; 2]) -> TurnedLanes<S> {
+    pub fn configuration(&self, theta: [F<S>; 2]) -> ConfigurationLanes<S> {
         let (sin_1, cos_1) = sin_cos_lanes(theta[0]);
         let (sin_2, cos_2) = if AS_ONE { (sin_1, cos_1) } else { sin_cos_lanes(theta[1]) };
-        TurnedLanes {
+        ConfigurationLanes {
             sin_1,
             cos_1,
             q: rotated(self.q, sin_1, cos_1),
@@ -236,12 +236,17 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
     }
 
     #[inline(always)]
-    pub fn rate(&self, t: &TurnedLanes<S>, omega: [F<S>; 2], ground: [F<S>; 2]) -> RateLanes<S> {
-        self.rate_by(&self.law(t, omega, ground), t, omega, ground)
+    pub fn rate(&self, t: &ConfigurationLanes<S>, omega: [F<S>; 2], ground: [F<S>; 2]) -> RateLanes<S> {
+        self.rate_by(&self.equations(t, omega, ground), t, omega, ground)
     }
 
     #[inline(always)]
-    fn law(&self, t: &TurnedLanes<S>, [w1, w2]: [F<S>; 2], [g_x, g_y]: [F<S>; 2]) -> Law<S> {
+    fn equations(
+        &self,
+        t: &ConfigurationLanes<S>,
+        [w1, w2]: [F<S>; 2],
+        [g_x, g_y]: [F<S>; 2],
+    ) -> Equations<S> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let squares = [w1 * w1, w2 * w2];
         let x_c = (t.q[0] + t.c[0]) + self.o_c;
@@ -254,7 +259,7 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
             fused(kappa, -squares[0], fused(t.u[0], a_y, -t.u[1] * a_x)),
         ];
         let top = spring - self.m_dp * carriage_acceleration;
-        Law {
+        Equations {
             m11: self.inertias[0] + t.q[1] * t.q[1] * self.m_dp,
             m22: self.inertias[1] + t.c[1] * t.c[1] * self.m_dp,
             m12: (t.q[0] * t.u[0] + t.q[1] * t.u[1]) + self.m_dp * t.q[1] * t.c[1],
@@ -269,19 +274,19 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
     #[inline(always)]
     fn rate_by(
         &self,
-        law: &Law<S>,
-        t: &TurnedLanes<S>,
+        equations: &Equations<S>,
+        t: &ConfigurationLanes<S>,
         [w1, w2]: [F<S>; 2],
         [g_x, g_y]: [F<S>; 2],
     ) -> RateLanes<S> {
-        let momentum_x = fused(self.m_dp, law.v_c, t.v[1] * w1 + t.u[1] * w2);
+        let momentum_x = fused(self.m_dp, equations.v_c, t.v[1] * w1 + t.u[1] * w2);
         let ground_power_w = fused(g_y, t.v[0] * w1 + t.u[0] * w2, -g_x * momentum_x);
-        RateLanes { theta_dd: self.solve(law), ground_power_w }
+        RateLanes { theta_dd: self.solve(equations), ground_power_w }
     }
 
     /// As [`super::mass_matrix::MassMatrix::solve`].
     #[inline(always)]
-    fn solve(&self, &Law { m11, m12, m22, f: [f1, f2], .. }: &Law<S>) -> [F<S>; 2] {
+    fn solve(&self, &Equations { m11, m12, m22, f: [f1, f2], .. }: &Equations<S>) -> [F<S>; 2] {
         if AS_ONE {
             let x = (f1 + f2) / (m11 + m12 * 2.0 + m22);
             return [x, x];
@@ -295,35 +300,35 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
         [self.upper.select(still, both[0]), self.upper.select(f2 / m22, both[1])]
     }
 
-    /// As [`Motion::arrival`].
+    /// As [`Motion::rate_and_reactions`].
     #[inline(always)]
-    pub fn arrival(
+    pub fn rate_and_reactions(
         &self,
-        t: &TurnedLanes<S>,
+        t: &ConfigurationLanes<S>,
         omega: [F<S>; 2],
         ground: [F<S>; 2],
-    ) -> (RateLanes<S>, AftermathLanes<S>) {
-        let law = self.law(t, omega, ground);
-        let rate = self.rate_by(&law, t, omega, ground);
-        (rate, self.aftermath(&law, t, rate.theta_dd, ground))
+    ) -> (RateLanes<S>, ReactionLanes<S>) {
+        let equations = self.equations(t, omega, ground);
+        let rate = self.rate_by(&equations, t, omega, ground);
+        (rate, self.reactions(&equations, t, rate.theta_dd, ground))
     }
 
     #[inline(always)]
-    fn aftermath(
+    fn reactions(
         &self,
-        law: &Law<S>,
-        t: &TurnedLanes<S>,
+        equations: &Equations<S>,
+        t: &ConfigurationLanes<S>,
         [dd_1, dd_2]: [F<S>; 2],
         [g_x, g_y]: [F<S>; 2],
-    ) -> AftermathLanes<S> {
+    ) -> ReactionLanes<S> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
-        let [w1, w2] = law.squares;
+        let [w1, w2] = equations.squares;
         let q_x = fused(t.q[1], dd_1, -t.q[0] * w1);
         let c_x = fused(t.c[1], dd_2, -t.c[0] * w2);
         let q_y = fused(t.q[0], dd_1, t.q[1] * w1);
         let u_x = fused(t.u[1], dd_2, -t.u[0] * w2);
         let u_y = fused(t.u[0], dd_2, t.u[1] * w2);
-        let top = fused(self.m_dp, a_x + q_x + c_x, -law.spring);
+        let top = fused(self.m_dp, a_x + q_x + c_x, -equations.spring);
         let at_q = [a_x + q_x, a_y - q_y];
         let crack = [fused(self.upper_mass, at_q[0], u_x) + top, fused(self.upper_mass, at_q[1], -u_y)];
         let about_q = fused(t.c[1], top, fused(self.inertias[1], dd_2, moment(t.u, at_q)));
@@ -335,25 +340,25 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
         let through_ground = [lower[0] + crack[0], lower[1] + crack[1]];
         let about_o = fused(self.lower_inertia, dd_1, moment(w, [a_x, a_y])) + about_q + moment(t.q, crack);
         let in_crack = [crack[0] * t.cos_1 - crack[1] * t.sin_1, crack[1] * t.cos_1 + crack[0] * t.sin_1];
-        AftermathLanes {
+        ReactionLanes {
             ground: [through_ground[0], through_ground[1], fused(-self.o_x, through_ground[1], about_o)],
             crack: [in_crack[0], in_crack[1], fused(-self.q_x, in_crack[1], about_q)],
-            top: [law.x_c, law.v_c, q_x + c_x],
+            top: [equations.x_c, equations.v_c, q_x + c_x],
         }
     }
 }
 
-impl<S: Simd> AftermathLanes<S> {
+impl<S: Simd> ReactionLanes<S> {
     /// That of one lane.
     #[inline(always)]
-    pub fn unpacked(&self) -> [Aftermath; LANES] {
+    pub fn unpacked(&self) -> [Reactions; LANES] {
         let [ground, crack, top] = [self.ground, self.crack, self.top].map(|of| of.map(<[f64; LANES]>::from));
         let force = |of: &[[f64; LANES]; 3], i: usize| JointForce {
             shear: of[0][i],
             normal: of[1][i],
             moment: of[2][i],
         };
-        std::array::from_fn(|i| Aftermath {
+        std::array::from_fn(|i| Reactions {
             forces: JointForces { ground: force(&ground, i), crack: force(&crack, i) },
             top_displacement_m: top[0][i],
             top_velocity_m_s: top[1][i],

@@ -36,7 +36,7 @@ impl Vector {
 
     /// d/dθ of a vector that turns with θ: (X, Y) becomes (Y, -X).
     #[inline(always)]
-    pub(crate) fn turned(self) -> Self {
+    pub(crate) fn perpendicular(self) -> Self {
         Self::new(self.y, -self.x)
     }
 
@@ -100,8 +100,8 @@ pub(super) const COS: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// Sine and cosine; within ±π/4, where walls live, by the polynomials of fdlibm (error below one unit in the last
-/// place), because the library's argument reduction costs more than the motion.
+/// Sine and cosine. Within ±π/4, where walls live, the polynomials of fdlibm serve: their error is below one
+/// unit in the last place. The library's argument reduction would cost more than the motion.
 #[inline(always)]
 pub(crate) fn sin_cos(theta: f64) -> (f64, f64) {
     if theta.abs() > FRAC_PI_4 {

@@ -42,7 +42,7 @@ pub struct Restitution {
 }
 
 impl Restitution {
-    /// Capture velocity where none is given, rad/s: corners that close slower than 0.3 mm/s do not count as impacts.
+    /// Default capture velocity, rad/s: corners that close slower than 0.3 mm/s do not count as impacts.
     pub const DEFAULT_CAPTURE_RAD_S: f64 = 1e-3;
 }
 
@@ -63,7 +63,7 @@ pub struct WallParameters {
     pub thickness_m: f64,
     /// Total height h, m.
     pub height_m: f64,
-    /// Height of the crack h_1, m; none: uncracked, one block.
+    /// Height of the crack h_1, m; `None`: uncracked, one block.
     pub crack_height_m: Option<f64>,
     /// Length L of the strip, m.
     pub length_m: f64,
@@ -92,11 +92,11 @@ pub struct WallParameters {
 }
 
 impl WallParameters {
-    /// Collapse ratio where none is given: overturned well past the point of no return of a single block.
+    /// Default collapse ratio: overturned well past the point of no return of a single block.
     pub const DEFAULT_COLLAPSE_RATIO: f64 = 2.0;
 
-    /// A strip of masonry 1 m long that stands free: uncracked, sharp corners, nothing on its top, at rest. What a wall has
-    /// beside that is set over it.
+    /// A free strip of masonry 1 m long: uncracked, sharp corners, nothing on its top, at rest. What a wall
+    /// has beside that is set over it.
     pub fn strip(thickness_m: f64, height_m: f64, density_kg_m3: f64) -> Self {
         Self {
             thickness_m,
@@ -144,7 +144,7 @@ pub struct Wall {
     pub(crate) alpha_i_rad: [f64; 2],
     /// Widths b_1, b_2 between the rocking corners, m, as the effects leave them.
     pub(crate) width_m: [f64; 2],
-    /// What the effects come to.
+    /// The sums of the effects.
     pub(crate) effects: EffectSums,
 }
 
@@ -211,8 +211,8 @@ impl Wall {
         std::array::from_fn(|l| own[l] * factors[l])
     }
 
-    /// Plastic displacement of the wall's yielding spring, m, once the top is displaced so far, from that before; the
-    /// turning points of a path are enough to follow it. Without such a spring it stays.
+    /// Plastic displacement of the wall's yielding spring, m, once the top is displaced so far, from that
+    /// before. The turning points of a path are enough to follow it. Without such a spring it stays.
     pub fn plastic_displacement_m(&self, before_m: f64, top_displacement_m: f64) -> f64 {
         match self.effects.yielding {
             Some(spring) => spring.plastic_m(before_m, top_displacement_m),
@@ -297,4 +297,36 @@ fn require(
     } else {
         Err(ImpossibleWall { key: Cow::Borrowed(key), found: value.to_string(), allowed: allowed() })
     }
+}
+
+/// Share of the compressive strength in the rectangular stress block.
+const BLOCK_STRENGTH: f64 = 0.85;
+
+/// Widths b_1, b_2 between the rocking corners, m.
+///
+/// The weight N_i above a corner rests on a stress block of depth a = N_i / (0.85 f L). Its resultant lies at
+/// a/2 from the face on either side, so that b_i = b - a. `above_kg` are the masses above the ground and
+/// above the crack.
+///
+/// # Errors
+/// A strength that is not positive, or so low that a corner crushes through the wall.
+pub fn crushed_widths_m(
+    thickness_m: f64,
+    length_m: f64,
+    above_kg: [f64; 2],
+    strength_pa: f64,
+) -> Result<[f64; 2], ImpossibleWall> {
+    let key = "corners.compressive_strength_pa";
+    let refuse =
+        |allowed: String| ImpossibleWall { key: key.into(), found: strength_pa.to_string(), allowed };
+    if !(strength_pa > 0.0 && strength_pa.is_finite()) {
+        return Err(refuse("a finite number above 0".to_owned()));
+    }
+    let depth_m = above_kg.map(|mass_kg| mass_kg * G_M_S2 / (BLOCK_STRENGTH * strength_pa * length_m));
+    let deepest_m = depth_m[0].max(depth_m[1]);
+    if deepest_m.is_nan() || deepest_m >= thickness_m {
+        let least = strength_pa * deepest_m / thickness_m;
+        return Err(refuse(format!("above {least:.4e} Pa, below which the corner crushes through the wall")));
+    }
+    Ok(depth_m.map(|a| thickness_m - a))
 }

@@ -1,30 +1,30 @@
-//! What happens first inside a step: a joint closes, a joint opens, a body passes its collapse rotation.
+//! What happens first inside a step: a joint closes or opens, a law has a kink, a body collapses.
 
-use crate::model::{Contact, Joint, Kink, Pair, Touching, opening};
-use crate::solver::{Bernstein, Quintic};
+use crate::model::{Contact, Joint, Kink, Pair, RockingWall, Touching, opening};
+use crate::solver::{Bernstein, Point, Quintic, hermite};
 
 /// What ends a step early.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Event {
     /// A body passes its collapse rotation.
-    Collapses,
+    Collapse,
     /// An open joint closes; closed joints touch too.
-    Strikes(Touching),
+    Impact(Touching),
     /// A closed joint lifts at a corner, or friction can no longer hold the top.
-    Opens,
-    /// A law at the top comes to a kink.
-    Bends(Kink),
+    Opening,
+    /// A law at the top has a kink.
+    Kink(Kink),
 }
 
 impl Event {
     /// The gap that closes.
     pub fn gap(self) -> Option<fn(Pair) -> f64> {
         match self {
-            Event::Strikes(Touching { crack: true, ground: false }) => {
+            Event::Impact(Touching { crack: true, ground: false }) => {
                 Some(|pair| opening(Joint::Crack, pair))
             }
-            Event::Strikes(Touching { crack: true, ground: true }) => Some(|pair| pair[1]),
-            Event::Strikes(_) => Some(|pair| opening(Joint::Ground, pair)),
+            Event::Impact(Touching { crack: true, ground: true }) => Some(|pair| pair[1]),
+            Event::Impact(_) => Some(|pair| opening(Joint::Ground, pair)),
             _ => None,
         }
     }
@@ -32,19 +32,20 @@ impl Event {
 
 /// Two closings nearer than this share of a step are one: roundings could not tell their order.
 const SAME_INSTANT: f64 = 1e-12;
-/// A lift-off located this well, as a share of a step, needs no better: an opening is placed as much later anyway.
+/// A lift-off need not be located better than this share of a step. An opening is placed as much later
+/// anyway.
 const NEAR_ENOUGH: f64 = 1e-9;
 /// Roundings a rotation gathers over a step of some ten operations.
 const ROUNDINGS: f64 = 8.0;
-/// Corner forces are looked at inside a step where the nearer end is within this share of their size and change of
-/// zero: between ends that are farther away a smooth force cannot dip below zero, because the motion turns by less
-/// than a tenth of a radian of its own period within a step.
+/// Corner forces are looked at inside a step where one at an end is small beside its size and change. Between
+/// ends that are farther away a smooth force cannot dip below zero. The motion turns by less than a tenth of
+/// a radian of its own period within a step.
 const NEAR_ZERO: f64 = 0.05;
 
 /// The first event inside a step and the share of the step at which it happens.
 ///
-/// Ties go to collapse, then to the closing of joints, then to opening: a collapsed wall does not strike, and a joint
-/// that closes changes the forces that would open another.
+/// Ties go to collapse, then to the closing of joints, then to opening. A collapsed wall has no impacts, and
+/// a joint that closes changes the forces that would open another.
 #[inline]
 pub(super) fn first_event(
     contact: Contact,
@@ -54,7 +55,7 @@ pub(super) fn first_event(
     force_at: impl Fn(f64) -> f64,
 ) -> Option<(Event, f64)> {
     let opening = match corner_force {
-        (Some(start), Some(end)) => first_lift(start, end, force_at).map(|share| (Event::Opens, share)),
+        (Some(start), Some(end)) => first_lift(start, end, force_at).map(|share| (Event::Opening, share)),
         _ => None,
     };
     // Most steps are far from everything, and their coefficients prove it.
@@ -64,8 +65,8 @@ pub(super) fn first_event(
         return opening;
     }
     let collapse = if stands { None } else { first_collapse(motion, collapse_rad) };
-    let collapse = collapse.map(|share| (Event::Collapses, share));
-    let strike = first_strike(contact, motion);
+    let collapse = collapse.map(|share| (Event::Collapse, share));
+    let strike = first_closing(contact, motion);
     [collapse, strike, opening].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
@@ -86,7 +87,7 @@ fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
-fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
+fn first_closing(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
     let [lower, upper] = motion.bounds();
     let ground = closing(contact.ground.sign(), motion.coordinate(0), lower);
     let crack = closing(contact.crack.sign(), motion.difference(), upper);
@@ -96,7 +97,7 @@ fn first_strike(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
         ground: now(ground) || contact.ground.is_closed(),
         crack: now(crack) || contact.crack.is_closed(),
     };
-    Some((Event::Strikes(touching), first))
+    Some((Event::Impact(touching), first))
 }
 
 /// Share at which a gap of a joint that is open on this side first closes; `size` is that of the rotations it is the
@@ -150,7 +151,8 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
             positive = (share, force);
         }
     }
-    // A force that is linear gives false position a positive side within roundings of zero, from which it does not move.
+    // Of a linear force, false position gets a positive side within roundings of zero and does not move from
+    // it.
     let located = negative.0 - positive.0 <= NEAR_ENOUGH;
     while !located && negative.0 - positive.0 > SAME_INSTANT {
         let middle = 0.5 * (positive.0 + negative.0);
@@ -163,13 +165,79 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
     negative.0
 }
 
+/// The first kink inside a step and the share of the step at which it lies.
+///
+/// The top's displacement over the step is a quintic, as that of the rotations is. It goes through its
+/// displacements, velocities and accelerations at both ends.
+#[inline]
+pub(super) fn first_kink(
+    wall: &RockingWall,
+    contact: Contact,
+    start: &Point,
+    end: &Point,
+    h: f64,
+) -> Option<(Kink, f64)> {
+    wall.piecewise_laws().and_then(|_| first_of(wall, contact, start, end, h))
+}
+
+#[cold]
+fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h: f64) -> Option<(Kink, f64)> {
+    if wall.is_held() {
+        // A top that is held moves by roundings only, which are no kinks.
+        return None;
+    }
+    let top = |p: &Point| wall.top(contact, p.position, p.velocity, p.acceleration);
+    let (from, to) = (top(start), top(end));
+    // What x_C and its velocity are sums of.
+    let width_m = wall.wall().parameters().thickness_m;
+    let speed_m_s =
+        wall.top_speed_size(contact, start.velocity).max(wall.top_speed_size(contact, end.velocity));
+    let share = |kink: Kink| match kink {
+        Kink::Passes { limit_m, sign, .. } => {
+            let left = |[x_c, v_c, a_c]: [f64; 3]| [limit_m - x_c, -v_c, -a_c].map(|term| sign * term);
+            let rounding_m = ROUNDINGS * f64::EPSILON * (width_m + limit_m.abs());
+            first_end(hermite(left(from), left(to), h), rounding_m)
+        }
+        Kink::Stops { sign } => {
+            // The cubic through velocities and accelerations. The quintic's slope would divide roundings of a
+            // displacement by a step that may be as short.
+            let ([_, v_0, a_0], [_, v_1, a_1]) = (from, to);
+            let v_c = Bernstein([v_0, v_0 + h * a_0 / 3.0, v_1 - h * a_1 / 3.0, v_1]);
+            first_end(v_c.times(sign), ROUNDINGS * f64::EPSILON * speed_m_s)
+        }
+    };
+    let kinks = wall.piecewise_laws()?.kinks(&wall.regime());
+    let roots = kinks.filter_map(|kink| share(kink).map(|share| (kink, share)));
+    roots.reduce(|a, b| if b.1 < a.1 { b } else { a })
+}
+
+/// Share at which what is left to a kink turns negative. Where it begins at zero, its first coefficient
+/// beyond roundings decides: it turns negative at once, or later.
+fn first_end<const N: usize>(mut left: Bernstein<N>, rounding: f64) -> Option<f64> {
+    let first = left.0.iter().position(|c| c.abs() > rounding)?;
+    if left.0[first] < 0.0 {
+        return Some(0.0);
+    }
+    left.0[..first].fill(0.0);
+    left.first_root()
+}
+
+/// What is left to a kink at an instant, and how fast it falls.
+pub(super) fn left_to_kink(wall: &RockingWall, contact: Contact, kink: Kink, at: &Point) -> (f64, f64) {
+    let [x_c, v_c, a_c] = wall.top(contact, at.position, at.velocity, at.acceleration);
+    match kink {
+        Kink::Passes { limit_m, .. } => (x_c - limit_m, v_c),
+        Kink::Stops { .. } => (v_c, a_c),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn analytic_a_force_on_a_line_vanishes_where_the_line_does() {
-        // Linear to the last digit, so that false position comes to stand within roundings of the root.
+        // Linear to the last digit, so that false position stops within roundings of the root.
         for k in 1..1000 {
             let root = f64::from(k) * 1e-3;
             let line = |share: f64| 7.743666e-4 - 7.743666e-4 / root * share;

@@ -8,7 +8,7 @@ use crate::model::{GroundChange, Vector};
 /// Step of a free release, which has no record: its history is written at this step, s.
 pub const FREE_RELEASE_STEP_S: f64 = 0.005;
 
-/// A lag this near a number of whole steps, as a share of one, is that number: a quotient of roundings.
+/// A lag this near a whole number of steps, as a share of one, is that number. A quotient has roundings.
 const NEAR_WHOLE: f64 = 1e-9;
 
 /// Piecewise linear ground acceleration; cheap to clone, for the samples are shared.
@@ -54,8 +54,8 @@ impl GroundPath {
         Self { step_s: horizontal.step_s(), samples, origin_s: 0.0, end_s }
     }
 
-    /// The ground motion that effects make of this record; a record that comes later makes the run end later, so that
-    /// its free motion stays as long.
+    /// The ground motion that effects make of this record. A record that comes later makes the run end later,
+    /// so that its free motion stays as long.
     #[must_use]
     pub fn changed(&self, change: &GroundChange) -> Self {
         if *change == GroundChange::NONE || self.samples.is_empty() {
@@ -148,8 +148,8 @@ impl GroundPath {
         }
     }
 
-    /// First piece from the `k`-th on, all of which are between samples, whose end does not satisfy `holds`; the
-    /// number of pieces between samples if none.
+    /// First piece from the `k`-th on whose end does not satisfy `holds`, of the pieces between samples. The
+    /// number of these pieces if all ends do.
     #[inline]
     pub fn first_end_against(&self, k: usize, mut holds: impl FnMut(Vector) -> bool) -> usize {
         let ends = self.samples.get(k + 1..).unwrap_or(&[]);

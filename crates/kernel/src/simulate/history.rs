@@ -3,16 +3,16 @@
 use crate::model::{Contact, Pair};
 use crate::solver::Quintic;
 
-/// Told every stretch of a run, in order.
+/// Receives every stretch of a run, in order.
 pub trait Observer {
     /// The wall moved in a contact state from a time in seconds, along a quintic.
     fn moved(&mut self, start_s: f64, contact: Contact, motion: &Quintic);
-    /// The wall stood still from one time to another, s.
+    /// The wall was at rest from one time to another, s.
     fn stood(&mut self, from_s: f64, to_s: f64);
     /// The run ended.
     fn ended(&mut self, time_s: f64, contact: Contact, theta: Pair);
-    /// Whether the rest of the run is not worth its time; asked at every sample of the record. What such a run gives is
-    /// that of its part.
+    /// Whether the rest of the run is not worth its time; checked at every sample of the record. The response
+    /// is then that of the part that was run.
     fn seen_enough(&self) -> bool {
         false
     }
@@ -63,7 +63,7 @@ pub struct History {
     pub rows: Vec<HistoryRow>,
 }
 
-/// A sample this near the end of a run, as a share of the step, lies on it: times are sums of roundings.
+/// A sample within this share of the step of a run's end lies on it: times gather roundings.
 const NEAR_END: f64 = 1e-6;
 
 impl History {

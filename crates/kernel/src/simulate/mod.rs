@@ -3,13 +3,12 @@
 mod events;
 mod ground_path;
 mod history;
-mod kinks;
 mod response;
 mod rest;
 mod run;
 mod side_by_side;
 mod simulator;
-mod tally;
+mod totals;
 
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
@@ -22,10 +21,10 @@ pub use simulator::{Simulator, Start};
 use crate::accelerogram::Accelerogram;
 use crate::model::Wall;
 
-/// What shakes the wall: a horizontal record, perhaps a vertical one, and how long to go on afterwards.
+/// What shakes the wall: a horizontal record, perhaps a vertical one, and the free motion after them.
 #[derive(Debug, Clone, Default)]
 pub struct Shaking {
-    /// Horizontal ground acceleration; none: a free release.
+    /// Horizontal ground acceleration; `None`: a free release.
     pub horizontal: Option<Accelerogram>,
     /// Vertical ground acceleration, at the same step; zero after its end.
     pub vertical: Option<Accelerogram>,
@@ -34,7 +33,7 @@ pub struct Shaking {
 }
 
 impl Shaking {
-    /// Whether another shaking is this one, its samples shared: told without looking at them.
+    /// Whether another shaking is this one, its samples shared; decided without looking at them.
     pub fn shares_samples_with(&self, other: &Self) -> bool {
         let same = |a: &Option<Accelerogram>, b: &Option<Accelerogram>| match (a, b) {
             (Some(a), Some(b)) => a.shares_samples_with(b),
@@ -61,10 +60,10 @@ impl Default for Accuracy {
 
 /// Runs one wall; pure: the same inputs give the same bits on any thread.
 pub fn simulate(wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
-    Simulator::new(wall, shaking, accuracy).prepared().alone()
+    Simulator::new(wall, shaking, accuracy).prepared().run_alone()
 }
 
-/// Runs one wall and tells an observer every stretch of it; the response has the same bits as without.
+/// Runs one wall and gives an observer every stretch of it; the response has the same bits as without.
 pub fn simulate_observed(
     wall: &Wall,
     shaking: &Shaking,

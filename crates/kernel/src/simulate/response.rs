@@ -1,4 +1,4 @@
-//! What a run tells about itself.
+//! The response of a run: maxima, patterns, events, energy.
 
 use crate::model::Table2Change;
 

@@ -1,57 +1,58 @@
-//! Rest: the ground acceleration at which a wall that stands still starts to move.
+//! Rest: the ground acceleration at which a wall at rest starts to move.
 //!
-//! At rest every corner force is linear in the ground acceleration, so the record can be searched sample by sample
-//! without integrating, and the instant inside a sample is exact.
+//! At rest every corner force is linear in the ground acceleration. So the record is searched sample by
+//! sample without integrating, and the instant inside a sample is exact.
 //!
-//! Friction at the top can take any force λ within ±F_c. A corner force c + D λ stays positive above or below some λ,
-//! and a λ that suits all exists as long as every bound from below lies below every bound from above: conditions that
-//! are linear in the ground acceleration again.
+//! Friction at the top can take any force λ within ±F_c. A corner force c + D λ stays positive above or below
+//! some λ. A λ that suits all corners exists while every bound from below lies below every bound from above.
+//! These conditions are linear in the ground acceleration again.
 
 use super::ground_path::Piece;
 use crate::model::{Contact, RockingWall, State, Vector};
 
-/// Corner forces at rest: `x` times a_x plus `y` times a_y plus `standing`.
+/// Corner forces at rest: `x` times a_x plus `y` times a_y plus `constant`.
 #[derive(Debug, Clone, Copy, Default)]
 struct CornerForce {
     x: f64,
     y: f64,
-    standing: f64,
+    constant: f64,
 }
 
 impl CornerForce {
     /// The same force over a positive number.
     fn over(&self, divisor: f64) -> Self {
-        Self { x: self.x / divisor, y: self.y / divisor, standing: self.standing / divisor }
+        Self { x: self.x / divisor, y: self.y / divisor, constant: self.constant / divisor }
     }
 
     fn plus(&self, other: &Self) -> Self {
-        Self { x: self.x + other.x, y: self.y + other.y, standing: self.standing + other.standing }
+        Self { x: self.x + other.x, y: self.y + other.y, constant: self.constant + other.constant }
     }
 
     #[inline]
     fn at(&self, ground: Vector) -> f64 {
-        self.x * ground.x + self.y * ground.y + self.standing
+        self.x * ground.x + self.y * ground.y + self.constant
     }
 }
 
-/// When a wall at rest moves, and what it asks of friction while it stands.
+/// When a wall at rest starts to move, and its friction demand until then.
 #[derive(Debug, Clone)]
 pub(crate) struct RestLimits {
     /// At the ground, left and right, then at the crack; a crack that is not there never lifts.
     corners: [CornerForce; 4],
     /// Mass that pushes sideways over mass that presses down, at the ground and at the crack.
     sideways_over_down: [f64; 2],
-    /// In place of the corners, what must not be negative for friction at the top to hold the wall; empty without.
+    /// In place of the corners: what must not be negative for friction to hold the wall. Empty without
+    /// friction.
     with_friction: Vec<CornerForce>,
 }
 
 /// A corner that never lifts.
-const PRESSED: CornerForce = CornerForce { x: 0.0, y: 0.0, standing: 1.0 };
+const PRESSED: CornerForce = CornerForce { x: 0.0, y: 0.0, constant: 1.0 };
 
 impl RestLimits {
     pub fn new(wall: &RockingWall) -> Self {
         let mut limits = Self::of_corners(wall);
-        let friction_n = wall.restraint().map_or(0.0, |restraint| restraint.friction_n());
+        let friction_n = wall.piecewise_laws().map_or(0.0, |piecewise_laws| piecewise_laws.friction_n());
         if friction_n > 0.0 {
             limits.with_friction = with_friction(wall, &limits.corners, friction_n);
             limits.corners = [PRESSED; 4];
@@ -73,7 +74,7 @@ impl RestLimits {
                     // Both ways, so that the mirrored wall gets the mirrored number to the bit.
                     x: 0.5 * (pushed[side] - pulled[side]),
                     y: lifted[side] - still[side],
-                    standing: still[side],
+                    constant: still[side],
                 };
             }
         }
@@ -97,7 +98,7 @@ impl RestLimits {
     }
 
     /// The least of what holds the wall at rest; it moves when this is negative.
-    pub fn hold(&self, ground: Vector) -> f64 {
+    pub fn reserve(&self, ground: Vector) -> f64 {
         self.conditions().map(|condition| condition.at(ground)).fold(f64::INFINITY, f64::min)
     }
 
@@ -105,8 +106,8 @@ impl RestLimits {
         self.corners.iter().chain(&self.with_friction)
     }
 
-    /// Offset in a piece, not before `from_s`, at which the first corner lifts; none if all are pressed at its end,
-    /// for between two such ends a linear force cannot vanish.
+    /// Offset in a piece, not before `from_s`, at which the first corner lifts. `None` if all are pressed at
+    /// its end: between two such ends a linear force cannot vanish.
     #[inline]
     pub fn lift_off_s(&self, piece: &Piece, from_s: f64) -> Option<f64> {
         let (start, end) = (piece.at(from_s), piece.at(piece.length_s));
@@ -121,7 +122,7 @@ impl RestLimits {
         Some(from_s + first * (piece.length_s - from_s))
     }
 
-    /// |H|/N at the ground and at the crack while the wall stands under a ground acceleration.
+    /// Share |a_x| / (g + a_y) of a ground acceleration; times its factor it is |H|/N at a joint at rest.
     #[inline]
     pub fn friction(&self, ground: Vector) -> f64 {
         ground.x.abs() / (crate::model::G_M_S2 + ground.y)
@@ -135,12 +136,17 @@ impl RestLimits {
 
 /// What must not be negative for a force at the top within ±F_c to press all corners.
 fn with_friction(wall: &RockingWall, corners: &[CornerForce; 4], friction_n: f64) -> Vec<CornerForce> {
-    let most = CornerForce { standing: friction_n, ..CornerForce::default() };
+    let most = CornerForce { constant: friction_n, ..CornerForce::default() };
     let (mut from_below, mut from_above) = (vec![most], vec![most]);
     let mut conditions = Vec::new();
-    // As large as the friction, so that it stands out of the roundings; both ways, for the mirror's sake.
+    // As large as the friction, so that it exceeds the roundings; both ways, for the mirror's sake.
     let [pushed, pulled] = [friction_n, -friction_n].map(|force_n| {
-        wall.pushed(force_n).joint_forces(Contact::REST, &State::default(), [0.0; 2], Vector::default())
+        wall.with_top_force(force_n).joint_forces(
+            Contact::REST,
+            &State::default(),
+            [0.0; 2],
+            Vector::default(),
+        )
     });
     for joint in wall.joints() {
         let width_m = wall.width_m(joint);

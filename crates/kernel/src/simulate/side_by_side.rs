@@ -1,6 +1,7 @@
-//! Runs side by side: those that ask for a step of the same kind take it together, in the lanes of vector registers.
+//! Runs side by side: those that request a step of the same kind take it together, in vector lanes.
 //!
-//! What a run gives does not depend on those beside it: every lane does the sums that the run would do alone.
+//! The response of a run does not depend on those beside it. Every lane does the sums that the run would do
+//! alone.
 
 use std::ops::Mul;
 
@@ -8,21 +9,21 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
 
 use super::history::Observer;
 use super::response::Response;
-use super::run::{Asked, Run};
+use super::run::{Run, StepRequest};
 use crate::fused::fused_lanes;
-use crate::model::{Aftermath, AftermathLanes, LANES, Motions, TurnedLanes, lanes};
+use crate::model::{ConfigurationLanes, LANES, Motions, ReactionLanes, Reactions, lanes};
 use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
 
 type F<S> = f64x4<S>;
 
 /// One coordinate of every run, or both of them.
 #[derive(Clone, Copy)]
-struct One<S: Simd>(F<S>);
+struct OneRotation<S: Simd>(F<S>);
 
 #[derive(Clone, Copy)]
-struct Two<S: Simd>([F<S>; 2]);
+struct TwoRotations<S: Simd>([F<S>; 2]);
 
-impl<S: Simd> Mul<f64> for One<S> {
+impl<S: Simd> Mul<f64> for OneRotation<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -30,7 +31,7 @@ impl<S: Simd> Mul<f64> for One<S> {
     }
 }
 
-impl<S: Simd> Values for One<S> {
+impl<S: Simd> Values for OneRotation<S> {
     type Length = F<S>;
     #[inline(always)]
     fn over(self, length: F<S>) -> Self {
@@ -48,7 +49,7 @@ impl<S: Simd> Values for One<S> {
     }
 }
 
-impl<S: Simd> Mul<f64> for Two<S> {
+impl<S: Simd> Mul<f64> for TwoRotations<S> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -56,7 +57,7 @@ impl<S: Simd> Mul<f64> for Two<S> {
     }
 }
 
-impl<S: Simd> Values for Two<S> {
+impl<S: Simd> Values for TwoRotations<S> {
     type Length = F<S>;
     #[inline(always)]
     fn over(self, length: F<S>) -> Self {
@@ -74,26 +75,26 @@ impl<S: Simd> Values for Two<S> {
     }
 }
 
-struct Shaken<S: Simd, const AS_ONE: bool> {
+struct ShakenMotion<S: Simd, const AS_ONE: bool> {
     motions: Motions<S, AS_ONE>,
     from: [F<S>; 2],
     slope: [F<S>; 2],
     from_s: F<S>,
-    posture: Option<TurnedLanes<S>>,
-    after: Option<AftermathLanes<S>>,
+    configuration: Option<ConfigurationLanes<S>>,
+    reactions: Option<ReactionLanes<S>>,
 }
 
-impl<S: Simd, const AS_ONE: bool> Shaken<S, AS_ONE> {
+impl<S: Simd, const AS_ONE: bool> ShakenMotion<S, AS_ONE> {
     #[inline(always)]
-    fn new(simd: S, asked: &[Asked; LANES]) -> Self {
-        let lanes = |of: fn(&Asked) -> f64| lanes(simd, |i| of(&asked[i]));
+    fn new(simd: S, requests: &[StepRequest; LANES]) -> Self {
+        let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
         Self {
-            motions: Motions::new(simd, std::array::from_fn(|i| asked[i].law)),
+            motions: Motions::new(simd, std::array::from_fn(|i| requests[i].motion)),
             from: [lanes(|a| a.piece.from.x), lanes(|a| a.piece.from.y)],
             slope: [lanes(|a| a.piece.slope.x), lanes(|a| a.piece.slope.y)],
             from_s: lanes(|a| a.from_s),
-            posture: None,
-            after: None,
+            configuration: None,
+            reactions: None,
         }
     }
 
@@ -103,61 +104,77 @@ impl<S: Simd, const AS_ONE: bool> Shaken<S, AS_ONE> {
         [self.from[0] + self.slope[0] * offset_s, self.from[1] + self.slope[1] * offset_s]
     }
 
-    /// What the landing told of every lane.
+    /// The reactions of every lane at the end of the step.
     #[inline(always)]
-    fn aftermaths(&self) -> [Aftermath; LANES] {
-        self.after.as_ref().map_or([Aftermath::default(); LANES], AftermathLanes::unpacked)
+    fn reactions(&self) -> [Reactions; LANES] {
+        self.reactions.as_ref().map_or([Reactions::default(); LANES], ReactionLanes::unpacked)
     }
 }
 
-impl<S: Simd> Field<One<S>> for Shaken<S, true> {
+impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true> {
     #[inline(always)]
-    fn rate(&mut self, after_s: F<S>, theta: One<S>, omega: One<S>) -> Rate<One<S>> {
+    fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
         let (theta_dd, power) = self.motions.monolithic_rate(theta.0, omega.0, self.ground(after_s));
-        Rate { acceleration: One(theta_dd), quadrature: One(power) }
+        Rate { acceleration: OneRotation(theta_dd), quadrature: OneRotation(power) }
     }
 
     #[inline(always)]
-    fn land(&mut self, after_s: F<S>, theta: One<S>, omega: One<S>) -> Rate<One<S>> {
-        let turned = self.motions.turned([theta.0; 2]);
-        let (rate, after) = self.motions.arrival(&turned, [omega.0; 2], self.ground(after_s));
-        self.after = Some(after);
-        Rate { acceleration: One(rate.theta_dd[0]), quadrature: One(rate.ground_power_w) }
+    fn land(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
+        let turned = self.motions.configuration([theta.0; 2]);
+        let (rate, reactions) = self.motions.rate_and_reactions(&turned, [omega.0; 2], self.ground(after_s));
+        self.reactions = Some(reactions);
+        Rate { acceleration: OneRotation(rate.theta_dd[0]), quadrature: OneRotation(rate.ground_power_w) }
     }
 }
 
 /// Both coordinates, and the one quadrature in the place of the first.
-impl<S: Simd> Field<Two<S>> for Shaken<S, false> {
+impl<S: Simd> Field<TwoRotations<S>> for ShakenMotion<S, false> {
     #[inline(always)]
-    fn rate(&mut self, after_s: F<S>, theta: Two<S>, omega: Two<S>) -> Rate<Two<S>> {
-        let turned = self.motions.turned(theta.0);
+    fn rate(
+        &mut self,
+        after_s: F<S>,
+        theta: TwoRotations<S>,
+        omega: TwoRotations<S>,
+    ) -> Rate<TwoRotations<S>> {
+        let turned = self.motions.configuration(theta.0);
         let rate = self.motions.rate(&turned, omega.0, self.ground(after_s));
-        self.posture = Some(turned);
+        self.configuration = Some(turned);
         let none = F::splat(after_s.simd, 0.0);
-        Rate { acceleration: Two(rate.theta_dd), quadrature: Two([rate.ground_power_w, none]) }
+        Rate {
+            acceleration: TwoRotations(rate.theta_dd),
+            quadrature: TwoRotations([rate.ground_power_w, none]),
+        }
     }
 
     #[inline(always)]
-    fn land(&mut self, after_s: F<S>, theta: Two<S>, omega: Two<S>) -> Rate<Two<S>> {
-        let turned = self.posture.unwrap_or_else(|| self.motions.turned(theta.0));
-        let (rate, after) = self.motions.arrival(&turned, omega.0, self.ground(after_s));
-        self.after = Some(after);
+    fn land(
+        &mut self,
+        after_s: F<S>,
+        theta: TwoRotations<S>,
+        omega: TwoRotations<S>,
+    ) -> Rate<TwoRotations<S>> {
+        let turned = self.configuration.unwrap_or_else(|| self.motions.configuration(theta.0));
+        let (rate, reactions) = self.motions.rate_and_reactions(&turned, omega.0, self.ground(after_s));
+        self.reactions = Some(reactions);
         let none = F::splat(after_s.simd, 0.0);
-        Rate { acceleration: Two(rate.theta_dd), quadrature: Two([rate.ground_power_w, none]) }
+        Rate {
+            acceleration: TwoRotations(rate.theta_dd),
+            quadrature: TwoRotations([rate.ground_power_w, none]),
+        }
     }
 }
 
 /// The steps of walls that turn as one.
 #[inline(always)]
-fn steps_as_one<S: Simd>(simd: S, asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
-    let mut shaken = Shaken::<S, true>::new(simd, asked);
-    let lanes = |of: fn(&Asked) -> f64| One(lanes(simd, |i| of(&asked[i])));
+fn monolithic_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
+    let mut shaken = ShakenMotion::<S, true>::new(simd, requests);
+    let lanes = |of: fn(&StepRequest) -> f64| OneRotation(lanes(simd, |i| of(&requests[i])));
     let start =
         Rate { acceleration: lanes(|a| a.now.acceleration[0]), quadrature: lanes(|a| a.quadrature_rate[0]) };
     let h = lanes(|a| a.h).0;
     let stride =
         Nystrom::stride(lanes(|a| a.now.position[0]), lanes(|a| a.now.velocity[0]), start, h, &mut shaken);
-    let after = shaken.aftermaths();
+    let reactions = shaken.reactions();
     let [x, v, a, rate, gained, e_x, e_v] = [
         stride.position,
         stride.velocity,
@@ -170,31 +187,31 @@ fn steps_as_one<S: Simd>(simd: S, asked: &[Asked; LANES]) -> [(Step, Aftermath);
     .map(|of| <[f64; LANES]>::from(of.0));
     std::array::from_fn(|i| {
         let step = Step {
-            h: asked[i].h,
-            start: *asked[i].now,
+            h: requests[i].h,
+            start: *requests[i].now,
             end: Point { position: [x[i]; 2], velocity: [v[i]; 2], acceleration: [a[i]; 2] },
             quadrature: [gained[i], 0.0],
             end_quadrature_rate: [rate[i], 0.0],
             position_error: [e_x[i]; 2],
             velocity_error: [e_v[i]; 2],
         };
-        (step, after[i])
+        (step, reactions[i])
     })
 }
 
 /// The steps of walls whose bodies turn apart.
 #[inline(always)]
-fn steps_apart<S: Simd>(simd: S, asked: &[Asked; LANES]) -> [(Step, Aftermath); LANES] {
-    let mut shaken = Shaken::<S, false>::new(simd, asked);
-    let lanes = |of: fn(&Asked) -> f64| lanes(simd, |i| of(&asked[i]));
+fn two_body_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
+    let mut shaken = ShakenMotion::<S, false>::new(simd, requests);
+    let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
     let start = Rate {
-        acceleration: Two([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
-        quadrature: Two([lanes(|a| a.quadrature_rate[0]), lanes(|_| 0.0)]),
+        acceleration: TwoRotations([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
+        quadrature: TwoRotations([lanes(|a| a.quadrature_rate[0]), lanes(|_| 0.0)]),
     };
-    let x = Two([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
-    let v = Two([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
+    let x = TwoRotations([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
+    let v = TwoRotations([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
     let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
-    let after = shaken.aftermaths();
+    let reactions = shaken.reactions();
     let [x, v, a, e_x, e_v] = [
         stride.position,
         stride.velocity,
@@ -207,19 +224,28 @@ fn steps_apart<S: Simd>(simd: S, asked: &[Asked; LANES]) -> [(Step, Aftermath); 
     std::array::from_fn(|i| {
         let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
         let step = Step {
-            h: asked[i].h,
-            start: *asked[i].now,
+            h: requests[i].h,
+            start: *requests[i].now,
             end: Point { position: both(&x), velocity: both(&v), acceleration: both(&a) },
             quadrature: [gained[i], 0.0],
             end_quadrature_rate: [rate[i], 0.0],
             position_error: both(&e_x),
             velocity_error: both(&e_v),
         };
-        (step, after[i])
+        (step, reactions[i])
     })
 }
 
-/// Runs that are at work at once: enough that there mostly are as many of a kind as there are lanes.
+/// The steps of walls that all turn as one, or whose bodies all turn apart.
+fn steps(level: Level, as_one: bool, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
+    if as_one {
+        dispatch!(level, simd => monolithic_steps(simd, requests))
+    } else {
+        dispatch!(level, simd => two_body_steps(simd, requests))
+    }
+}
+
+/// Runs in the pool at once: enough that mostly there are as many of a kind as lanes.
 const AT_ONCE: usize = 6 * LANES;
 
 /// A wall under a shaking, ready to run beside others from a time in seconds on.
@@ -244,12 +270,12 @@ impl<O: Observer> Prepared<O> {
     }
 
     /// Runs it alone.
-    pub(super) fn alone(self) -> Response {
-        self.begun().go()
+    pub(super) fn run_alone(self) -> Response {
+        self.begun().to_end()
     }
 }
 
-/// Runs what `next` gives side by side until it gives no more, and hands `done` each response with its number, as they end.
+/// Runs what `next` gives side by side until it gives no more. `done` gets each response with its number, as runs end.
 ///
 /// A response is that of [`super::simulate`] to the bit, whatever runs beside it.
 pub fn simulate_side_by_side(
@@ -265,7 +291,7 @@ pub fn simulate_side_by_side_at(
     next: &mut dyn FnMut() -> Option<(usize, Prepared)>,
     done: &mut dyn FnMut(usize, Response),
 ) {
-    Work::new(level, next, done).all();
+    Pool::new(level, next, done).all();
 }
 
 /// The same of runs that are watched.
@@ -273,22 +299,22 @@ pub fn simulate_watched_side_by_side<'o>(
     next: &mut dyn FnMut() -> Option<(usize, Prepared<&'o mut dyn Observer>)>,
     done: &mut dyn FnMut(usize, Response),
 ) {
-    Work::new(Level::new(), next, done).all();
+    Pool::new(Level::new(), next, done).all();
 }
 
-/// Runs at work. Its loop is compiled here, in one unit with the motion, for runs that are watched and that are not.
-struct Work<'w, O> {
+/// Runs at work. Its loop is compiled here, in one unit with the motion, for watched runs and for others.
+struct Pool<'w, O> {
     next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
     done: &'w mut dyn FnMut(usize, Response),
     slots: Vec<Option<(usize, Run<O>)>>,
-    /// Slots that ask for a step of a wall that turns as one, and of one whose bodies turn apart.
+    /// Slots that request a step of a wall that turns as one, and of one whose bodies turn apart.
     as_one: Vec<usize>,
     apart: Vec<usize>,
     /// Vector instructions that this processor has.
     level: Level,
 }
 
-impl<'w, O: Observer> Work<'w, O> {
+impl<'w, O: Observer> Pool<'w, O> {
     fn new(
         level: Level,
         next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
@@ -302,7 +328,7 @@ impl<'w, O: Observer> Work<'w, O> {
         while self.slots.len() < AT_ONCE {
             let Some(run) = self.begin_next() else { break };
             self.slots.push(Some(run));
-            self.go_on(self.slots.len() - 1);
+            self.queue_step(self.slots.len() - 1);
         }
         while self.step() {}
     }
@@ -313,20 +339,20 @@ impl<'w, O: Observer> Work<'w, O> {
         Some((number, prepared.begun()))
     }
 
-    /// Brings the run in a slot, or the next one in its place, to where it asks for a step that others may share.
-    fn go_on(&mut self, slot: usize) {
+    /// Brings the run in a slot, or the next one there, to a request that others may share.
+    fn queue_step(&mut self, slot: usize) {
         while let Some((_, run)) = &mut self.slots[slot] {
-            if !run.wants_step() {
+            if !run.needs_step() {
                 self.replace(slot);
                 continue;
             }
-            match run.asked().law.side_by_side() {
+            match run.step_request().motion.side_by_side() {
                 Some(true) => return self.as_one.push(slot),
                 Some(false) => return self.apart.push(slot),
                 None => {
-                    let mut after = Aftermath::default();
-                    let step = run.asked().take(&mut after);
-                    run.answer(&step, &after);
+                    let mut reactions = Reactions::default();
+                    let step = run.step_request().take(&mut reactions);
+                    run.finish_step(&step, &reactions);
                 }
             }
         }
@@ -341,7 +367,7 @@ impl<'w, O: Observer> Work<'w, O> {
         self.slots[slot] = self.begin_next();
     }
 
-    /// Takes the steps of the kind that most slots ask for; false when none asks.
+    /// Takes the steps of the kind that most slots request; false when there is no request.
     fn step(&mut self) -> bool {
         let one = self.as_one.len() >= self.apart.len();
         let queue = if one { &mut self.as_one } else { &mut self.apart };
@@ -352,22 +378,16 @@ impl<'w, O: Observer> Work<'w, O> {
         let count = queue.len() - from;
         of[..count].copy_from_slice(&queue[from..]);
         queue.truncate(from);
-        let taken = {
-            let asked = of.map(|slot| {
-                let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
-                run.asked()
-            });
-            if one {
-                dispatch!(self.level, simd => steps_as_one(simd, &asked))
-            } else {
-                dispatch!(self.level, simd => steps_apart(simd, &asked))
-            }
-        };
-        for (slot, (step, after)) in of.into_iter().zip(&taken).take(count) {
+        let requests = of.map(|slot| {
+            let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
+            run.step_request()
+        });
+        let taken = steps(self.level, one, &requests);
+        for (slot, (step, reactions)) in of.into_iter().zip(&taken).take(count) {
             if let Some((_, run)) = &mut self.slots[slot] {
-                run.answer(step, after);
+                run.finish_step(step, reactions);
             }
-            self.go_on(slot);
+            self.queue_step(slot);
         }
         true
     }

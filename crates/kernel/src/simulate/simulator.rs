@@ -10,9 +10,10 @@ use super::{Accuracy, Shaking};
 use crate::model::{Contact, Pivot, RockingWall, State, Vector, Wall};
 use crate::solver::{Controller, ErrorScale};
 
-/// Error of a step allowed, as a share of the error of a run, because impacts magnify what is there before them. With
-/// it, well-conditioned runs at tolerances of 1e-4 to 1e-8 end within a tenth of their tolerance (`convergence` in the
-/// tests); three times as much would save 6 % of the evaluations of façades at 1e-6 and end within three tenths at 1e-8.
+/// Error of a step allowed, as a share of the error of a run. Impacts magnify what is there before them. With
+/// it, well-conditioned runs at tolerances of 1e-4 to 1e-8 end within a tenth of them (`convergence` in the
+/// tests). Three times as much would save 6 % of the evaluations of façades at 1e-6. Runs at 1e-8 would then
+/// end within three tenths.
 const STEP_SHARE: f64 = 1e-3;
 
 /// From where a window of a run starts.
@@ -22,19 +23,20 @@ pub struct Start {
     pub time_s: f64,
     /// Rotations (rad) and angular velocities (rad/s) of the bodies; any values, such as measured ones.
     pub state: State,
-    /// Contact state; none: the one that the rotations, and where they are zero the velocities, tell
+    /// Contact state; `None`: that of the rotations, and where they are zero of the velocities
     /// ([`Contact::of_state`]).
     ///
-    /// A state that does not fit is moved onto it: in pattern 3 both bodies take their mean, in pattern 4 the lower
-    /// body stands, and a joint open on the other side is about to open or strikes at once.
+    /// A state that does not fit is moved onto it. In pattern 3 both bodies take their mean, in pattern 4 the
+    /// lower body does not turn. A joint open on the other side is about to open, or closes at once.
     pub contact: Option<Contact>,
-    /// Plastic displacement of a yielding spring at the top, m ([`Wall::plastic_displacement_m`] follows it); a wall
-    /// without one has no use for it. Friction needs no memory: a top that stands sticks where it can.
+    /// Plastic displacement of a yielding spring at the top, m; [`Wall::plastic_displacement_m`] follows it.
+    /// A wall without such a spring has no use for it. Friction needs no memory: a top at rest sticks where
+    /// it can.
     pub plastic_displacement_m: f64,
 }
 
-/// A wall and a shaking made ready: their equations, limits and samples are worked out once, and a window costs little
-/// more than its steps. Windows do not depend on one another.
+/// A wall and a shaking made ready. Their equations, limits and samples are worked out once, so that a window
+/// costs little more than its steps. Windows do not depend on one another.
 #[derive(Debug, Clone)]
 pub struct Simulator {
     pub(super) wall: RockingWall,
@@ -107,7 +109,7 @@ impl Simulator {
     ///
     /// A start that is no time from 0 on with finite rotations and velocities gives a run that failed.
     pub fn run_from(&self, start: &Start, end_s: f64, observer: &mut dyn Observer) -> Response {
-        self.watched_from(start, end_s, observer).alone()
+        self.watched_from(start, end_s, observer).run_alone()
     }
 
     /// The whole run, to be run beside others.

@@ -78,7 +78,7 @@ impl<const N: usize> Bernstein<N> {
         changes
     }
 
-    /// Share at which the polynomial, positive at its start, first turns negative; none if it does not.
+    /// Share at which the polynomial, positive at its start, first turns negative; `None` if it does not.
     ///
     /// The root is right to a few roundings of one. A touch without crossing is no root.
     pub fn first_root(&self) -> Option<f64> {
@@ -165,7 +165,7 @@ impl Bernstein<6> {
 
     /// First root after the start of a polynomial that may itself start at zero, with any slope that leads up.
     ///
-    /// A zero at the start is divided out: once for a gap that opens at a speed, twice for one that opens from rest.
+    /// A zero at the start is divided out: once for a gap that opens at a speed, twice from rest.
     pub fn first_root_after_start(&self) -> Option<f64> {
         if self.0[0] > 0.0 {
             return self.first_root();
@@ -179,8 +179,8 @@ impl Bernstein<6> {
         twice.first_root()
     }
 
-    /// Largest value and the share at which it is reached: where a slope that turns once vanishes, else by halving until
-    /// the bound is within roundings.
+    /// Largest value and the share at which it is reached. It lies where a slope that turns once vanishes,
+    /// else halving finds it to roundings of the bound.
     pub fn maximum(&self) -> (f64, f64) {
         let mut best = if self.0[5] >= self.0[0] { (self.0[5], 1.0) } else { (self.0[0], 0.0) };
         let slope = self.derivative();

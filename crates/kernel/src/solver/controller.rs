@@ -55,10 +55,11 @@ impl Controller {
 
     /// Scaled error of a step, in units of the bound.
     ///
-    /// The difference of both methods is the error of the lower order. That of the step that is kept is smaller by (h r)²
-    /// where accelerations do not depend on velocities and by h r where they do, with r the fastest rate of the motion;
-    /// one factor h r is taken. So estimated, errors on walls of the survey are 0.01 to 0.15 of the estimate,
-    /// over three orders of magnitude of steps, with dampers of 5 % and without (`benches/work_precision.rs`).
+    /// The difference of both methods is the error of the lower order. That of the step that is kept is
+    /// smaller by (h r)² where accelerations do not depend on velocities. Where they do it is smaller by h r,
+    /// with r the fastest rate of the motion. One factor h r is taken. On walls of the survey errors are 0.01
+    /// to 0.15 of this estimate (`benches/work_precision.rs`). This holds over three orders of magnitude of
+    /// steps, with dampers of 5 % and without.
     #[inline]
     fn error(&self, step: &Step) -> f64 {
         let [x, v] = [step.position_error, step.velocity_error].map(|e| f64x2::new(e).abs());
@@ -72,8 +73,8 @@ impl Controller {
         let error = self.error(step);
         if error <= 1.0 {
             let whole = step.h >= 0.99 * self.proposed_s;
-            // A step cut short by a sample or an event says nothing against a longer one; it may speak for one, up to the
-            // most that would be trusted anyhow.
+            // A step cut short by a sample or an event says nothing against a longer one. It may speak for
+            // one, up to the most that would be trusted anyhow.
             let longer = self.proposed_s < MOST_FACTOR * step.h
                 && error < (SAFETY * step.h / self.proposed_s).powi(ESTIMATE_ORDER);
             if whole || longer {

@@ -1,8 +1,8 @@
 //! Integration of second-order motion between events, and where inside a step an event lies.
 //!
-//! Knows no masonry: two coordinates, their velocities, an acceleration, two quadratures.
-//! A step carries positions, velocities and accelerations at both ends; the [`Quintic`] through them is what
-//! events, maxima and histories are read from, and is as accurate as the step itself.
+//! Knows no masonry: two coordinates, their velocities, an acceleration, two quadratures. A step carries
+//! positions, velocities and accelerations at both ends. Events, maxima and histories are read from the
+//! [`Quintic`] through them, which is as accurate as the step itself.
 
 mod bernstein;
 mod controller;

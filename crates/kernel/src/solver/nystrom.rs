@@ -1,10 +1,10 @@
 //! One step of an explicit Runge–Kutta–Nyström method of order 6 for two coordinates of second order.
 //!
-//! Nodes, position and quadrature weights are those of the pair RKN6(4)6FM of Dormand, El-Mikkawy and Prince (IMA J.
-//! Numer. Anal. 7, 1987, 235–250), made for accelerations that do not depend on velocities. Those of a rocking wall
-//! do, a little (centripetal terms, dampers): the velocities of the stages are chosen here so that every condition up to order
-//! 5 in which accelerations depend on velocities once or twice is met. `benches/work_precision.rs` has the method beside
-//! others.
+//! Nodes, position and quadrature weights are those of the pair RKN6(4)6FM of Dormand, El-Mikkawy and Prince
+//! (IMA J. Numer. Anal. 7, 1987, 235–250), made for accelerations that do not depend on velocities. Those of
+//! a rocking wall do, a little: centripetal terms, dampers. So the velocities of the stages fulfil every
+//! condition up to order 5 with one or two such dependences. `benches/work_precision.rs` has the method
+//! beside others.
 
 use std::ops::Mul;
 
@@ -52,7 +52,7 @@ impl Values for f64x2 {
 pub struct Rate<V = f64x2> {
     /// Accelerations.
     pub acceleration: V,
-    /// Rates of the quadratures.
+    /// PointVelocities of the quadratures.
     pub quadrature: V,
 }
 
@@ -76,7 +76,7 @@ pub struct Step {
     pub end: Point,
     /// What the quadratures gained.
     pub quadrature: [f64; 2],
-    /// Rates of the quadratures at the end.
+    /// PointVelocities of the quadratures at the end.
     pub end_quadrature_rate: [f64; 2],
     /// Estimated error of the positions of the embedded method of order 4, in their unit.
     pub position_error: [f64; 2],
@@ -174,8 +174,9 @@ impl Nystrom {
 
     /// Steps values side by side from positions `x` and velocities `v`, where their rates are known, over `h`.
     ///
-    /// The last stage is at the positions of the end, but at velocities that are good to order 3 only: an acceleration kept
-    /// from there would bring the order down, so the field is asked once more at the velocities of the end.
+    /// The last stage is at the positions of the end, but at velocities that are good to order 3 only. An
+    /// acceleration kept from there would bring the order down. So the field is evaluated once more at the
+    /// velocities of the end.
     #[inline(always)]
     pub fn stride<V: Values>(
         x: V,
@@ -216,7 +217,7 @@ impl Nystrom {
     }
 }
 
-/// x + f Σ w_j r_j over the first `N` rates; what waits for the last of them is one product with a sum.
+/// x + f Σ w_j r_j over the first `N` rates. Only one product with a sum waits for the last of them.
 #[inline(always)]
 fn sum<const N: usize, V: Values>(x: V, factor: V::Length, weights: &[f64], rates: &[V; 6]) -> V {
     let before = if N == 1 { x } else { earlier::<N, V>(weights, rates).over_plus(factor, x) };
@@ -320,7 +321,8 @@ mod tests {
     #[test]
     fn analytic_order_is_six_and_five_with_damping() {
         let order = |damping: f64| (oscillator_error(damping, 0.2) / oscillator_error(damping, 0.1)).log2();
-        // Half an order either way: the next terms of the error are a tenth to a fifth of the first at these steps.
+        // Half an order either way. At these steps the next terms of the error are up to a fifth of the
+        // first.
         assert!((5.5..6.5).contains(&order(0.0)), "undamped {}", order(0.0));
         assert!((4.5..5.5).contains(&order(0.2)), "damped {}", order(0.2));
     }

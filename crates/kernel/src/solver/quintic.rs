@@ -44,7 +44,7 @@ impl Quintic {
     /// Through both ends of a step of length `h`.
     #[inline(always)]
     pub fn new(start: &Point, end: &Point, h: f64) -> Self {
-        // From the differences at the ends, not from the two polynomials: coordinates that start together,
+        // From the differences at the ends, not from the two polynomials. So coordinates that start together,
         // or move together, differ by an exact zero.
         let apart = |[first, second]: [f64; 2]| [first, second - first];
         let gaps_of = |p: &Point| Point {
@@ -80,8 +80,8 @@ impl Quintic {
         self.bounds
     }
 
-    /// Whether the first coordinate and the second less the first keep to their sides (-1 or 1) for sure, the start
-    /// excepted, where they may be zero; one without a side (0) may be anything.
+    /// Whether the first coordinate and the second less the first keep to their sides (-1 or 1) for sure. At
+    /// the start they may be zero; one without a side (0) may be anything.
     #[inline]
     pub fn keep_to(&self, sides: [f64; 2]) -> bool {
         let free = f64x2::new(sides.map(|side| 1.0 - side.abs()));

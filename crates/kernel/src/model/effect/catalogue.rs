@@ -8,7 +8,8 @@ use super::super::contact::Joint;
 use super::entry::{EffectChoice, EffectEntry, EffectParameter, Place};
 use super::{Effect, EffectError, MOST_PARAMETERS, signal, structural};
 
-/// Declares the kinds: the enumeration, the list of all and the entry of each, so that none can be forgotten.
+/// Declares the kinds: the enumeration, the list of all and the entry of each. A kind cannot be in one and
+/// not in another.
 macro_rules! catalogue {
     ($($kind:ident => $entry:path,)+) => {
         /// A kind of effect.
@@ -86,7 +87,7 @@ impl EffectKind {
         found.copied().ok_or_else(|| EffectError::UnknownKind { found: name.to_owned() })
     }
 
-    /// The kind with each word it may take; one variant for a kind that takes none.
+    /// The kind with each word it may take; one variant for a kind without a choice.
     pub fn variants(self) -> impl Iterator<Item = EffectVariant> {
         let options: &[&str] = self.entry().choice.as_ref().map_or(&[], |choice| choice.options);
         let plain = options.is_empty().then_some(None);
@@ -127,7 +128,7 @@ impl EffectVariant {
         }
     }
 
-    /// Position of the word among the options of the kind; 0 where there is none.
+    /// Position of the word among the options of the kind; 0 for a kind without a choice.
     pub(super) fn choice_index(self) -> usize {
         let position = |choice: &EffectChoice| choice.options.iter().position(|o| Some(*o) == self.choice);
         self.entry().choice.as_ref().and_then(position).unwrap_or(0)

@@ -179,9 +179,9 @@ pub struct EffectEntry {
     pub at_impacts: &'static str,
     /// What it is easily taken for: kinds, or keys of the wall file.
     pub confused_with: &'static [&'static str],
-    /// The measurement that tells it by itself, whatever the tests say.
+    /// The measurement that shows it by itself, whatever the tests say.
     pub told_by: &'static str,
-    /// The law: adds an effect of this kind to what the effects of a wall come to.
+    /// The law: adds an effect of this kind to the sums of a wall.
     #[serde(skip)]
     pub(super) add: fn(&Effect, &mut EffectSums),
 }

@@ -4,8 +4,8 @@
 //! The carriage mass is the paper's own example of an effect that the first model lacked.
 //!
 //! Each kind is one line of the catalogue and one [`EffectEntry`], which says what it is and holds its law.
-//! What all effects of a wall come to is one [`EffectSums`].
-//! A new kind does not compile until its entry is whole; the tests over the catalogue then run it.
+//! The effects of a wall are added up in one [`EffectSums`]. A new kind does not compile until its entry is
+//! whole; the tests over the catalogue then run it.
 
 use std::fmt;
 
@@ -135,7 +135,7 @@ impl Effect {
         self.values[i]
     }
 
-    /// Position of the choice among the options of its kind; 0 where there is none.
+    /// Position of the choice among the options of its kind; 0 for a kind without a choice.
     fn choice_index(&self) -> usize {
         self.variant.choice_index()
     }

@@ -1,4 +1,4 @@
-//! Effects in the signals: the ground motion that a record tells, and the reading of the rotations.
+//! Effects in the signals: the recorded ground motion, and the reading of the rotations.
 
 use super::entry::{EffectChoice, EffectEntry, EffectParameter, Lanes, Place, Quantity, Role};
 use super::{Effect, EffectSums};

@@ -1,4 +1,4 @@
-//! What all effects of a wall come to, and which effects a wall can have.
+//! The sums of all effects of a wall, and which effects a wall can have.
 
 use std::borrow::Cow;
 

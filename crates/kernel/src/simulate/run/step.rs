@@ -1,15 +1,15 @@
-//! The step that a run asks for, and how it is taken alone; [`super::super::side_by_side`] takes several.
+//! The step that a run requests, and how it is taken alone; [`super::super::side_by_side`] takes several.
 
 use fearless_simd::dispatch;
 use wide::f64x2;
 
 use super::super::ground_path::Piece;
-use crate::model::{Aftermath, Motion, Pair, RatePair, Turned};
+use crate::model::{Configuration, Motion, Pair, RatePair, Reactions};
 use crate::solver::{Field, Nystrom, Point, Rate, Step};
 
-/// A step that a run asks for.
-pub(in super::super) struct Asked<'a> {
-    pub law: &'a Motion,
+/// A step that a run requests.
+pub(in super::super) struct StepRequest<'a> {
+    pub motion: &'a Motion,
     pub piece: &'a Piece,
     pub from_s: f64,
     pub h: f64,
@@ -17,51 +17,54 @@ pub(in super::super) struct Asked<'a> {
     pub quadrature_rate: Pair,
 }
 
-impl Asked<'_> {
-    /// Takes the step; tells the joint forces at its end.
+impl StepRequest<'_> {
+    /// Takes the step, and writes the reactions at its end.
     #[inline]
-    pub fn take(&self, after: &mut Aftermath) -> Step {
-        dispatch!(self.law.level, _ => self.step(after))
+    pub fn take(&self, reactions: &mut Reactions) -> Step {
+        dispatch!(self.motion.level, _ => self.step(reactions))
     }
 
     #[inline(always)]
-    fn step(&self, after: &mut Aftermath) -> Step {
-        let (law, piece, from_s) = (self.law, self.piece, self.from_s);
-        let mut shaken = Shaken { law, piece, from_s, posture: Turned::default(), after };
+    fn step(&self, reactions: &mut Reactions) -> Step {
+        let (motion, piece, from_s) = (self.motion, self.piece, self.from_s);
+        let mut shaken =
+            ShakenMotion { motion, piece, from_s, configuration: Configuration::default(), reactions };
         Nystrom::step(self.now, self.quadrature_rate, self.h, &mut shaken)
     }
 }
 
-/// The motion of a contact state under a piece of the record, and what its last landing told.
+/// The motion of a contact state under a piece of the record, and the reactions at the step's end.
 ///
-/// Both of the latter where they are: to copy what was just written, wider than it was written, would wait for the writing.
-struct Shaken<'a, 'b> {
-    law: &'a Motion,
+/// Both of the latter stay where they are. A copy of what was just written, wider than it was written, would
+/// wait for the writing.
+struct ShakenMotion<'a, 'b> {
+    motion: &'a Motion,
     from_s: f64,
-    posture: Turned,
+    configuration: Configuration,
     piece: &'a Piece,
-    after: &'b mut Aftermath,
+    reactions: &'b mut Reactions,
 }
 
-impl Field for Shaken<'_, '_> {
+impl Field for ShakenMotion<'_, '_> {
     #[inline(always)]
     fn rate(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
         let ground = self.piece.at(self.from_s + after_s);
-        if self.law.turns_as_one() {
-            return as_rate(self.law.monolithic_rate(theta.to_array()[0], omega.to_array()[0], ground));
+        if self.motion.turns_as_one() {
+            return as_rate(self.motion.monolithic_rate(theta.to_array()[0], omega.to_array()[0], ground));
         }
-        self.posture = self.law.turned(theta);
-        as_rate(self.law.rate_at(&self.posture, omega, ground))
+        self.configuration = self.motion.configuration(theta);
+        as_rate(self.motion.rate_at(&self.configuration, omega, ground))
     }
 
     #[inline(always)]
     fn land(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
-        // The posture of the last stage serves again, for the joint forces too.
-        if self.law.turns_as_one() {
-            self.posture = self.law.turned(theta);
+        // The configuration of the last stage serves again, for the joint forces too.
+        if self.motion.turns_as_one() {
+            self.configuration = self.motion.configuration(theta);
         }
-        let (rate, after) = self.law.arrival(&self.posture, omega, self.piece.at(self.from_s + after_s));
-        *self.after = after;
+        let (rate, reactions) =
+            self.motion.rate_and_reactions(&self.configuration, omega, self.piece.at(self.from_s + after_s));
+        *self.reactions = reactions;
         as_rate(rate)
     }
 }

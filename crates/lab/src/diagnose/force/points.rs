@@ -121,7 +121,7 @@ impl Residual {
         let at = |(i, state): (usize, &State)| {
             let k = stretch.from + i;
             let plastic_m = self.spring.plastic_m(k, &self.wall, stretch.contact, state.theta);
-            self.wall.place_top(stretch.contact, state, plastic_m);
+            self.wall.enter_regime_of_state(stretch.contact, state, plastic_m);
             self.wall.rate(stretch.contact, state, self.ground_about(self.test.time_s[k])).theta_dd
         };
         stretch.states.iter().enumerate().map(at).collect()

@@ -44,7 +44,7 @@ impl Arms {
 
 /// The arms turned by the rotations: r_1, r_Q, r_2, r_C of model section 3, in the world's axes, m.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Posture {
+pub(crate) struct TurnedArms {
     pub o_x: f64,
     pub r_1: Vector,
     pub r_q: Vector,
@@ -58,16 +58,16 @@ pub(crate) struct Posture {
 
 /// Sines and cosines of both rotations.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Turns(pub [(f64, f64); 2]);
+pub(crate) struct Rotations(pub [(f64, f64); 2]);
 
-impl Turns {
+impl Rotations {
     pub fn new(theta: Pair) -> Self {
         Self(theta.map(sin_cos))
     }
 }
 
-impl Posture {
-    pub fn new(arms: &Arms, Turns([turn_1, turn_2]): Turns) -> Self {
+impl TurnedArms {
+    pub fn new(arms: &Arms, Rotations([turn_1, turn_2]): Rotations) -> Self {
         Self {
             o_x: arms.o_x,
             r_1: arms.g1.rotated(turn_1),
@@ -80,12 +80,12 @@ impl Posture {
     }
 
     /// Velocities J θ' of the mass points.
-    pub fn rates(&self, omega: Pair) -> Rates {
-        let q = self.r_q.turned() * omega[0];
-        Rates {
-            g1: self.r_1.turned() * omega[0],
-            g2: q + self.r_2.turned() * omega[1],
-            c: q + self.r_c.turned() * omega[1],
+    pub fn velocities(&self, omega: Pair) -> PointVelocities {
+        let q = self.r_q.perpendicular() * omega[0];
+        PointVelocities {
+            g1: self.r_1.perpendicular() * omega[0],
+            g2: q + self.r_2.perpendicular() * omega[1],
+            c: q + self.r_c.perpendicular() * omega[1],
             theta: omega,
         }
     }
@@ -93,14 +93,14 @@ impl Posture {
 
 /// Velocities of the mass points, or their jumps: (x1, y1, θ1, x2, y2, θ2, xC, yC) of model section 3.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Rates {
+pub(crate) struct PointVelocities {
     pub g1: Vector,
     pub g2: Vector,
     pub c: Vector,
     pub theta: Pair,
 }
 
-impl Rates {
+impl PointVelocities {
     pub fn minus(self, other: Self) -> Self {
         Self {
             g1: self.g1 - other.g1,

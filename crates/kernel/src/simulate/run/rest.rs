@@ -1,14 +1,14 @@
-//! While the wall stands still: through as much of the record as holds it.
+//! A run at rest: through as much of the record as leaves the wall there.
 
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
-use super::meeting::AFTER_OPENING;
+use super::event::AFTER_OPENING;
 use super::{Run, Stop};
 use crate::model::Contact;
 
 impl<O: Observer> Run<O> {
-    /// Stands through all pieces from the `k`-th on at whose ends no corner has lifted; gives the first that is left.
-    pub(super) fn stand_through(&mut self, k: usize) -> usize {
+    /// Rests through all pieces from the `k`-th on at whose ends no corner has lifted; gives the first other.
+    pub(super) fn rest_through_pieces(&mut self, k: usize) -> usize {
         let mut friction = 0.0_f64;
         let next = self.ground.first_end_against(k, |ground| {
             let holds = self.rest.holds(ground);
@@ -17,38 +17,38 @@ impl<O: Observer> Run<O> {
             }
             holds
         });
-        // The piece that ends the run may be cut short: it is left to be stood piece by piece.
+        // The piece that ends the run may be cut short: it is left to be run by itself.
         let next = next.min(self.ground.whole_pieces());
         if next <= k {
             return k;
         }
-        self.stood(self.ground.start_s(k), self.ground.start_s(next), friction);
+        self.record_rest(self.ground.start_s(k), self.ground.start_s(next), friction);
         next
     }
 
-    /// Stands on in the piece until a corner lifts or it ends.
+    /// Rests in the piece until a corner lifts or it ends.
     #[inline(never)]
-    pub(super) fn stand_in_piece(&mut self) -> Result<(), Stop> {
+    pub(super) fn rest_in_piece(&mut self) -> Result<(), Stop> {
         let Some(piece) = self.piece else { return Ok(()) };
-        self.offset_s = self.stand(&piece, self.offset_s)?;
+        self.offset_s = self.rest_until_lift_off(&piece, self.offset_s)?;
         Ok(())
     }
 
-    /// Stands until a corner lifts or the piece ends; gives the offset reached.
-    fn stand(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
+    /// Rests until a corner lifts or the piece ends; gives the offset reached.
+    fn rest_until_lift_off(&mut self, piece: &Piece, from_s: f64) -> Result<f64, Stop> {
         let lift_off = self.rest.lift_off_s(piece, from_s);
         let to_s = lift_off.map_or(piece.length_s, |s| self.after_opening(s, piece));
         let friction = self.rest.friction(piece.at(from_s)).max(self.rest.friction(piece.at(to_s)));
-        self.stood(piece.start_s + from_s, piece.start_s + to_s, friction);
+        self.record_rest(piece.start_s + from_s, piece.start_s + to_s, friction);
         if lift_off.is_some() {
             self.enter(Contact::REST, piece.at(to_s), piece.start_s + to_s)?;
         }
         Ok(to_s)
     }
 
-    pub(super) fn stood(&mut self, from_s: f64, to_s: f64, friction: f64) {
-        self.tally.pattern_time_s[Contact::REST.index()] += to_s - from_s;
-        for (demand, factor) in self.tally.demand.iter_mut().zip(self.rest.friction_factors()) {
+    pub(super) fn record_rest(&mut self, from_s: f64, to_s: f64, friction: f64) {
+        self.totals.pattern_time_s[Contact::REST.index()] += to_s - from_s;
+        for (demand, factor) in self.totals.demand.iter_mut().zip(self.rest.friction_factors()) {
             demand.friction = demand.friction.max(friction * factor);
         }
         self.observer.stood(from_s, to_s);

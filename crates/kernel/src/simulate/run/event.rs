@@ -1,35 +1,35 @@
-//! On over a step, or up to the first event inside it: found, placed, and let happen.
+//! A step, or the part of it up to its first event: found, located, applied.
 
-use super::super::events::{Event, first_event};
+use super::super::events::{Event, first_event, first_kink, left_to_kink};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
-use super::super::kinks;
-use super::{Doing, Run, Stop, failed};
-use crate::model::{Aftermath, Joint, Kink, Touching, Vector, opening};
+use super::{Run, Stop, Task, failed};
+use crate::model::{Joint, Kink, Reactions, Touching, Vector, opening};
 use crate::solver::{Point, Quintic, Step};
 
-/// An opening is placed this share of a sample step after the instant its corner force vanishes, so that the joint
-/// does accelerate apart; it moves nothing by more than roundings.
+/// An opening is placed this share of a sample step after the instant its corner force vanishes. So the joint
+/// does accelerate apart, and nothing moves by more than roundings.
 pub(super) const AFTER_OPENING: f64 = 1e-9;
 
-/// A share of a sample step so short that a parabola is exact over it: its cube times any jerk of a wall is below
-/// roundings. A share and no time, so that a wall four times as large moves the same to the bit.
+/// A share of a sample step so short that a parabola is exact over it. Its cube times any jerk of a wall is
+/// below roundings. A share and no time, so that a wall four times as large moves the same to the bit.
 const SHORT: f64 = 2e-7;
 /// Newton corrections of an event's time; one suffices but for grazing impacts.
 const MOST_CORRECTIONS: u32 = 4;
 
-/// Events without progress, one after another, that count as a defect: the longest burst of impacts, that of a wall sixty
-/// times as high as thick with a capture velocity of zero, takes some ten thousand to come to rest.
+/// Events without progress, one after another, that count as a defect. The longest burst of impacts takes
+/// some ten thousand until rest. It is that of a wall sixty times as high as thick with a capture velocity of
+/// zero.
 const MOST_EVENTS_AT_ONCE: u32 = 50_000;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
 const PROGRESS: f64 = 1e-6;
 
 impl<O: Observer> Run<O> {
-    /// Moves over a step, or asks for one up to the first event inside it.
+    /// Keeps a step, or requests one up to the first event inside it.
     #[inline]
-    pub(super) fn advance(&mut self, piece: &Piece, step: &Step, after: &Aftermath) -> Result<(), Stop> {
+    pub(super) fn advance(&mut self, piece: &Piece, step: &Step, reactions: &Reactions) -> Result<(), Stop> {
         if !self.controller.accepts(step) {
-            self.tally.work.rejected_steps += 1;
+            self.totals.work.rejected_steps += 1;
             let time_s = piece.start_s + self.offset_s;
             if time_s + step.h == time_s {
                 let reason = format!("no step is short enough in pattern {}", self.contact.name());
@@ -39,92 +39,95 @@ impl<O: Observer> Run<O> {
         }
         let from_s = self.offset_s;
         let motion = Quintic::new(&step.start, &step.end, step.h);
-        let end_force = self.wall.least_hold(self.contact, after);
+        let end_force = self.wall.smallest_reserve(self.contact, reactions);
         let force_at =
             |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
         let corner_force = (self.corner_force, end_force);
         let event = first_event(self.contact, &motion, self.collapse_rad, corner_force, force_at);
-        let kink = kinks::first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
+        let kink = first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
         match earlier(event, kink) {
             None => {
                 self.corner_force = end_force;
-                self.keep(piece.start_s + from_s, step, &motion, after);
+                self.keep(piece.start_s + from_s, step, &motion, reactions);
                 self.stalled = 0;
                 // The end of a piece is reached exactly, not up to a rounding.
                 let reached = step.h == piece.length_s - from_s;
                 self.offset_s = if reached { piece.length_s } else { from_s + step.h };
                 Ok(())
             }
-            Some((event, share)) => self.meet(event, share, piece, step.h),
+            Some((event, share)) => self.approach_event(event, share, piece, step.h),
         }
     }
 
     fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
-        let law = self.wall.motion(self.contact);
-        let (_, after) = law.arrival_at(motion.position(share), motion.velocity(share), ground);
-        self.wall.least_hold(self.contact, &after).unwrap_or(f64::INFINITY)
+        let equations = self.wall.motion(self.contact);
+        let (_, reactions) =
+            equations.rate_and_reactions_at(motion.position(share), motion.velocity(share), ground);
+        self.wall.smallest_reserve(self.contact, &reactions).unwrap_or(f64::INFINITY)
     }
 
-    /// Asks for a step up to the event.
-    fn meet(&mut self, event: Event, share: f64, piece: &Piece, whole_s: f64) -> Result<(), Stop> {
-        if let (Event::Bends(kink), true) = (event, share == 0.0) {
+    /// Requests a step up to the event.
+    fn approach_event(&mut self, event: Event, share: f64, piece: &Piece, whole_s: f64) -> Result<(), Stop> {
+        if let (Event::Kink(kink), true) = (event, share == 0.0) {
             let from_s = self.offset_s;
-            return self.bend(kink, piece.at(from_s), piece.start_s + from_s);
+            return self.pass_kink(kink, piece.at(from_s), piece.start_s + from_s);
         }
         let mut h = share * whole_s;
-        if matches!(event, Event::Opens) {
+        if matches!(event, Event::Opening) {
             h = (h + AFTER_OPENING * self.ground.step_s()).min(whole_s);
         }
-        self.doing = Doing::Meeting { event, h, most_s: whole_s };
+        self.task = Task::ReachEvent { event, h, most_s: whole_s };
         Ok(())
     }
 
-    /// Lets the event happen at the end of a step.
-    pub(super) fn met(&mut self, event: Event, piece: &Piece, step: &Step) -> Result<(), Stop> {
-        self.doing = Doing::On { h: 0.0 };
+    /// Applies the event at the end of a step.
+    pub(super) fn apply_event(&mut self, event: Event, piece: &Piece, step: &Step) -> Result<(), Stop> {
+        self.task = Task::Advance { h: 0.0 };
         let from_s = self.offset_s;
         let to_s = from_s + step.h;
         let (start_s, time_s) = (piece.start_s + from_s, piece.start_s + to_s);
         self.progress(step.h, time_s)?;
-        let after = self.aftermath(&step.end, piece.at(to_s));
-        self.keep(start_s, step, &Quintic::new(&step.start, &step.end, step.h), &after);
+        let reactions = self.reactions(&step.end, piece.at(to_s));
+        self.keep(start_s, step, &Quintic::new(&step.start, &step.end, step.h), &reactions);
         match event {
-            Event::Collapses => return Err(Stop::Collapsed { time_s }),
-            Event::Opens => self.enter(self.contact, piece.at(to_s), time_s)?,
-            Event::Bends(kink) => self.bend(kink, piece.at(to_s), time_s)?,
-            Event::Strikes(touching) => self.strike(touching, piece.at(to_s), time_s)?,
+            Event::Collapse => return Err(Stop::Collapsed { time_s }),
+            Event::Opening => self.enter(self.contact, piece.at(to_s), time_s)?,
+            Event::Kink(kink) => self.pass_kink(kink, piece.at(to_s), time_s)?,
+            Event::Impact(touching) => self.impact(touching, piece.at(to_s), time_s)?,
         }
         self.offset_s = to_s.min(piece.length_s);
         Ok(())
     }
 
-    /// What is left to an event at an instant, and its rate; none for events that a share of a step places well enough.
+    /// What is left to an event at an instant, and its rate. `None` for events that a share of a step locates
+    /// well enough.
     #[inline]
     pub(super) fn left_to(&self, event: Event, at: &Point) -> Option<(f64, f64)> {
-        if let Event::Bends(kink) = event {
-            return Some(kinks::left(&self.wall, self.contact, kink, at));
+        if let Event::Kink(kink) = event {
+            return Some(left_to_kink(&self.wall, self.contact, kink, at));
         }
         event.gap().map(|gap| (gap(at.position), gap(at.velocity)))
     }
 
-    /// Goes on beyond a kink of the laws at the top.
-    fn bend(&mut self, kink: Kink, ground: Vector, time_s: f64) -> Result<(), Stop> {
+    /// Enters the regime beyond a kink of the laws at the top.
+    fn pass_kink(&mut self, kink: Kink, ground: Vector, time_s: f64) -> Result<(), Stop> {
         if matches!(kink, Kink::Stops { .. }) {
-            self.now.velocity = self.wall.stopped(self.contact, self.now.position, self.now.velocity);
+            self.now.velocity =
+                self.wall.with_top_stopped(self.contact, self.now.position, self.now.velocity);
         }
-        self.wall.pass(kink, self.contact, self.now.position);
+        self.wall.pass_kink(kink, self.contact, self.now.position);
         self.progress(0.0, time_s)?;
         self.enter(self.contact, ground, time_s)
     }
 
-    /// Moves the end of a step onto the zero of what is left to an event, told together with its rate: the quintic that
-    /// found it is only as accurate as the step.
+    /// Moves the end of a step onto the zero of what is left to an event. The quintic that found the event is
+    /// only as accurate as the step.
     ///
-    /// To roundings whatever the tolerance: in a burst of ever smaller impacts a flight is short and slow, and what is
-    /// small beside the wall's rotation is not small beside it. Not beyond the step that was searched: behind it may lie
-    /// the end of the piece.
+    /// To roundings whatever the tolerance. In a burst of ever smaller impacts a flight is short and slow.
+    /// What is small beside the wall's rotation is not small beside the flight. Not beyond the step that was
+    /// searched: behind it may lie the end of the piece.
     #[inline]
-    pub(super) fn onto_event(
+    pub(super) fn refine_event(
         &mut self,
         event: Event,
         piece: &Piece,
@@ -141,11 +144,11 @@ impl<O: Observer> Run<O> {
                 step.h -= late_s;
             } else if h > 0.0 && h < 2.0 * step.h {
                 let (gap, corrections) = (gap.abs(), corrections + 1);
-                self.doing = Doing::Nearing { event, h, most_s, step, gap, corrections };
+                self.task = Task::RefineEvent { event, h, most_s, step, gap, corrections };
                 return Ok(());
             }
         }
-        self.met(event, piece, &step)
+        self.apply_event(event, piece, &step)
     }
 
     fn progress(&mut self, h: f64, time_s: f64) -> Result<(), Stop> {
@@ -158,8 +161,8 @@ impl<O: Observer> Run<O> {
         Ok(())
     }
 
-    /// An impact: joints that touch close exactly, velocities change, and the wall goes on.
-    pub(super) fn strike(&mut self, touching: Touching, ground: Vector, time_s: f64) -> Result<(), Stop> {
+    /// An impact: joints that touch close exactly, velocities change, the contact state follows.
+    pub(super) fn impact(&mut self, touching: Touching, ground: Vector, time_s: f64) -> Result<(), Stop> {
         let touching = Touching {
             ground: self.touches(Joint::Ground, touching.ground),
             crack: self.touches(Joint::Crack, touching.crack),
@@ -179,17 +182,17 @@ impl<O: Observer> Run<O> {
         }
         let impact =
             self.wall.impact(self.contact, touching, &self.state()).map_err(|e| failed(time_s, &e))?;
-        self.tally.impact(&impact);
+        self.totals.impact(&impact);
         self.now.velocity = impact.omega;
         self.enter(impact.contact, ground, time_s)
     }
 
-    /// Whether a joint takes part in an impact: it is closed, or does not separate and either strikes or stands within a
-    /// rounding of contact, so that its own impact would follow at the same instant.
-    fn touches(&self, joint: Joint, strikes: bool) -> bool {
+    /// Whether a joint takes part in an impact. It does not separate, and it closes or is within a rounding
+    /// of contact. Its own impact would else follow at the same instant.
+    fn touches(&self, joint: Joint, closes: bool) -> bool {
         let sign = self.contact.at(joint).sign();
         let gap = sign * opening(joint, self.now.position);
-        let reached = strikes || gap <= f64::EPSILON * self.wall.wall().alpha_rad();
+        let reached = closes || gap <= f64::EPSILON * self.wall.wall().alpha_rad();
         reached && sign * opening(joint, self.now.velocity) <= 0.0
     }
 }
@@ -197,8 +200,8 @@ impl<O: Observer> Run<O> {
 /// The first of what may happen inside a step; what happens to the joints goes first.
 fn earlier(event: Option<(Event, f64)>, kink: Option<(Kink, f64)>) -> Option<(Event, f64)> {
     match (event, kink) {
-        (Some((_, at)), Some((kink, share))) if share < at => Some((Event::Bends(kink), share)),
-        (None, Some((kink, share))) => Some((Event::Bends(kink), share)),
+        (Some((_, at)), Some((kink, share))) if share < at => Some((Event::Kink(kink), share)),
+        (None, Some((kink, share))) => Some((Event::Kink(kink), share)),
         (event, _) => event,
     }
 }

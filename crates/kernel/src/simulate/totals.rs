@@ -6,7 +6,7 @@ use crate::solver::Quintic;
 
 /// Everything a run adds up.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Tally {
+pub(crate) struct Totals {
     pub theta_max: [Peak; 2],
     pub top_max: Peak,
     pub pattern_time_s: [f64; 9],
@@ -20,7 +20,7 @@ pub(crate) struct Tally {
     joints: usize,
 }
 
-impl Tally {
+impl Totals {
     /// Nothing yet, for a wall with this many joints.
     pub fn new(joints: usize) -> Self {
         Self { joints, ..Self::default() }
