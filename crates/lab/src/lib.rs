@@ -2,7 +2,8 @@
 
 pub mod calibrate;
 pub mod diagnose;
-pub mod experiment_file;
+pub mod experiment;
 mod progress;
 
+pub use experiment::file as experiment_file;
 pub use progress::Progress;

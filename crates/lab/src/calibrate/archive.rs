@@ -10,8 +10,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::journal::{line, read_journal};
-use super::trial::Simulated;
 use crate::Progress;
+use crate::experiment::Simulated;
 use mrbd_files::error::{Error, Result};
 
 /// Which simulation: the `index`-th candidate of a generation of a search, in one test.

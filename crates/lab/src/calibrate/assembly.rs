@@ -7,7 +7,7 @@ use super::identifiability::Judge;
 use super::objective::simulate;
 use super::result::{MethodResult, TestResult, Vector};
 use super::search::Found;
-use super::trial::Simulated;
+use crate::experiment::Simulated;
 
 /// Puts results together for an experiment.
 #[derive(Debug, Clone, Copy)]

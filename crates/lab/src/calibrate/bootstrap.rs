@@ -16,10 +16,10 @@ use rand_distr::StandardNormal;
 
 use super::draws::Draws;
 use super::least_sizes::median_size;
-use super::misfit::BLOCKS;
 use super::prior::LnPrior;
 use super::search::Bounds;
 use super::slopes::{Fit, sides, slopes};
+use crate::experiment::misfit::BLOCKS;
 use mrbd_files::error::Result;
 
 /// Half-widths of the first differences, as a share of the bounds.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use super::space::ParameterSpace;
-use super::trial::Test;
-use crate::experiment_file::{CalibrateTable, ExperimentFile, Purpose};
+use crate::experiment::file::{CalibrateTable, ExperimentFile, Purpose};
+use crate::experiment::{Test, load_tests};
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::Accuracy;
@@ -39,15 +39,10 @@ impl Experiment {
         // With C_l as in its file, which a start time is matched by.
         let given =
             Wall::new(space.base().clone()).map_err(|e| InputError::key(path, e.key, e.found, e.allowed))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
         let settings = CalibrateTable { seed: seed.unwrap_or(file.calibrate.seed), ..file.calibrate.clone() };
         let accuracy = Accuracy { tolerance: settings.tolerance };
-        let tests = file
-            .tests
-            .iter()
-            .map(|table| Test::load(folder, table, &given, accuracy))
-            .collect::<Result<Vec<_>>>()?;
-        let files = files(path, &file);
+        let tests = load_tests(path, &file, &given, accuracy)?;
+        let files = file.files(path);
         let request = request(&files, &settings)?;
         Ok(Self { path: path.to_path_buf(), space, tests, settings, files, request })
     }
@@ -61,20 +56,6 @@ impl Experiment {
     pub fn accuracy(&self) -> Accuracy {
         Accuracy { tolerance: self.settings.tolerance }
     }
-}
-
-/// Every file an experiment reads.
-pub fn files(path: &Path, file: &ExperimentFile) -> Vec<(String, PathBuf)> {
-    let beside = |name: &Path| path.parent().unwrap_or(Path::new("")).join(name);
-    let mut files =
-        vec![("experiment".to_owned(), path.to_path_buf()), ("wall".to_owned(), beside(&file.wall))];
-    files.extend(file.calibrate.coefficients.iter().map(|name| ("coefficients".to_owned(), beside(name))));
-    for test in &file.tests {
-        files.push((format!("record of {}", test.name), beside(&test.record)));
-        files.extend(test.vertical.iter().map(|name| (format!("vertical of {}", test.name), beside(name))));
-        files.push((format!("measured in {}", test.name), beside(&test.measured)));
-    }
-    files
 }
 
 /// Identifies the inputs: program, settings, and the bytes of every file.

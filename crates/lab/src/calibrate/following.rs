@@ -18,7 +18,7 @@ use super::search::Member;
 use super::slopes::{Fit, Fitted};
 use super::staged::Staged;
 use super::stages::Stage;
-use super::trial::Test;
+use crate::experiment::Test;
 use mrbd_files::error::Result;
 
 /// Dampings, in the units of the axes: from a full step to one that hardly leaves where it is.

@@ -1,7 +1,7 @@
 //! Where a run leaves the measurement.
 
-use super::misfit::{Sample, Target};
-use super::stretches::noise_rad;
+use crate::experiment::misfit::{Sample, Target};
+use crate::experiment::segments::noise_rad;
 
 /// Samples looked at together: of their 60 sizes, the mean of normal noise is known to a tenth.
 const TOGETHER: usize = 30;
@@ -38,7 +38,8 @@ mod tests {
     use rand_distr::{Distribution, StandardNormal};
 
     use super::*;
-    use crate::calibrate::{Draws, Measured};
+    use crate::calibrate::Draws;
+    use crate::experiment::Measured;
     use mrbd_files::load_wall;
 
     #[test]

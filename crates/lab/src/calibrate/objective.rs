@@ -7,7 +7,7 @@ use super::prior::{LnPrior, ln_prior, prior_factor};
 use super::search::Evaluate;
 use super::slopes::{Fit, Fitted};
 use super::space::ParameterSpace;
-use super::trial::{Simulated, Test};
+use crate::experiment::{Simulated, Test};
 use mrbd_files::error::Result;
 use mrbd_kernel::simulate::Accuracy;
 

@@ -6,7 +6,7 @@ use toml::{Table, Value};
 
 use super::parameter::{Parameter, Target};
 use super::search::Bounds;
-use crate::experiment_file::{ExperimentFile, ParameterTable};
+use crate::experiment::file::{ExperimentFile, ParameterTable};
 use mrbd_files::coefficients::CoefficientSets;
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::suggestion::with_suggestion;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::alignment::Alignment;
+use crate::experiment::Alignment;
 
 /// Everything a calibration found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

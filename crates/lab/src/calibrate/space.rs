@@ -7,7 +7,7 @@ use toml::{Table, Value};
 use super::parameter::{Parameter, Target};
 use super::resolver::Resolver;
 use super::search::Bounds;
-use crate::experiment_file::{CalibrateTable, ExperimentFile};
+use crate::experiment::file::{CalibrateTable, ExperimentFile};
 use mrbd_files::coefficients::CoefficientSets;
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::{toml_file, wall_from_table};

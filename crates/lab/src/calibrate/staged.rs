@@ -2,7 +2,7 @@
 //!
 //! A free-running impact system forgets its coefficients behind chaos: over a long record the WME has many local minima.
 //! So the search begins in windows that begin anew from the measured motion before each impact
-//! ([`super::Test::in_windows`]): there every coefficient acts in every part of every test, and the misfit is nearly
+//! ([`crate::experiment::Test::in_windows`]): there every coefficient acts in every part of every test, and the misfit is nearly
 //! smooth. Where they lead, from several vectors on, and at vectors that the windows hardly tell from these, tracks
 //! ([`Track`]) begin that are led to follow the measured motion from rest ever farther, up to the free-running tests, whose
 //! WME is Eq. 8. CMA-ES goes on about the best of them.
@@ -17,7 +17,7 @@ use super::objective::Objective;
 use super::search::Found;
 use super::space::ParameterSpace;
 use super::stages::{MOST_TRACKS, Stage};
-use super::trial::Test;
+use crate::experiment::Test;
 use mrbd_files::error::Result;
 
 /// The most of the budget that windows and tracks take, and what a track that is let go takes; CMA-ES has the rest.
@@ -123,7 +123,7 @@ impl Staged<'_> {
             // Between impacts the wall moves as the vector makes it, the best known.
             tests[k] = tests[k].in_windows(&wall, self.experiment.accuracy());
         }
-        if self.chosen.iter().all(|&k| tests[k].window_count() == 1) {
+        if self.chosen.iter().all(|&k| tests[k].segment_count() == 1) {
             return Ok(0);
         }
         let name = Stage::Windows(number).name(self.method);

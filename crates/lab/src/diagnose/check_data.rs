@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Problem, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::measured::{TestData, rest_offset_rad, windows};
 use crate::diagnose::trials::{Data, untouched};
+use crate::experiment::{TestData, rest_offset_rad, windows};
 use mrbd_files::error::{InputError, Result};
 
 /// Share of a test's windowed error that another reading of its file leaves, below which it is told. In 599 tests of walls with

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::summary::sd;
 use super::tests::whole_wme;
 use mrbd_kernel::model::Wall;
-use mrbd_lab::calibrate::Test;
+use mrbd_lab::experiment::Test;
 use mrbd_lab::diagnose::certainty::ensemble;
 use mrbd_lab::diagnose::experiment::Experiment;
 use mrbd_lab::diagnose::hypothesis::Addition;

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::Accuracy;
-use mrbd_lab::calibrate::Test;
+use mrbd_lab::experiment::Test;
 use mrbd_lab::diagnose::experiment::Experiment;
 use mrbd_lab::diagnose::fit::{WindowFit, windowed_error};
 use mrbd_lab::diagnose::flow::Diagnosis;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use super::noise::noise_rad;
-use super::offset::rest_offset_rad;
-use crate::calibrate::{Test, median_step};
-use crate::experiment_file::{Purpose, TestTable};
+use super::file::{Purpose, TestTable};
+use super::measured::median_step;
+use super::noise::{noise_rad, rest_offset_rad};
+use super::test::Test;
 use mrbd_files::error::InputError;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Pair, Wall};

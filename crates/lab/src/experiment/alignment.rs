@@ -9,8 +9,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::file::{StartTime, TestTable};
 use super::measured::Measured;
-use crate::experiment_file::{StartTime, TestTable};
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::{Pair, Wall};
 use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
