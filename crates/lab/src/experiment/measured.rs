@@ -7,18 +7,19 @@
 
 use super::file::{Reading, TestTable};
 use mrbd_files::error::{InputError, Result};
-use mrbd_kernel::model::{Wall, WallParameters};
+use mrbd_kernel::model::{Pair, Wall, WallParameters};
+use mrbd_statistics::median;
 use std::path::Path;
 
 /// Samples farther apart than this many median distances leave a gap.
-pub(crate) const GAP_IN_STEPS: f64 = 2.5;
+const GAP_IN_STEPS: f64 = 2.5;
 
 /// Measured rotations of both bodies, in their own time until [`Measured::moved`] into the record's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
     /// Times of the samples, s, increasing.
     pub time_s: Vec<f64>,
-    /// θ_1 and θ_2 at the samples, rad; NaN where missing; none: the channel is lost.
+    /// θ_1 and θ_2 at the samples, rad; NaN where missing; `None`: the channel is lost.
     pub theta_rad: [Option<Vec<f64>>; 2],
     /// Samples farther apart than this are not joined, s.
     pub gap_s: f64,
@@ -50,7 +51,9 @@ impl Measured {
     pub fn load(path: &Path, test: &TestTable, wall: &Wall) -> Result<Self> {
         let columns = read_columns(path)?;
         let time_s = times(path, &columns)?;
-        let gap_s = test.gap_s.unwrap_or_else(|| GAP_IN_STEPS * median_step(&time_s));
+        let step_s = median_step(&time_s)
+            .ok_or_else(|| InputError::file(path, format!("{} sample(s)", time_s.len()), "2 or more"))?;
+        let gap_s = test.gap_s.unwrap_or(GAP_IN_STEPS * step_s);
         let channels = Channels { path, columns: &columns, test, wall, time_s: &time_s };
         let theta_rad = channels.rotations()?;
         if theta_rad.iter().all(Option::is_none) {
@@ -68,6 +71,23 @@ impl Measured {
         self.time_s.iter_mut().for_each(|t| *t += start_s);
         self.collapse_s = collapse_s.or_else(|| first_collapse(&self.time_s, &self.theta_rad, wall));
         self
+    }
+
+    /// Times, s, and rotations, rad, from the beginning of the record until the wall fell; NaN where a sample is missing or
+    /// lies in none of these windows of time, s; no windows: all count.
+    pub fn counted(&self, windows_s: &[[f64; 2]]) -> (Vec<f64>, Vec<Pair>) {
+        let end_s = self.collapse_s.unwrap_or(f64::INFINITY);
+        let counts =
+            |t: f64| windows_s.is_empty() || windows_s.iter().any(|[from, to]| *from <= t && t <= *to);
+        let value =
+            |channel: &Option<Vec<f64>>, k: usize| channel.as_ref().map_or(f64::NAN, |theta| theta[k]);
+        let kept = (0..self.time_s.len()).filter(|&k| self.time_s[k] >= 0.0 && self.time_s[k] < end_s);
+        let sample = |k: usize| {
+            let t = self.time_s[k];
+            let theta = self.theta_rad.each_ref().map(|channel| value(channel, k));
+            (t, if counts(t) { theta } else { [f64::NAN; 2] })
+        };
+        kept.map(sample).unzip()
     }
 }
 
@@ -105,9 +125,6 @@ fn times(path: &Path, columns: &Columns) -> Result<Vec<f64>, InputError> {
         let found = format!("columns {}", columns.names.join(", "));
         return Err(InputError::line(path, 1, found, "a column time_s"));
     };
-    if time.len() < 2 {
-        return Err(InputError::file(path, format!("{} sample(s)", time.len()), "2 or more"));
-    }
     // The header is line 1.
     let not_after = |i: usize| !(time[i].is_finite() && (i == 0 || time[i] > time[i - 1]));
     if let Some(i) = (0..time.len()).find(|&i| not_after(i)) {
@@ -117,11 +134,9 @@ fn times(path: &Path, columns: &Columns) -> Result<Vec<f64>, InputError> {
     Ok(time.to_vec())
 }
 
-/// Median distance of times in order, s.
-pub(crate) fn median_step(time_s: &[f64]) -> f64 {
-    let mut steps = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
-    steps.sort_by(f64::total_cmp);
-    steps[steps.len() / 2]
+/// Median distance of times in order, s; `None` of less than two.
+pub(crate) fn median_step(time_s: &[f64]) -> Option<f64> {
+    median(&time_s.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>())
 }
 
 /// Finds and cleans the channels of a test.

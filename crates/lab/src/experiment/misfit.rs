@@ -11,8 +11,8 @@
 //!   with many local minima. Windows that end after some impacts, or begin anew from the measured motion, make it smooth.
 
 use super::measured::Measured;
+use super::noise::noise_rad;
 use super::rotations::Sink;
-use super::segments::noise_rad;
 use mrbd_kernel::model::{Contact, Pair, Reading, Wall};
 
 /// Smallest mean |θ_i,exp| of the denominator, in units of α_i.
@@ -42,6 +42,8 @@ pub struct Target {
     /// The least each channel's denominator may be, rad s; 0: the channel is lost.
     floor_rad_s: Pair,
     independent_samples: f64,
+    noise_rad: Pair,
+    gap_s: f64,
 }
 
 impl Target {
@@ -61,10 +63,13 @@ impl Target {
             block: block(measured.time_s[k]).min(BLOCKS - 1),
         };
         let samples = kept.into_iter().map(sample).collect::<Vec<_>>();
-        Some(Self::of_samples(samples, wall.alpha_i_rad().map(|alpha| REST_SHARE * alpha)))
+        let (time_s, theta_rad) = measured.counted(windows_s);
+        let noise_rad = noise_rad(&time_s, &theta_rad, measured.gap_s).map(|noise| noise.unwrap_or(0.0));
+        let floor_share_rad = wall.alpha_i_rad().map(|alpha| REST_SHARE * alpha);
+        Some(Self::of_samples(samples, floor_share_rad, noise_rad, measured.gap_s))
     }
 
-    fn of_samples(samples: Vec<Sample>, floor_share_rad: Pair) -> Self {
+    fn of_samples(samples: Vec<Sample>, floor_share_rad: Pair, noise_rad: Pair, gap_s: f64) -> Self {
         let mut measured_rad_s = [[0.0; BLOCKS]; 2];
         for s in &samples {
             for (i, blocks) in measured_rad_s.iter_mut().enumerate() {
@@ -74,17 +79,27 @@ impl Target {
         let floor = |i: usize| floor_share_rad[i] * samples.iter().map(|s| s.weight_s[i]).sum::<f64>();
         let floor_rad_s = [floor(0), floor(1)];
         let independent_samples = independent_samples(&samples);
-        Self { samples, measured_rad_s, floor_share_rad, floor_rad_s, independent_samples }
+        Self { samples, measured_rad_s, floor_share_rad, floor_rad_s, independent_samples, noise_rad, gap_s }
     }
 
     /// The target of these samples, which may count one twice.
     pub(crate) fn counting(&self, samples: Vec<Sample>) -> Self {
-        Self::of_samples(samples, self.floor_share_rad)
+        Self::of_samples(samples, self.floor_share_rad, self.noise_rad, self.gap_s)
     }
 
     /// The samples that count, in order.
     pub(crate) fn samples(&self) -> &[Sample] {
         &self.samples
+    }
+
+    /// Standard deviation of each channel's white noise, rad; 0 where none shows.
+    pub fn noise_rad(&self) -> Pair {
+        self.noise_rad
+    }
+
+    /// Samples farther apart than this are not joined, s.
+    pub(crate) fn gap_s(&self) -> f64 {
+        self.gap_s
     }
 
     /// End of what counts, s.
@@ -117,7 +132,7 @@ impl Target {
 
     /// Eq. 8 of the true motion, which the measurement's noise alone makes: E|noise| = √(2/π) σ.
     pub fn noise_wme(&self) -> f64 {
-        let (noise, counted, weights) = (noise_rad(&self.samples), self.counted_s(), self.weights());
+        let (noise, counted, weights) = (self.noise_rad, self.counted_s(), self.weights());
         (0..2).map(|i| std::f64::consts::FRAC_2_PI.sqrt() * noise[i] * counted[i] * weights[i]).sum()
     }
 

@@ -20,7 +20,7 @@ pub mod misfit;
 pub mod noise;
 pub mod pattern;
 pub mod rotations;
-pub(crate) mod segments;
+mod segments;
 pub mod test;
 pub mod test_data;
 pub mod windows;

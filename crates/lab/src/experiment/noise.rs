@@ -1,30 +1,29 @@
 //! What a channel reads beside the motion, from the channel alone: white noise, and an offset at rest.
 
 use mrbd_kernel::model::Pair;
+use mrbd_statistics::median;
 
 /// Fourth differences of white noise are √70 times as large as the noise.
 const FOURTH_DIFFERENCE: f64 = 8.366_600_265_340_756;
 /// The median magnitude of a normal variable over its standard deviation.
 const MEDIAN_OF_NORMAL: f64 = 0.674_489_750_196_081_7;
 
-/// Standard deviation of the white noise of each channel, rad; none if a channel has no samples or no noise.
+/// Standard deviation of the white noise of each channel, rad; `None` of one with too few samples or no noise.
 ///
-/// From the median of the fourth differences: motion is smooth from sample to sample but for the impacts, which a
-/// median does not see.
-pub fn noise_rad(time_s: &[f64], theta_rad: &[Pair], gap_s: f64) -> Option<Pair> {
-    let of = |channel: usize| {
+/// From the median of the fourth differences. Motion is smooth from sample to sample but for the impacts, which a
+/// median does not see. Samples farther apart than `gap_s` are not joined; NaN is no sample.
+pub fn noise_rad(time_s: &[f64], theta_rad: &[Pair], gap_s: f64) -> [Option<f64>; 2] {
+    [0, 1].map(|channel: usize| {
         let joined = |k: usize| time_s[k + 4] - time_s[k] <= 4.0 * gap_s;
         let at = |k: usize| theta_rad[k][channel];
-        let mut differences = (0..theta_rad.len().saturating_sub(4))
+        let differences = (0..theta_rad.len().saturating_sub(4))
             .filter(|&k| joined(k))
             .map(|k| (at(k) - 4.0 * at(k + 1) + 6.0 * at(k + 2) - 4.0 * at(k + 3) + at(k + 4)).abs())
             .filter(|d| d.is_finite())
             .collect::<Vec<_>>();
-        differences.sort_by(f64::total_cmp);
-        let median = *differences.get(differences.len() / 2)?;
-        (median > 0.0).then_some(median / (MEDIAN_OF_NORMAL * FOURTH_DIFFERENCE))
-    };
-    Some([of(0)?, of(1)?])
+        let middle = median(&differences).filter(|middle| *middle > 0.0)?;
+        Some(middle / (MEDIAN_OF_NORMAL * FOURTH_DIFFERENCE))
+    })
 }
 
 /// Samples looked at together.
@@ -86,8 +85,21 @@ mod tests {
             .map(|t| [0.01 * (6.0 * t).sin(), 0.02 * (5.0 * t).cos()])
             .map(|theta| theta.map(|x| x + normal.sample(&mut random)))
             .collect::<Vec<_>>();
-        let found = noise_rad(&time, &theta, 0.0125).unwrap();
+        let found = noise_rad(&time, &theta, 0.0125).map(|sigma| sigma.expect("noise"));
         assert!(found.iter().all(|sigma| (sigma / 3e-5 - 1.0).abs() < 0.06), "{found:?}");
+    }
+
+    #[test]
+    fn analytic_noise_is_told_from_a_fast_motion_and_a_lost_channel_has_none() {
+        let wave = |k: usize| 0.05 * (0.05 * k as f64).sin();
+        let noise = |k: usize| if k.is_multiple_of(2) { 1e-4 } else { -1e-4 };
+        let time = (0..400).map(|k| 0.01 * f64::from(k)).collect::<Vec<_>>();
+        let theta = (0..400).map(|k| [wave(k), wave(k) + noise(k)]).collect::<Vec<_>>();
+        let [smooth, noisy] = noise_rad(&time, &theta, 0.025).map(|sigma| sigma.expect("differences"));
+        // A fourth difference of alternating ± a is 16 a: 16e-4 / (0.6745 √70) = 2.84e-4; that of the wave is 0.05⁵.
+        assert!(smooth < 1e-7 && (noisy / 2.835e-4 - 1.0).abs() < 0.01, "{smooth} {noisy}");
+        let lost = theta.iter().map(|theta| [theta[1], f64::NAN]).collect::<Vec<_>>();
+        assert!(matches!(noise_rad(&time, &lost, 0.025), [Some(_), None]));
     }
 
     const NOISE_RAD: f64 = 1e-4;

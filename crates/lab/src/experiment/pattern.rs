@@ -84,7 +84,7 @@ pub struct MeasuredState {
     pub numbers: Vec<f64>,
 }
 
-/// The pattern about a sample; none where the samples around it leave doubt or are not all there.
+/// The pattern about a sample; `None` where the samples around it leave doubt or are not all there.
 pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     let from = k.checked_sub(HALF)?;
     test.theta_rad.get(from..from + COUNT)?;

@@ -4,17 +4,17 @@
 //! one of the motion, and Eq. 8 over a whole test is a rough function with many local minima. Each segment starts from the
 //! measured motion just before some impacts. Its error tells of these alone, and the sum over all segments is smooth.
 //!
-//! These are not the windows of a diagnosis ([`super::Window`]), which lie between impacts, need noise and even sampling,
-//! and whose states are fitted with every hypothesis. A search by Eq. 8 must also serve a sparse measurement and one
-//! without noise. So a segment starts in a stretch in which the sign of every opening is plain, at a state from which the
+//! These are not the windows of a diagnosis ([`super::Window`]): those need noise and even sampling, and their states
+//! are fitted with every hypothesis. A search by Eq. 8 must also serve a sparse measurement and one without noise. So
+//! a segment starts in a stretch in which the sign of every opening is plain. It starts at a state from which the
 //! model itself passes through that stretch.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::measured::GAP_IN_STEPS;
 use super::misfit::{Sample, Target};
 use super::pattern::Freedom;
 use super::rotations::Sampled;
+use crate::least_squares::newton_step;
 use mrbd_kernel::model::{Contact, Pair, Pivot, State};
 use mrbd_kernel::simulate::{Outcome, Simulator, Start};
 
@@ -56,13 +56,14 @@ impl Segment {
 /// The simulator is of a wall whose motion between impacts is that of the measured one.
 pub(crate) fn segments(target: &Target, simulator: &Simulator) -> Vec<Segment> {
     let samples = target.samples();
-    let noise_rad = noise_rad(samples);
+    let noise_rad = target.noise_rad();
     let start = |stretch: Stretch| {
         let part = &samples[stretch.first..stretch.end];
         let fit = StartFit::new(simulator, part, stretch.contact, noise_rad);
         fit.start().map(|start| (start, stretch))
     };
-    let starts = stretches(samples, noise_rad).into_iter().filter_map(start).collect::<Vec<_>>();
+    let starts =
+        stretches(samples, noise_rad, target.gap_s()).into_iter().filter_map(start).collect::<Vec<_>>();
     // Number k starts at the k-th stretch, number 0 from rest.
     let first = |k: usize| k.checked_sub(1).map_or(0, |k| starts[k].1.first);
     let end = |k: usize| starts.get(k.wrapping_sub(1)).map_or(samples.len(), |(_, stretch)| stretch.end);
@@ -83,12 +84,11 @@ struct Stretch {
 }
 
 /// The stretches of a measurement, in order, each cut to its last quarter of a second; empty if a channel is lost.
-fn stretches(samples: &[Sample], noise_rad: Pair) -> Vec<Stretch> {
+fn stretches(samples: &[Sample], noise_rad: Pair, gap_s: f64) -> Vec<Stretch> {
     let contact = |s: &Sample| contact(s, noise_rad);
-    let step_s = median(samples.windows(2).map(|pair| pair[1].time_s - pair[0].time_s).collect());
     let together = |k: usize| {
         let (a, b) = (&samples[k - 1], &samples[k]);
-        contact(a) == contact(b) && b.time_s - a.time_s <= GAP_IN_STEPS * step_s
+        contact(a) == contact(b) && b.time_s - a.time_s <= gap_s
     };
     let mut found = Vec::new();
     let mut first = 0;
@@ -120,24 +120,6 @@ fn contact(s: &Sample, noise_rad: Pair) -> Option<Contact> {
         ground: pivot(s.theta_rad[0], noise_1),
         crack: pivot(s.theta_rad[1] - s.theta_rad[0], noise_1.hypot(noise_2)),
     })
-}
-
-/// Standard deviation of each channel's noise, rad: from third differences of the samples, in which a motion hardly
-/// shows, by their median, which impacts do not move.
-pub(crate) fn noise_rad(samples: &[Sample]) -> Pair {
-    [0, 1].map(|i| {
-        let third = |w: &[Sample]| {
-            let x = |k: usize| w[k].theta_rad[i];
-            (x(3) - 3.0 * x(2) + 3.0 * x(1) - x(0)).abs()
-        };
-        // The median of |z| of a standard normal z is 0.6745; 1² + 3² + 3² + 1² = 20.
-        median(samples.windows(4).map(third).collect()) / (0.6745 * 20.0_f64.sqrt())
-    })
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
 }
 
 /// The state at the first of some samples: the one from which the model passes through them.
@@ -201,9 +183,7 @@ impl<'a> StartFit<'a> {
             Some((residuals(&moved)? - &now) / delta)
         };
         let columns = (0..x.len()).map(column).collect::<Option<Vec<_>>>()?;
-        let jacobian = DMatrix::from_columns(&columns);
-        let normal = jacobian.transpose() * &jacobian;
-        let change = normal.cholesky()?.solve(&(jacobian.transpose() * -now));
+        let change = newton_step(&DMatrix::from_columns(&columns), &now)?;
         Some(x.iter().zip(change.iter()).map(|(x, change)| x + change).collect())
     }
 
@@ -244,19 +224,9 @@ mod tests {
             _ => [-0.01, -0.01],
         };
         let samples = (0..200).map(|k| sample(k, theta(k))).collect::<Vec<_>>();
-        let found = stretches(&samples, [0.0, 0.0]);
+        let found = stretches(&samples, [0.0, 0.0], 0.025);
         let ends = found.iter().map(|s| (s.first, s.end, s.contact.name())).collect::<Vec<_>>();
         // A quarter of a second at the end of each: 26 samples.
         assert_eq!(ends, [(24, 50, "3a"), (74, 100, "1a"), (174, 200, "3b")]);
-    }
-
-    #[test]
-    fn analytic_noise_is_told_from_a_fast_motion() {
-        let wave = |k: usize| 0.05 * (0.05 * k as f64).sin();
-        let noise = |k: usize| if k.is_multiple_of(2) { 1e-4 } else { -1e-4 };
-        let samples = (0..400).map(|k| sample(k, [wave(k), wave(k) + noise(k)])).collect::<Vec<_>>();
-        let [smooth, noisy] = noise_rad(&samples);
-        // A third difference of alternating ± a is 8 a: 8e-4 / (0.6745 √20) = 2.65e-4.
-        assert!(smooth < 5e-6 && (noisy / 2.65e-4 - 1.0).abs() < 0.05, "{smooth} {noisy}");
     }
 }

@@ -38,7 +38,7 @@ pub struct Test {
 /// What one simulation of one test gave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulated {
-    /// Eq. 8; none where the run could not be finished or was abandoned.
+    /// Eq. 8; `None` where the run could not be finished or was abandoned.
     pub wme: Option<f64>,
     /// `stood`, `collapsed`, `failed`, or `abandoned` when Eq. 8 had passed what was worth while.
     pub outcome: &'static str,
