@@ -75,17 +75,6 @@ fn regress_results_are_the_same_on_any_threads_and_after_a_stop() {
     assert_eq!(json(&one)["simulations"], json(&stopped)["simulations"], "a stop changes the count");
 }
 
-/// Parameters as they were printed, number by number.
-fn numbers(printed: &Output) -> Vec<Vec<String>> {
-    let text = String::from_utf8_lossy(&printed.stdout).into_owned();
-    let cell = |cell: &str| match cell.parse::<f64>() {
-        // JSON is read back to the last digit but one.
-        Ok(x) => format!("{x:.14e}"),
-        Err(_) => cell.to_owned(),
-    };
-    text.lines().map(|line| line.split(',').map(cell).collect()).collect()
-}
-
 #[test]
 fn regress_a_finished_calibration_resumed_prints_its_result_again() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -98,7 +87,7 @@ fn regress_a_finished_calibration_resumed_prints_its_result_again() {
     let again = calibrate(&experiment, &out, &["--resume"]);
     assert_eq!(again.status.code(), Some(0), "{}", String::from_utf8_lossy(&again.stderr));
     assert_eq!(first.stderr, again.stderr, "another summary");
-    assert_eq!(numbers(&first), numbers(&again));
+    assert_eq!(first.stdout, again.stdout, "other parameters");
     assert_eq!(before, std::fs::read(out.join("calibration.json")).expect("calibration.json"));
     // Stopped between its last result and the end, it left its journal.
     std::fs::write(out.join("journal.tsv"), "").expect("written");
