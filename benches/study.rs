@@ -62,7 +62,8 @@ impl Study {
             let standing = Standing::of(&folder, &Layout::of(folder.manifest())).expect("nothing done yet");
             let (stop, progress) = (AtomicBool::new(false), indicatif::ProgressBar::hidden());
             let (shard, stop, progress) = (Shard::WHOLE, &stop, &progress);
-            let work = Work { plan: &plan, folder: &folder, shard, threads, simulate, stop, progress };
+            let pool = &pool(threads);
+            let work = Work { plan: &plan, folder: &folder, shard, pool, simulate, stop, progress };
             let tally = run_missing(&work, &standing, |_| ()).expect("the study");
             assert_eq!(tally.runs(), self.plan.len());
         })
@@ -71,6 +72,10 @@ impl Study {
     fn runs(&self) -> f64 {
         self.plan.len() as f64
     }
+}
+
+fn pool(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
 }
 
 /// A parameter of a configuration at its levels: nine slendernesses, three levels, seven records.
@@ -168,7 +173,7 @@ fn main() {
     study.spent(2, &counted);
     let evaluations = evaluations.into_inner() as f64 / study.runs();
     let told = |_: &Wall, _: &Shaking, _: Accuracy| once.clone();
-    let pools = [1, 2].map(|threads| mrbd::study::batch::threads(threads).expect("threads"));
+    let pools = [1, 2].map(pool);
     let rocking = RockingWall::new(&wall);
     let mut times = Times::default();
     for _ in 0..TURNS {

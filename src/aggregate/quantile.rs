@@ -3,6 +3,8 @@
 //! A collapsed wall has no largest rotation, only one larger than that of any wall that stood. It therefore ranks
 //! above all of them, and a quantile that lands among collapsed runs does not exist as a number.
 
+use mrbd_statistics::censored_quantile;
+
 /// Levels of the quantiles that are kept.
 pub const LEVELS: [f64; 7] = [0.05, 0.16, 0.25, 0.50, 0.75, 0.84, 0.95];
 
@@ -14,20 +16,7 @@ pub(super) const MEDIAN: usize = 3;
 /// Linear between order statistics at q (n - 1), the rule of numpy and R's type 7. `None` where a statistic with any
 /// weight is a collapse: no infinity stands in for it, so none can cancel another.
 pub fn quantiles(standing: &[f64], collapsed: usize) -> [Option<f64>; 7] {
-    LEVELS.map(|level| quantile(standing, collapsed, level))
-}
-
-fn quantile(standing: &[f64], collapsed: usize, level: f64) -> Option<f64> {
-    let last = (standing.len() + collapsed).checked_sub(1)?;
-    let rank = level * last as f64;
-    let below = rank.floor() as usize;
-    let weight = rank - rank.floor();
-    let lower = *standing.get(below)?;
-    if weight == 0.0 {
-        return Some(lower);
-    }
-    let upper = *standing.get(below + 1)?;
-    Some(lower + weight * (upper - lower))
+    LEVELS.map(|level| censored_quantile(standing, collapsed, level))
 }
 
 #[cfg(test)]

@@ -1,17 +1,16 @@
 //! `mrbd calibrate`: coefficients and other numbers of a wall from measured tests.
 
 use std::io::BufRead;
-use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 
 use super::output;
+use super::progress::Bar;
+use super::threads::Threads;
 use crate::error::{InputError, Result};
-use crate::results::calibration::{OutputNames, write_results};
-use mrbd_lab::Progress;
-use mrbd_lab::calibrate::{Archive, Experiment, calibrate, print_parameters, simulate, summary};
+use crate::results::calibration::{OutputNames, finished, write_results};
+use mrbd_lab::calibrate::{Archive, Calibration, Experiment, calibrate, print_parameters, simulate, summary};
 
 /// Calibrate a wall to measured tests.
 ///
@@ -35,12 +34,12 @@ pub struct CalibrateArgs {
     /// Seed of every random number, instead of the file's.
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
-    /// Go on with a calibration that was stopped; the result is the same as without the stop.
+    /// Go on with a calibration that was stopped; the result is the same as without the stop. Of one that is finished,
+    /// print the result again.
     #[arg(long)]
     resume: bool,
-    /// Threads; without it one for each processor. Results do not depend on it.
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZero<usize>>,
+    #[command(flatten)]
+    threads: Threads,
     /// Calibrate nothing: read vectors from stdin, one a line, and print the WME of each in every test, so that
     /// another optimiser can be used.
     #[arg(long, conflicts_with_all = ["out", "resume"])]
@@ -53,42 +52,25 @@ pub struct CalibrateArgs {
 /// Input errors of the experiment and what it names, and of the output folder; failures to write.
 pub fn execute(args: &CalibrateArgs) -> Result<()> {
     let experiment = Experiment::load(&args.experiment, args.seed)?;
-    let threads = args.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
-        InputError::option("--threads", e.to_string(), "a number of threads the system grants")
-    })?;
+    let pool = args.threads.pool()?;
     let Some(out) = args.out.as_ref().filter(|_| !args.evaluate) else { return evaluate(&experiment) };
+    if args.resume
+        && let Some(stored) = finished(out, &experiment)?
+    {
+        return print(&stored);
+    }
     let names = OutputNames::prepare(out, &experiment, args.resume)?;
-    let progress = ProgressBar::new_spinner().with_style(style()).with_finish(ProgressFinish::AndClear);
-    let archive =
-        Archive::open(&names.journal, &experiment.request, args.resume, Box::new(Counter(progress)))?;
+    let progress = Box::new(Bar::of_simulations());
+    let archive = Archive::open(&names.journal, &experiment.request, args.resume, progress)?;
     let calibration = pool.install(|| calibrate(&experiment, &archive))?;
     write_results(&names, &experiment, &calibration, archive)?;
-    eprintln!("{}", summary(&calibration));
-    output::to_stdout(|out| print_parameters(out, &calibration).map_err(output::failed))
+    print(&calibration)
 }
 
-/// Counts simulations, whose number nobody knows beforehand.
-#[derive(Debug)]
-struct Counter(ProgressBar);
-
-impl Progress for Counter {
-    fn begin(&self, _what: &str, _parts: usize) {}
-
-    fn advance(&self, parts: usize) {
-        self.0.inc(parts as u64);
-    }
-
-    fn note(&self, text: &str) {
-        self.0.set_message(text.to_owned());
-    }
-}
-
-fn style() -> ProgressStyle {
-    let style =
-        ProgressStyle::with_template("{spinner} {human_pos} simulations  {per_sec}  {elapsed}  {msg}");
-    // A template that does not parse would be a slip of this file; the plain spinner then does.
-    style.unwrap_or_else(|_| ProgressStyle::default_spinner())
+/// The summary for people, the parameters for programs.
+fn print(calibration: &Calibration) -> Result<()> {
+    eprintln!("{}", summary(calibration));
+    output::to_stdout(|out| print_parameters(out, calibration).map_err(output::failed))
 }
 
 /// Answers vectors from stdin with their WME in every test, one line each, as they come.

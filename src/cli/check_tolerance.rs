@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{output, replay};
+use super::threads::Threads;
+use super::{output, progress, replay};
 use crate::aggregate::{Compared, MOVED_SHARE, stored_answers};
 use crate::check::{Again, Conditioning, conditioning, sampled};
 use crate::error::{InputError, Result};
@@ -36,9 +37,8 @@ pub struct CheckToleranceCommand {
     /// Seed of the sample.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Threads; without it one for each processor.
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZero<usize>>,
+    #[command(flatten)]
+    threads: Threads,
 }
 
 impl CheckToleranceCommand {
@@ -59,9 +59,8 @@ impl CheckToleranceCommand {
             let tolerance = self.tolerance.unwrap_or(TIGHTER * accuracy.tolerance);
             simulate(wall, shaking, Accuracy { tolerance })
         };
-        let progress = batch::progress_bar(positions.len() as u64);
-        let threads = batch::threads(self.threads.map_or(0, NonZero::get))?;
-        let runs = threads.install(|| batch::run_all(&plan, positions, &tighter, &progress));
+        let progress = progress::of_runs(positions.len() as u64);
+        let runs = self.threads.pool()?.install(|| batch::run_all(&plan, positions, &tighter, &progress));
         progress.finish_and_clear();
         let again = |finished: batch::Finished| Again {
             variant: finished.run.variant.name.clone(),

@@ -1,17 +1,16 @@
 //! `mrbd diagnose`: where model and measurement disagree, and which effect would make them agree.
 
-use std::num::NonZero;
 use std::path::PathBuf;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::Value;
 
 use super::output;
-use crate::error::{InputError, Result};
+use super::progress::Bar;
+use super::threads::Threads;
+use crate::error::Result;
 use crate::report::report;
 use crate::results::diagnosis::{OutputNames, write_results};
-use mrbd_lab::Progress;
 use mrbd_lab::diagnose::{Experiment, check_data, diagnose};
 
 /// Find where model and measurement disagree, and name the missing effect.
@@ -34,30 +33,8 @@ pub struct DiagnoseArgs {
     /// Folder for the results; empty, or of an earlier diagnosis.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Threads; without it one for each processor. Results do not depend on it.
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZero<usize>>,
-}
-
-#[derive(Debug)]
-struct Bar(ProgressBar);
-
-impl Progress for Bar {
-    fn begin(&self, what: &str, parts: usize) {
-        // Both at once: a bar drawn between them would show the count of one step beside the length of another.
-        self.0.update(|state| {
-            state.set_pos(0);
-            state.set_len(parts as u64);
-        });
-        self.0.reset_eta();
-        self.0.set_message(what.to_owned());
-    }
-
-    fn advance(&self, parts: usize) {
-        self.0.inc(parts as u64);
-    }
-
-    fn note(&self, _text: &str) {}
+    #[command(flatten)]
+    threads: Threads,
 }
 
 /// Runs the command.
@@ -66,28 +43,19 @@ impl Progress for Bar {
 /// Input errors of the experiment and what it names, and of the output folder; failures to write.
 pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     let mut experiment = Experiment::load(&args.experiment)?;
-    let threads = args.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
-        InputError::option("--threads", e.to_string(), "a number of threads the system grants")
-    })?;
+    let pool = args.threads.pool()?;
     let names = OutputNames::prepare(&args.out)?;
-    let bar = Bar(ProgressBar::new(1).with_style(style()));
+    let bar = Bar::of_steps();
     let summary = pool.install(|| -> Result<Value> {
         check_data(&experiment)?;
         let diagnosis = diagnose(&mut experiment, &bar)?;
         write_results(&names, &experiment, &diagnosis)
     })?;
-    bar.0.finish_and_clear();
+    drop(bar);
     eprintln!("{}", told(&summary));
     let page = report(&args.out, None)?;
     eprintln!("its page, to be opened in a browser: {}", page.display());
     output::to_stdout(|out| writeln!(out, "{}", names.diagnosis.display()).map_err(output::failed))
-}
-
-fn style() -> ProgressStyle {
-    let style = ProgressStyle::with_template("{msg}: {pos} of {len}  {bar:30}  {elapsed}, {eta} left");
-    // A template that does not parse would be a slip of this file; the plain bar then does.
-    style.unwrap_or_else(|_| ProgressStyle::default_bar())
 }
 
 /// The answer in a few lines.

@@ -15,6 +15,7 @@ mod fragility;
 mod init;
 mod merge;
 mod output;
+mod progress;
 mod records;
 mod replay;
 mod report;
@@ -23,6 +24,7 @@ mod simulate;
 mod slurm;
 mod status;
 mod stop;
+mod threads;
 
 use clap::{Parser, Subcommand};
 

@@ -7,10 +7,11 @@ use std::time::Instant;
 
 use clap::Args;
 
-use super::{output, stop};
+use super::threads::Threads;
+use super::{output, progress, stop};
 use crate::classics::overturning;
 use crate::error::{Error, InputError, Result};
-use crate::study::batch::{self, Finished, SideBySide, Tally};
+use crate::study::batch::{Finished, SideBySide, Tally};
 use crate::study::campaign::{BLOCK_RUNS, Block, Layout, Shard, Standing, Work, run_missing};
 use crate::study::pipeline::Pipeline;
 use crate::study::plan::Plan;
@@ -36,9 +37,8 @@ pub struct RunCommand {
     /// Suite of records instead of the pipeline's.
     #[arg(long, value_name = "FILE")]
     suite: Option<PathBuf>,
-    /// Threads; without it one for each processor. Results do not depend on it.
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZero<usize>>,
+    #[command(flatten)]
+    threads: Threads,
     /// Replace the results of an earlier study in the folder.
     #[arg(long, conflicts_with_all = ["resume", "shard"])]
     force: bool,
@@ -69,7 +69,7 @@ impl RunCommand {
             let out = self.out.as_deref();
             let compare =
                 || super::compare_models::execute(&self.pipeline, self.suite.as_deref(), out, self.force);
-            return self.pool()?.install(compare);
+            return self.threads.pool()?.install(compare);
         }
         let pipeline = Pipeline::load(&self.pipeline)?;
         let plan = Plan::load(&pipeline, self.suite.as_deref())?;
@@ -106,11 +106,6 @@ impl RunCommand {
         }
     }
 
-    fn pool(&self) -> Result<rayon::ThreadPool, InputError> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.map_or(0, NonZero::get)).build();
-        pool.map_err(|e| InputError::option("--threads", e.to_string(), "fewer threads"))
-    }
-
     /// Options of plans, for what has none.
     fn refuse_parts(&self, why: &str) -> Result<(), InputError> {
         let options =
@@ -130,8 +125,8 @@ impl RunCommand {
         self.refuse_parts(why)?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("outputs").join(&study.name));
         let folder = WholeFolder::check(&out, &overturning::FILES, self.force)?;
-        let progress = batch::progress_bar(study.frequency_over_p.values().len() as u64);
-        let spectrum = self.pool()?.install(|| overturning::spectrum(study, || progress.inc(1)))?;
+        let progress = progress::of_runs(study.frequency_over_p.values().len() as u64);
+        let spectrum = self.threads.pool()?.install(|| overturning::spectrum(study, || progress.inc(1)))?;
         progress.finish_and_clear();
         overturning::store(folder.cleared()?, study, &spectrum)?;
         eprintln!("mrbd: trials.parquet and boundaries.parquet in {}", out.display());
@@ -139,20 +134,27 @@ impl RunCommand {
     }
 
     fn run(&self, plan: &Plan, folder: &OutputFolder, shard: Shard) -> Result<()> {
-        let threads = self.threads.or(std::thread::available_parallelism().ok()).map_or(1, NonZero::get);
+        let pool = self.threads.pool()?;
         let layout = Layout::of(folder.manifest());
         let standing = Standing::of(folder, &layout)?;
         tell_standing(plan, folder, &standing, &layout);
         let todo = |block: &Block| shard.has(block.index) && !standing.has(block);
         let missing = layout.iter().filter(todo).map(|block| block.runs.end - block.runs.start).sum();
-        eprintln!("mrbd: {missing} runs to do on {threads} thread(s)");
+        eprintln!("mrbd: {missing} runs to do on {} thread(s)", pool.current_num_threads());
         let stop = stop::on_signals()?;
         let start = Instant::now();
-        let progress = batch::progress_bar(missing);
+        let progress = progress::of_runs(missing);
         let mut failures = 0;
         let watch = |runs: &[Finished]| progress.suspend(|| tell_failures(runs, &mut failures));
-        let work =
-            Work { plan, folder, shard, threads, simulate: &SideBySide, stop: &stop, progress: &progress };
+        let work = Work {
+            plan,
+            folder,
+            shard,
+            pool: &pool,
+            simulate: &SideBySide,
+            stop: &stop,
+            progress: &progress,
+        };
         let tally = run_missing(&work, &standing, watch).inspect_err(|_| self.tell_again(folder.path()))?;
         progress.finish_and_clear();
         report(tally, start.elapsed().as_secs_f64());

@@ -12,7 +12,7 @@ use crate::error::{InputError, Result};
 use mrbd_files::parse_wall;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
-use mrbd_lab::experiment_file::{ExperimentFile, TestTable};
+use mrbd_lab::experiment::file::{ExperimentFile, TestTable};
 use mrbd_records::{Accelerogram, ReadOptions, read_bytes};
 
 /// Standard deviation of the noise, rad: that of good displacement transducers on a wall of this size.

@@ -70,10 +70,32 @@ fn regress_results_are_the_same_on_any_threads_and_after_a_stop() {
         let refused = calibrate(&experiment, &stopped, &[]);
         assert_eq!(refused.status.code(), Some(2), "a stopped calibration is not overwritten");
         assert!(calibrate(&experiment, &stopped, &["--resume"]).status.success());
-        let recalled = json(&one)["simulations"].as_u64() > json(&stopped)["simulations"].as_u64();
-        assert!(recalled, "some simulations were recalled");
     }
     assert!(result(&one) == result(&stopped), "a stop changes the result");
+    assert_eq!(json(&one)["simulations"], json(&stopped)["simulations"], "a stop changes the count");
+}
+
+#[test]
+fn regress_a_finished_calibration_resumed_prints_its_result_again() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let experiment = quick().write(folder.path());
+    let out = folder.path().join("out");
+    // A script may ask for the same from the first time on until it succeeds.
+    let first = calibrate(&experiment, &out, &["--resume"]);
+    assert!(first.status.success(), "{}", String::from_utf8_lossy(&first.stderr));
+    let before = std::fs::read(out.join("calibration.json")).expect("calibration.json");
+    let again = calibrate(&experiment, &out, &["--resume"]);
+    assert_eq!(again.status.code(), Some(0), "{}", String::from_utf8_lossy(&again.stderr));
+    assert_eq!(first.stderr, again.stderr, "another summary");
+    assert_eq!(first.stdout, again.stdout, "other parameters");
+    assert_eq!(before, std::fs::read(out.join("calibration.json")).expect("calibration.json"));
+    // Stopped between its last result and the end, it left its journal.
+    std::fs::write(out.join("journal.tsv"), "").expect("written");
+    assert_eq!(calibrate(&experiment, &out, &["--resume"]).status.code(), Some(0));
+    assert!(!out.join("journal.tsv").exists(), "the journal of a finished calibration is removed");
+    let other = calibrate(&experiment, &out, &["--resume", "--seed", "7"]);
+    assert_eq!(other.status.code(), Some(2), "the results are another calibration's");
+    assert!(String::from_utf8_lossy(&other.stderr).contains("calibration.json"));
 }
 
 #[test]

@@ -45,6 +45,10 @@ pub fn merge(folder: &OutputFolder) -> mrbd::Result<()> {
     compact(folder, &standing(folder))
 }
 
+fn pool(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads")
+}
+
 pub fn do_missing(
     plan: &Plan,
     folder: &OutputFolder,
@@ -52,7 +56,8 @@ pub fn do_missing(
     simulate: &(impl Simulate + Sync),
 ) -> mrbd::Result<Tally> {
     let (stop, progress) = (AtomicBool::new(false), ProgressBar::hidden());
-    let work = Work { plan, folder, shard, threads, simulate, stop: &stop, progress: &progress };
+    let pool = &pool(threads);
+    let work = Work { plan, folder, shard, pool, simulate, stop: &stop, progress: &progress };
     run_missing(&work, &standing(folder), |_| {})
 }
 
@@ -129,7 +134,7 @@ fn regress_a_study_that_is_stopped_again_and_again_ends_in_the_same_bits() {
             plan: &plan,
             folder: &output,
             shard: Shard::WHOLE,
-            threads: 1,
+            pool: &pool(1),
             simulate: &simulate,
             stop: &stop,
             progress: &progress,

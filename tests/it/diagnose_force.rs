@@ -7,7 +7,7 @@ use mrbd_lab::diagnose::force::{
 };
 use mrbd_lab::diagnose::hypothesis::Physics;
 use mrbd_lab::diagnose::measured::TestData;
-use mrbd_lab::experiment_file::Purpose;
+use mrbd_lab::experiment::file::Purpose;
 use rand_distr::{Distribution, Normal};
 
 use crate::diagnose_twin::record;

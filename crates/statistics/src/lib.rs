@@ -4,4 +4,4 @@
 pub mod normal;
 mod order;
 
-pub use order::{correlation, quantile};
+pub use order::{censored_quantile, correlation, median, quantile};

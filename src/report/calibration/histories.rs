@@ -11,7 +11,8 @@ use super::wme;
 use crate::error::Result;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::History;
-use mrbd_lab::calibrate::{Calibration, Experiment, Measured, TestResult};
+use mrbd_lab::calibrate::{Calibration, Experiment, TestResult};
+use mrbd_lab::experiment::Measured;
 
 /// Measured rotations: dark grey under the simulated ones.
 const MEASURED: Colour = PALETTE[6];

@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::store::write_durably;
 use mrbd_lab::calibrate::Parameter;
 use mrbd_lab::calibrate::Row;
-use mrbd_lab::calibrate::Test;
+use mrbd_lab::experiment::Test;
 
 /// Writes the rows; the columns are `method, test, generation, index`, the parameters by name, `wme, outcome` and the
 /// `steps` of the integration, and the numbers of impacts `impacts_C_1` … `impacts_C_8`.

@@ -87,6 +87,31 @@ impl OutputNames {
     }
 }
 
+/// What the calibration that is finished in a folder found; `None` where none is.
+///
+/// A journal beside it was left by a stop after the last result was written, and is removed.
+///
+/// # Errors
+/// Input errors for results of other inputs, or that cannot be read; [`Error::Io`] if the disk refuses.
+pub fn finished(folder: &Path, experiment: &Experiment) -> Result<Option<Calibration>> {
+    let names = OutputNames::new(folder);
+    if !names.calibration.exists() {
+        return Ok(None);
+    }
+    let bytes = std::fs::read(&names.calibration).map_err(|e| Error::io("read", &names.calibration, e))?;
+    let refuse = |found: String, allowed: &str| InputError::file(&names.calibration, found, allowed);
+    let stored: Calibration = serde_json::from_slice(&bytes)
+        .map_err(|e| refuse(e.to_string(), "results as `mrbd calibrate` writes them"))?;
+    if stored.request_sha256 != experiment.request {
+        let allowed = "the output folder of this calibration, with the same inputs and seed, or a new folder";
+        return Err(refuse("the results of another calibration".into(), allowed).into());
+    }
+    if names.journal.exists() {
+        std::fs::remove_file(&names.journal).map_err(|e| Error::io("remove", &names.journal, e))?;
+    }
+    Ok(Some(stored))
+}
+
 /// Writes everything a calibration found; the files are whole or absent.
 ///
 /// # Errors

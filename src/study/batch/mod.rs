@@ -8,10 +8,9 @@ mod side_by_side;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use indicatif::ProgressBar;
 use rayon::prelude::*;
 
-use crate::error::{InputError, Result};
 use crate::study::plan::{Plan, Run};
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking, simulate};
@@ -85,17 +84,6 @@ impl Tally {
             }
         }
     }
-}
-
-/// So many threads to run on.
-///
-/// # Errors
-/// An input error if they cannot be had.
-pub fn threads(count: usize) -> Result<rayon::ThreadPool> {
-    let refuse = |e: rayon::ThreadPoolBuildError| {
-        InputError::option("--threads", e.to_string(), "a number of threads the system grants")
-    };
-    Ok(rayon::ThreadPoolBuilder::new().num_threads(count).build().map_err(refuse)?)
 }
 
 /// What simulates walls: a closure for one wall, so that a batch can be tested without the cost, or [`SideBySide`].
@@ -194,18 +182,4 @@ fn message_of(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied();
     let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     format!("panicked: {}", text.unwrap_or("without a message"))
-}
-
-/// A bar on stderr with rate and time left; silent where stderr is not a terminal.
-pub fn progress_bar(runs: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template(
-        "{bar:30} {human_pos}/{human_len} runs  {rate}  {elapsed_precise} gone, {eta_precise} left",
-    );
-    // A template that does not parse would be a slip of this file; the plain bar then does.
-    let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
-    let rate = |state: &ProgressState, out: &mut dyn std::fmt::Write| {
-        // A text that cannot take a number has nowhere to say so.
-        let _ = write!(out, "{:.0} a second", state.per_sec());
-    };
-    ProgressBar::new(runs).with_style(style.with_key("rate", rate))
 }

@@ -4,12 +4,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::ScopedJoinHandle;
 
 use indicatif::ProgressBar;
+use rayon::ThreadPool;
 
 use super::layout::{Block, Layout};
 use super::shard::Shard;
 use super::standing::Standing;
 use crate::error::Result;
-use crate::study::batch::{Finished, Simulate, Tally, run_all, threads};
+use crate::study::batch::{Finished, Simulate, Tally, run_all};
 use crate::study::plan::Plan;
 use crate::study::runs::OutputFolder;
 
@@ -22,7 +23,7 @@ pub struct Work<'a, S> {
     /// The part to do.
     pub shard: Shard,
     /// Threads to do it on; the result does not depend on them.
-    pub threads: usize,
+    pub pool: &'a ThreadPool,
     /// Runs one wall; a parameter so that a study can be tested without the cost.
     pub simulate: &'a S,
     /// Asks to stop when set: blocks at work are finished and stored, no others begun.
@@ -37,8 +38,7 @@ pub struct Work<'a, S> {
 /// being killed loses these alone.
 ///
 /// # Errors
-/// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which leaves what is stored as it is;
-/// an input error if the threads cannot be had.
+/// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which leaves what is stored as it is.
 pub fn run_missing<S: Simulate + Sync>(
     work: &Work<S>,
     standing: &Standing,
@@ -48,7 +48,6 @@ pub fn run_missing<S: Simulate + Sync>(
     let missing: Vec<Block> =
         layout.iter().filter(|block| work.shard.has(block.index) && !standing.has(block)).collect();
     discard_damaged(work.folder, &layout, standing)?;
-    let pool = threads(work.threads)?;
     let mut tally = Tally::default();
     let store = |blocks: &[Block], runs: Vec<Finished>| -> Result<()> {
         let mut runs = runs.into_iter();
@@ -62,12 +61,12 @@ pub fn run_missing<S: Simulate + Sync>(
     std::thread::scope(|scope| -> Result<()> {
         // Blocks are stored while the next ones run.
         let mut storing = None;
-        for blocks in missing.chunks(work.threads.max(1)) {
+        for blocks in missing.chunks(work.pool.current_num_threads()) {
             if work.stop.load(Ordering::Relaxed) {
                 break;
             }
             let positions = blocks.iter().flat_map(|block| block.runs.clone()).collect();
-            let runs = pool.install(|| run_all(work.plan, positions, work.simulate, work.progress));
+            let runs = work.pool.install(|| run_all(work.plan, positions, work.simulate, work.progress));
             watch(&runs);
             finished(storing.take())?;
             tally.count(&runs);

@@ -2,10 +2,10 @@
 //!
 //! Every test is cut into blocks of equal length. A replicate draws as many blocks again, with replacement (B. Efron,
 //! R. Tibshirani (1993), "An introduction to the bootstrap", sections 8.6 and 13.3: blocks, percentiles), and the vector
-//! moves to where its errors are least. Near the best vector errors are linear in the values, so this is one step of
-//! Newton's method, and a replicate costs no simulation. Errors count as in Eq. 8, by their size; about zero, where the
-//! size has a corner, by their square up to the median (P. J. Huber (1981), "Robust statistics", section 7.6: the curvature
-//! is that of the errors below it).
+//! moves to where its errors are least. Near the best vector errors are linear in the values. So this is one step of
+//! Newton's method, and costs no simulation. Errors count as in Eq. 8, by their size; about zero, where the size has
+//! a corner, by their square up to the median (P. J. Huber (1981), "Robust statistics", section 7.6: the curvature is
+//! that of the errors below it).
 //!
 //! Slopes are differences as wide as the intervals, which average the roughness of the misfit. What makes intervals too
 //! narrow all the same: an error that lasts from one block into the next, and another valley that no search found.
@@ -14,12 +14,11 @@ use nalgebra::{DMatrix, DVector};
 use rand::{Rng, RngExt};
 use rand_distr::StandardNormal;
 
-use super::draws::Draws;
-use super::least_sizes::median_size;
-use super::misfit::BLOCKS;
-use super::prior::LnPrior;
-use super::search::Bounds;
+use super::least_absolute::median_size;
+use super::objective::LnPrior;
+use super::search::{Bounds, Draws};
 use super::slopes::{Fit, sides, slopes};
+use crate::experiment::misfit::BLOCKS;
 use mrbd_files::error::Result;
 
 /// Half-widths of the first differences, as a share of the bounds.
@@ -70,7 +69,7 @@ impl Bootstrap<'_> {
         Ok(self.with_differences(2, best, &second, draws, fit)?.unwrap_or(vectors))
     }
 
-    /// The replicates by slopes of these half-widths; none if the best vector's runs cannot be finished.
+    /// The replicates by slopes of these half-widths; `None` if the best vector's runs cannot be finished.
     fn with_differences(
         &self,
         generation: u32,

@@ -1,24 +1,84 @@
-//! The calibration from start to end.
+//! The calibration from start to end: the experiment read whole, the searches, and what they found.
 
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use rayon::prelude::*;
+use sha2::{Digest, Sha256};
 
 use super::archive::Archive;
-use super::assembly::Assembly;
-use super::capture;
-use super::draws::Draws;
-use super::experiment::Experiment;
+use super::evaluation::{Evaluation, capture_names, capture_study};
 use super::identifiability::{BOOTSTRAP, Judge};
-use super::objective::Objective;
-use super::paper_de::PaperDe;
-use super::prior::prior_factor;
+use super::objective::{Objective, prior_factor};
+use super::paper::{PaperDe, most_similar};
+use super::parameters::ParameterSpace;
 use super::result::{Calibration, MethodResult, Vector};
-use super::search::Found;
-use super::similarity::most_similar;
-use super::staged::Staged;
-use super::stages::stage_names;
-use mrbd_files::error::Result;
+use super::search::{Draws, Found};
+use super::staged_search::{StagedSearch, stage_names};
+use crate::experiment::file::{CalibrateTable, ExperimentFile, Purpose};
+use crate::experiment::{Test, load_tests};
+use mrbd_files::error::{InputError, Result};
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::Accuracy;
+
+/// An experiment ready to be calibrated.
+#[derive(Debug, Clone)]
+pub struct Experiment {
+    /// The file.
+    pub path: PathBuf,
+    /// What is calibrated.
+    pub space: ParameterSpace,
+    /// The tests, in the order of the file.
+    pub tests: Vec<Test>,
+    /// The settings.
+    pub settings: CalibrateTable,
+    /// What was read, each file with its role.
+    pub files: Vec<(String, PathBuf)>,
+    /// SHA-256 of everything that decides the result.
+    pub request: String,
+}
+
+impl Experiment {
+    /// Reads an experiment and every file it names; `seed` replaces the file's.
+    ///
+    /// # Errors
+    /// Input errors with file, key or line, what was found and what is allowed.
+    pub fn load(path: &Path, seed: Option<u64>) -> Result<Self> {
+        let file = ExperimentFile::load(path)?;
+        let space = ParameterSpace::load(path, &file)?;
+        // With C_l as in its file, which a start time is matched by.
+        let given =
+            Wall::new(space.base().clone()).map_err(|e| InputError::key(path, e.key, e.found, e.allowed))?;
+        let settings = CalibrateTable { seed: seed.unwrap_or(file.calibrate.seed), ..file.calibrate.clone() };
+        let accuracy = Accuracy { tolerance: settings.tolerance };
+        let tests = load_tests(path, &file, &given, accuracy)?;
+        let files = file.files(path);
+        let request = request(&files, &settings)?;
+        Ok(Self { path: path.to_path_buf(), space, tests, settings, files, request })
+    }
+
+    /// Numbers of the tests that the search sees.
+    pub fn fit_tests(&self) -> Vec<usize> {
+        (0..self.tests.len()).filter(|&k| self.tests[k].purpose == Purpose::Fit).collect()
+    }
+
+    /// Accuracy of the simulations.
+    pub fn accuracy(&self) -> Accuracy {
+        Accuracy { tolerance: self.settings.tolerance }
+    }
+}
+
+/// Identifies the inputs: program, settings, and the bytes of every file.
+fn request(files: &[(String, PathBuf)], settings: &CalibrateTable) -> Result<String> {
+    let mut hash = Sha256::new();
+    hash.update(env!("CARGO_PKG_VERSION"));
+    hash.update(format!("{settings:?}"));
+    for (_, name) in files {
+        let readable = |e: std::io::Error| InputError::file(name, e.to_string(), "a readable file");
+        hash.update(std::fs::read(name).map_err(readable)?);
+    }
+    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}
 
 /// Calibrates an experiment; every simulation goes into the archive.
 ///
@@ -33,7 +93,7 @@ pub fn method_names(experiment: &Experiment) -> Vec<String> {
     let mut names = vec!["paper".to_owned()];
     names.extend(["adaptive", "joint", "refined"].iter().flat_map(|method| stage_names(method)));
     names.push(BOOTSTRAP.to_owned());
-    names.extend(capture::names(&experiment.settings.capture_study_rad_s));
+    names.extend(capture_names(&experiment.settings.capture_study_rad_s));
     names
 }
 
@@ -55,18 +115,18 @@ impl Flow<'_> {
         let joint = self.staged("joint", &self.fit, budget).minimise(self.middle(), &self.draws("joint"))?;
         let refine = self.staged("refined", &self.fit, self.experiment.settings.refine_vectors);
         let refined = refine.minimise(self.elsewhere(), &self.draws("refined"))?;
-        let assembly = Assembly { experiment: self.experiment, fit: &self.fit };
-        let methods = assembly.methods(&paper, &adaptive, similar, [&joint, &refined]);
+        let evaluation = Evaluation { experiment: self.experiment, fit: &self.fit };
+        let methods = evaluation.methods(&paper, &adaptive, similar, [&joint, &refined]);
         let (vector, joint_from) = self.cheapest(&methods);
-        let vector = assembly.without_idle(&vector);
+        let vector = evaluation.without_idle(&vector);
         let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
         let per_test = self.better_of(&paper, &adaptive);
         let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
-        let capture_study = capture::study(self.experiment, self.archive, &self.fit, &vector.values)?;
-        let tests = assembly.tests(&vector, &methods);
+        let capture_study = capture_study(self.experiment, self.archive, &self.fit, &vector.values)?;
+        let tests = evaluation.tests(&vector, &methods);
         let base = self.experiment.space.base();
         let seconds = start.elapsed().as_secs_f64();
-        let simulations = self.archive.simulated();
+        let simulations = self.archive.simulations();
         Ok(Calibration {
             tool_version: env!("CARGO_PKG_VERSION").to_owned(),
             request_sha256: self.experiment.request.clone(),
@@ -86,7 +146,7 @@ impl Flow<'_> {
             paper_seconds,
             paper_simulations,
             seconds,
-            simulations_per_second: simulations as f64 / seconds,
+            simulations_per_second: self.archive.run_here() as f64 / seconds,
         })
     }
 
@@ -128,9 +188,9 @@ impl Flow<'_> {
         bounds.iter().enumerate().map(|(v, b)| b.at(draws.uniform(0, 0, v as u32))).collect()
     }
 
-    fn staged<'o>(&'o self, method: &'o str, chosen: &'o [usize], budget: usize) -> Staged<'o> {
+    fn staged<'o>(&'o self, method: &'o str, chosen: &'o [usize], budget: usize) -> StagedSearch<'o> {
         let Experiment { space, .. } = self.experiment;
-        Staged { experiment: self.experiment, space, chosen, archive: self.archive, method, budget }
+        StagedSearch { experiment: self.experiment, space, chosen, archive: self.archive, method, budget }
     }
 
     fn paper_de(&self) -> PaperDe {

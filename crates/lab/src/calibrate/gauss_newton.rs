@@ -1,17 +1,16 @@
 //! Gauss-Newton over the signed errors: where the misfit is smooth, some dozens of vectors go where a population needs
 //! thousands.
 //!
-//! An iteration takes the errors' slopes by central differences, wide ones at first, which average the roughness that
-//! bursts of impacts leave under `whole`. Errors weigh as in Eq. 8, by their size and not its square ([`Linear`]), and what
-//! was known beforehand counts as in the cost. The steps of several dampings (Levenberg and Marquardt) are simulated, and
-//! the cheapest vector is the next.
+//! An iteration takes the errors' slopes by central differences. Wide ones at first average the roughness that bursts
+//! of impacts leave under `whole`. Errors weigh as in Eq. 8, by their size and not its square ([`Linear`]), and what
+//! was known beforehand counts as in the cost. The steps of several dampings (Levenberg and Marquardt) are simulated,
+//! and the cheapest vector is the next.
 
 use nalgebra::{DMatrix, DVector};
 use rand_distr::{Distribution, StandardNormal};
 
-use super::draws::Draws;
-use super::least_sizes::Linear;
-use super::search::{Bounds, Found, Member};
+use super::least_absolute::Linear;
+use super::search::{Bounds, Draws, Found, Member};
 use super::slopes::{Fit, Fitted, sides, slopes};
 use mrbd_files::error::Result;
 
@@ -25,8 +24,8 @@ const CLOUD_SHARE: f64 = 0.01;
 const CLOUD_WIDEST: f64 = 0.1;
 /// The most a half-width shrinks in an iteration.
 const SHRINK: f64 = 0.2;
-/// An iteration that lowers the cost by less than this share is idle. After it, slopes over wider differences may still
-/// see a way that near ones do not, such as out of a corner of the bounds; after two, the search ends.
+/// An iteration that lowers the cost by less than this share is idle. After it, slopes over wider differences may
+/// still see a way, such as out of a corner of the bounds. After two, the search ends.
 const SETTLED: f64 = 0.01;
 const MOST_IDLE: u32 = 2;
 const ANOTHER_DIFFERENCE: f64 = 0.05;
@@ -79,7 +78,7 @@ impl GaussNewton {
         Ok(found)
     }
 
-    /// A vector of the cloud; none before the first slopes.
+    /// A vector of the cloud; `None` before the first slopes.
     pub fn near_by(&self, number: u32, bounds: &[Bounds], draws: &Draws) -> Option<Vec<f64>> {
         let normal = |v: usize| StandardNormal.sample(&mut draws.of(0, number, v as u32));
         let step = self.cloud.as_ref()? * DVector::from_fn(bounds.len(), |v, _| normal(v));

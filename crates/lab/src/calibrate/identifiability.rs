@@ -2,14 +2,14 @@
 
 use super::archive::{Archive, Row};
 use super::bootstrap::Bootstrap;
-use super::draws::Draws;
-use super::experiment::Experiment;
-use super::misfit::BLOCKS;
+use super::flow::Experiment;
 use super::objective::{Objective, simulate};
-use super::parameter::Parameter;
+use super::parameters::Parameter;
 use super::result::{Estimate, Identifiability, ProfilePoint, Vector};
-use super::stages::whole_names;
-use super::trial::Simulated;
+use super::search::Draws;
+use super::staged_search::whole_names;
+use crate::experiment::Simulated;
+use crate::experiment::misfit::BLOCKS;
 use mrbd_files::error::Result;
 use mrbd_kernel::model::ImpactLaw;
 use mrbd_statistics::{correlation, quantile};
@@ -128,7 +128,7 @@ impl Judge<'_> {
         tests.iter().map(|test| simulate(space, test, values, self.experiment.accuracy())).collect()
     }
 
-    /// Each test's best vector; none for a coefficient that never acts in it.
+    /// Each test's best vector; `None` for a coefficient that never acts in it.
     fn by_test(&self, per_test: &[Vec<f64>]) -> Vec<Vec<Option<f64>>> {
         let Experiment { space, tests, .. } = self.experiment;
         let law = space.base().restitution.law;
@@ -166,7 +166,7 @@ impl Judge<'_> {
 struct Told {
     /// The bootstrap's vectors.
     vectors: Vec<Vec<f64>>,
-    /// Each test's best vector; none for a coefficient that never acts in it.
+    /// Each test's best vector; `None` for a coefficient that never acts in it.
     by_test: Vec<Vec<Option<f64>>>,
     /// Every vector simulated in all tests, and its mean WME.
     costs: Vec<(Vec<f64>, f64)>,
@@ -179,7 +179,9 @@ impl Told {
     /// former know the noise, the latter the other valleys of a rough misfit.
     fn interval(&self, v: usize, value: f64) -> [f64; 2] {
         let values = self.vectors.iter().map(|w| w[v]).collect::<Vec<_>>();
-        let bootstrapped = [quantile(&values, 0.025).min(value), quantile(&values, 0.975).max(value)];
+        // No replicates widen nothing.
+        let at = |share: f64| quantile(&values, share).unwrap_or(value);
+        let bootstrapped = [at(0.025).min(value), at(0.975).max(value)];
         let lowest = self.costs.iter().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
         let near = self.costs.iter().filter(|(_, cost)| *cost <= (1.0 + self.not_excluded) * lowest);
         near.fold(bootstrapped, |[a, b], (values, _)| [a.min(values[v]), b.max(values[v])])

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::alignment::Alignment;
+use crate::experiment::Alignment;
 
 /// Everything a calibration found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,15 +35,15 @@ pub struct Calibration {
     pub tests: Vec<TestResult>,
     /// How result and misfit depend on law and capture velocity.
     pub capture_study: Vec<CaptureRow>,
-    /// Simulations run, those recalled from a stopped calibration not counted.
+    /// Simulations of the whole calibration: as many after a stop as without one.
     pub simulations: usize,
-    /// Time of the paper's own part (every test and the similarity), s.
+    /// Time of the paper's own part (every test and the similarity), s; of a resumed calibration since it was resumed.
     pub paper_seconds: f64,
     /// Simulations of the paper's own part.
     pub paper_simulations: usize,
-    /// Time of the whole, s.
+    /// Time of the whole, s; of a resumed calibration since it was resumed.
     pub seconds: f64,
-    /// Simulations a second over the whole.
+    /// Simulations a second that were run in this time; those taken from the journal are none.
     pub simulations_per_second: f64,
 }
 

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Problem, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::measured::{TestData, rest_offset_rad, windows};
 use crate::diagnose::trials::{Data, untouched};
+use crate::experiment::{TestData, rest_offset_rad, windows};
 use mrbd_files::error::{InputError, Result};
 
 /// Share of a test's windowed error that another reading of its file leaves, below which it is told. In 599 tests of walls with
@@ -53,7 +53,7 @@ struct Errors {
 }
 
 impl Errors {
-    /// None where nothing moves.
+    /// `None` where nothing moves.
     fn of(experiment: &Experiment, test: &TestData) -> Option<Self> {
         let read = |change: fn(&mut TestData)| {
             let mut other = test.clone();
@@ -121,7 +121,7 @@ fn likeliest(share: impl Fn(usize) -> Option<f64>, limit: f64) -> Option<(usize,
     shares.filter(|(_, share)| *share < limit).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Windowed error of the wall as given in one test; none where nothing moves.
+/// Windowed error of the wall as given in one test; `None` where nothing moves.
 fn misfit(experiment: &Experiment, test: &TestData) -> Option<f64> {
     let tests = [test.clone()];
     let windows = windows(&tests);

@@ -2,10 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::calibrate::{Test, experiment_files};
 use crate::diagnose::hypothesis::{ACTING, Nuisance, Scales, WALL_NUMBERS, wall_number};
-use crate::diagnose::measured::TestData;
-use crate::experiment_file::{ExperimentFile, TestTable};
+use crate::experiment::file::{ExperimentFile, TestTable};
+use crate::experiment::{Test, TestData, load_tests};
 use mrbd_files::FileNote;
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::load_wall;
@@ -48,18 +47,14 @@ impl Experiment {
             return Err(InputError::key(&wall_path, "wall.crack_height_m", "no crack", allowed).into());
         }
         let nuisances = nuisances(path, &file, wall.parameters())?;
-        let whole = file
-            .tests
-            .iter()
-            .map(|t| Test::load(folder, t, &wall, Accuracy::default()))
-            .collect::<Result<Vec<_>>>()?;
+        let whole = load_tests(path, &file, &wall, Accuracy::default())?;
         let data = |(test, table): (&Test, &TestTable)| {
             TestData::new(test, &folder.join(&table.measured), table, &wall)
         };
         let tests = whole.iter().zip(&file.tests).map(data).collect::<Result<Vec<_>, _>>()?;
         let scales = Scales::of(&wall, &tests);
         let note = |(role, file): (String, PathBuf)| FileNote::of(&role, &file);
-        let read = experiment_files(path, &file).into_iter().filter(|(role, _)| role != "coefficients");
+        let read = file.files(path).into_iter().filter(|(role, _)| role != "coefficients");
         let inputs = read.map(note).collect::<Result<_>>()?;
         Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales, inputs })
     }

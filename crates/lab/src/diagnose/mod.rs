@@ -22,7 +22,6 @@ pub mod flow;
 pub mod force;
 pub mod hypothesis;
 pub mod measured;
-pub mod sampled;
 pub mod trials;
 pub mod verdict;
 

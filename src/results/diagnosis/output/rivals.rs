@@ -6,12 +6,12 @@ use serde_json::{Value, json};
 use super::summary::sd;
 use super::tests::whole_wme;
 use mrbd_kernel::model::Wall;
-use mrbd_lab::calibrate::Test;
 use mrbd_lab::diagnose::certainty::ensemble;
 use mrbd_lab::diagnose::experiment::Experiment;
 use mrbd_lab::diagnose::hypothesis::Addition;
 use mrbd_lab::diagnose::trials::{Data, Tried, against};
 use mrbd_lab::diagnose::verdict::names;
+use mrbd_lab::experiment::Test;
 use mrbd_lab::experiment_file::Purpose;
 
 /// One hypothesis that was tried, with the figures of every other.

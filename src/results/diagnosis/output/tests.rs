@@ -4,12 +4,12 @@ use serde_json::{Value, json};
 
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::Accuracy;
-use mrbd_lab::calibrate::Test;
 use mrbd_lab::diagnose::experiment::Experiment;
 use mrbd_lab::diagnose::fit::{WindowFit, windowed_error};
 use mrbd_lab::diagnose::flow::Diagnosis;
 use mrbd_lab::diagnose::measured::{TestData, Window};
 use mrbd_lab::diagnose::trials::Tried;
+use mrbd_lab::experiment::Test;
 
 /// Every test: errors of the wall as given and of the wall that is written, and the noise.
 pub fn tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Vec<Value> {

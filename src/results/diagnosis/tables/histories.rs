@@ -10,8 +10,8 @@ use mrbd_kernel::simulate::{Accuracy, Simulator};
 use mrbd_lab::diagnose::fit::{Replay, shaken};
 use mrbd_lab::diagnose::force::stretches;
 use mrbd_lab::diagnose::measured::{TestData, Window};
-use mrbd_lab::diagnose::sampled::Sampled;
 use mrbd_lab::diagnose::trials::Tried;
+use mrbd_lab::experiment::Sampled;
 
 /// One sample.
 #[derive(Debug, Clone)]
@@ -133,7 +133,7 @@ impl Tables<'_> {
             let shaking = shaken(&test.shaking, physics.reversed_ratio);
             Simulator::new(&physics.wall, &shaking, Accuracy::default()).run(&mut sampled);
             let read = |(theta, contact): &(Pair, Contact)| (physics.wall.reading().of(*theta), *contact);
-            sampled.rows.iter().map(read).collect::<Vec<_>>()
+            sampled.rows().iter().map(read).collect::<Vec<_>>()
         });
         let mut patterns = vec![None; test.time_s.len()];
         for stretch in stretches(test) {

@@ -14,9 +14,9 @@ use crate::diagnose::fit::{Fit, Problem, nats, shaken, windowed_error};
 use crate::diagnose::flow::Diagnosis;
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::measured::{TestData, Window, windows};
-use crate::diagnose::sampled::Sampled;
 use crate::diagnose::trials::{EQUIVALENT, Tried, against, kinds};
 use crate::diagnose::verdict::Verdict;
+use crate::experiment::Sampled;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Contact, RockingWall};
 use mrbd_kernel::simulate::{Accuracy, Shaking, Simulator};
@@ -172,7 +172,7 @@ impl Pair<'_> {
             let [one, two] = reading.of(*theta);
             [one + lower.sample(&mut random), two + upper.sample(&mut random)]
         };
-        let theta_rad = sampled.rows.iter().map(&mut read).collect::<Vec<_>>();
+        let theta_rad = sampled.rows().iter().map(&mut read).collect::<Vec<_>>();
         let time_s = test.time_s[..theta_rad.len()].to_vec();
         let made = TestData { shaking, theta_rad, time_s, ..test.clone() };
         let mut windows = windows(std::slice::from_ref(&made));

@@ -5,11 +5,11 @@ use nalgebra::DVector;
 use super::memory::SpringMemory;
 use crate::diagnose::hypothesis::Physics;
 use crate::diagnose::measured::{TestData, Window};
+use crate::experiment::Sampled;
 use mrbd_kernel::model::{Contact, Pair};
 use mrbd_kernel::simulate::{
     Accuracy, Observer, Prepared, Response, Shaking, Simulator, Start, simulate_watched_side_by_side,
 };
-use mrbd_kernel::solver::Quintic;
 
 /// Accuracy of windows: far below any noise, over a second.
 const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
@@ -38,15 +38,14 @@ impl<'a> Replay<'a> {
     /// Measured less simulated rotations of windows, each from a state, over the noise: θ_1 and θ_2 of each sample in turn; zero
     /// where none was measured. Simulated side by side, which changes nothing but the time it takes.
     pub fn residuals(&self, asked: &[(&Window, &[f64])]) -> Vec<DVector<f64>> {
-        let sampler = |(window, _): &(&Window, &[f64])| {
-            let times = &self.tests[window.test].time_s[window.samples.clone()];
-            Sampler { times, theta: Vec::with_capacity(times.len()) }
+        let sampled = |(window, _): &(&Window, &[f64])| {
+            Sampled::at_all(&self.tests[window.test].time_s[window.samples.clone()])
         };
-        let mut samplers = asked.iter().map(sampler).collect::<Vec<_>>();
-        let mut waiting = asked.iter().zip(&mut samplers);
-        let mut next = || waiting.next().map(|((window, x), sampler)| (0, self.prepared(window, x, sampler)));
+        let mut runs = asked.iter().map(sampled).collect::<Vec<_>>();
+        let mut waiting = asked.iter().zip(&mut runs);
+        let mut next = || waiting.next().map(|((window, x), sampled)| (0, self.prepared(window, x, sampled)));
         simulate_watched_side_by_side(&mut next, &mut |_, _| ());
-        asked.iter().zip(samplers).map(|((window, _), sampler)| self.left(window, sampler)).collect()
+        asked.iter().zip(&runs).map(|((window, _), sampled)| self.left(window, sampled)).collect()
     }
 
     /// The same of one window.
@@ -82,17 +81,17 @@ impl<'a> Replay<'a> {
     }
 
     /// What a simulated window leaves of the measured one.
-    fn left(&self, window: &Window, sampler: Sampler) -> DVector<f64> {
+    fn left(&self, window: &Window, sampled: &Sampled) -> DVector<f64> {
         let test = &self.tests[window.test];
         let reading = self.simulators[window.test].wall().wall().reading();
         let measured = &test.theta_rad[window.samples.clone()];
-        let of = |(measured, simulated): (&Pair, Pair)| {
-            let simulated = reading.of(simulated);
+        let of = |(measured, (simulated, _)): (&Pair, &(Pair, Contact))| {
+            let simulated = reading.of(*simulated);
             [0, 1]
                 .map(|i| (measured[i] - simulated[i]) / test.noise_rad[i])
                 .map(|r| if r.is_finite() { r } else { 0.0 })
         };
-        DVector::from_iterator(2 * measured.len(), measured.iter().zip(sampler.theta).flat_map(of))
+        DVector::from_iterator(2 * measured.len(), measured.iter().zip(sampled.rows()).flat_map(of))
     }
 }
 
@@ -109,33 +108,4 @@ pub fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
         shaking.vertical = mrbd_kernel::accelerogram::Accelerogram::new(record.step_s(), backwards).ok();
     }
     shaking
-}
-
-/// Takes the rotations at given times, s.
-struct Sampler<'t> {
-    times: &'t [f64],
-    theta: Vec<Pair>,
-}
-
-impl Sampler<'_> {
-    fn until(&mut self, end_s: f64, theta_at: impl Fn(f64) -> Pair) {
-        while let Some(&t) = self.times.get(self.theta.len()).filter(|t| **t < end_s) {
-            self.theta.push(theta_at(t));
-        }
-    }
-}
-
-impl Observer for Sampler<'_> {
-    fn moved(&mut self, start_s: f64, _: Contact, motion: &Quintic) {
-        self.until(start_s + motion.h(), |t| motion.position(((t - start_s) / motion.h()).clamp(0.0, 1.0)));
-    }
-
-    fn stood(&mut self, _: f64, to_s: f64) {
-        self.until(to_s, |_| [0.0; 2]);
-    }
-
-    fn ended(&mut self, _: f64, _: Contact, theta: Pair) {
-        // A collapsed wall stays where it fell; roundings of the last time are the same place.
-        self.until(f64::INFINITY, |_| theta);
-    }
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::replay::Replay;
 use crate::diagnose::measured::Window;
+pub(super) use crate::least_squares::newton_step;
 
 /// Steps of Gauss and Newton tried at shrinking lengths before giving up.
 const SHORTER: [f64; 4] = [1.0, 0.4, 0.16, 0.06];
@@ -177,12 +178,6 @@ fn improved(replay: &Replay, all: &mut [At], active: &[usize]) -> Vec<usize> {
         waiting = left;
     }
     worth
-}
-
-/// -R⁻¹ Qᵀ r, the least squares step.
-pub fn newton_step(jacobian: &DMatrix<f64>, r: &DVector<f64>) -> Option<DVector<f64>> {
-    let qr = jacobian.clone().qr();
-    qr.r().solve_upper_triangular(&-(qr.q().transpose() * r)).filter(|dx| dx.iter().all(|x| x.is_finite()))
 }
 
 /// The best of some states of each window drawn about the smoothed one; the same on every call.

@@ -8,12 +8,13 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use super::prior::LnPrior;
+use super::objective::LnPrior;
+use mrbd_statistics::median;
 
 /// Reweightings of a step.
 const REWEIGHTINGS: usize = 10;
-/// The corner of the sizes falls no lower than this share of the errors before the step, so that errors that vanish can
-/// be divided by.
+/// The corner of the sizes falls no lower than this share of the errors before the step. So one can divide by errors
+/// that vanish.
 const LEAST_CORNER: f64 = 1e-6;
 /// Errors beyond so many are thinned out: neighbouring samples tell the same.
 const MOST_ERRORS: usize = 20_000;
@@ -108,12 +109,8 @@ impl Linear {
 
 /// Median of the sizes, above zero.
 pub(super) fn median_size(residuals: &[f64]) -> f64 {
-    let mut sizes = residuals.iter().map(|r| r.abs()).collect::<Vec<_>>();
-    if sizes.is_empty() {
-        return f64::MIN_POSITIVE;
-    }
-    let middle = sizes.len() / 2;
-    sizes.select_nth_unstable_by(middle, f64::total_cmp).1.max(f64::MIN_POSITIVE)
+    let sizes = residuals.iter().map(|r| r.abs()).collect::<Vec<_>>();
+    median(&sizes).unwrap_or(0.0).max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]

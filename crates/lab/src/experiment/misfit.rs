@@ -10,10 +10,10 @@
 //! - A free-running impact system is nearly chaotic: over long records WME is a rough function of the coefficients,
 //!   with many local minima. Windows that end after some impacts, or begin anew from the measured motion, make it smooth.
 
-use super::comparison::Errors;
 use super::measured::Measured;
-use super::stretches::noise_rad;
-use mrbd_kernel::model::{Pair, Wall};
+use super::noise::noise_rad;
+use super::rotations::Sink;
+use mrbd_kernel::model::{Contact, Pair, Reading, Wall};
 
 /// Smallest mean |θ_i,exp| of the denominator, in units of α_i.
 const REST_SHARE: f64 = 1e-3;
@@ -23,7 +23,7 @@ pub const BLOCKS: usize = 24;
 
 /// A sample that counts: its time, measured rotations, and weights in s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sample {
+pub(crate) struct Sample {
     pub time_s: f64,
     pub theta_rad: Pair,
     /// Length of time each channel's sample stands for; 0 where it is missing.
@@ -42,6 +42,8 @@ pub struct Target {
     /// The least each channel's denominator may be, rad s; 0: the channel is lost.
     floor_rad_s: Pair,
     independent_samples: f64,
+    noise_rad: Pair,
+    gap_s: f64,
 }
 
 impl Target {
@@ -61,10 +63,13 @@ impl Target {
             block: block(measured.time_s[k]).min(BLOCKS - 1),
         };
         let samples = kept.into_iter().map(sample).collect::<Vec<_>>();
-        Some(Self::of_samples(samples, wall.alpha_i_rad().map(|alpha| REST_SHARE * alpha)))
+        let (time_s, theta_rad) = measured.counted(windows_s);
+        let noise_rad = noise_rad(&time_s, &theta_rad, measured.gap_s).map(|noise| noise.unwrap_or(0.0));
+        let floor_share_rad = wall.alpha_i_rad().map(|alpha| REST_SHARE * alpha);
+        Some(Self::of_samples(samples, floor_share_rad, noise_rad, measured.gap_s))
     }
 
-    fn of_samples(samples: Vec<Sample>, floor_share_rad: Pair) -> Self {
+    fn of_samples(samples: Vec<Sample>, floor_share_rad: Pair, noise_rad: Pair, gap_s: f64) -> Self {
         let mut measured_rad_s = [[0.0; BLOCKS]; 2];
         for s in &samples {
             for (i, blocks) in measured_rad_s.iter_mut().enumerate() {
@@ -74,17 +79,27 @@ impl Target {
         let floor = |i: usize| floor_share_rad[i] * samples.iter().map(|s| s.weight_s[i]).sum::<f64>();
         let floor_rad_s = [floor(0), floor(1)];
         let independent_samples = independent_samples(&samples);
-        Self { samples, measured_rad_s, floor_share_rad, floor_rad_s, independent_samples }
+        Self { samples, measured_rad_s, floor_share_rad, floor_rad_s, independent_samples, noise_rad, gap_s }
     }
 
     /// The target of these samples, which may count one twice.
-    pub(super) fn counting(&self, samples: Vec<Sample>) -> Self {
-        Self::of_samples(samples, self.floor_share_rad)
+    pub(crate) fn counting(&self, samples: Vec<Sample>) -> Self {
+        Self::of_samples(samples, self.floor_share_rad, self.noise_rad, self.gap_s)
     }
 
     /// The samples that count, in order.
-    pub(super) fn samples(&self) -> &[Sample] {
+    pub(crate) fn samples(&self) -> &[Sample] {
         &self.samples
+    }
+
+    /// Standard deviation of each channel's white noise, rad; 0 where none shows.
+    pub fn noise_rad(&self) -> Pair {
+        self.noise_rad
+    }
+
+    /// Samples farther apart than this are not joined, s.
+    pub(crate) fn gap_s(&self) -> f64 {
+        self.gap_s
     }
 
     /// End of what counts, s.
@@ -117,17 +132,17 @@ impl Target {
 
     /// Eq. 8 of the true motion, which the measurement's noise alone makes: E|noise| = √(2/π) σ.
     pub fn noise_wme(&self) -> f64 {
-        let (noise, counted, weights) = (noise_rad(&self.samples), self.counted_s(), self.weights());
+        let (noise, counted, weights) = (self.noise_rad, self.counted_s(), self.weights());
         (0..2).map(|i| std::f64::consts::FRAC_2_PI.sqrt() * noise[i] * counted[i] * weights[i]).sum()
     }
 
     /// The block of each error, as [`super::Test`] gives them: θ_1 and θ_2 of each sample by turns.
-    pub(super) fn error_blocks(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn error_blocks(&self) -> impl Iterator<Item = usize> {
         self.samples.iter().flat_map(|s| [s.block, s.block])
     }
 
     /// 1 / ∫|θ_i,exp|, 1/(rad s), by which each channel's error counts in Eq. 8; 0: the channel is lost.
-    pub(super) fn weights(&self) -> Pair {
+    pub(crate) fn weights(&self) -> Pair {
         [0, 1].map(|i| {
             let denominator = self.measured_rad_s[i].iter().sum::<f64>().max(self.floor_rad_s[i]);
             if self.floor_rad_s[i] > 0.0 { 1.0 / denominator } else { 0.0 }
@@ -191,6 +206,103 @@ fn channel_weights(measured: &Measured, channel: usize, windows_s: &[[f64; 2]]) 
         previous = Some((k, window));
     }
     weights
+}
+
+/// ∫|θ_i,exp - θ_i,num| by channel and block, rad s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// By channel and block.
+    pub rad_s: [[f64; BLOCKS]; 2],
+}
+
+impl Errors {
+    /// None.
+    pub const NONE: Self = Self { rad_s: [[0.0; BLOCKS]; 2] };
+
+    /// Adds those of another window.
+    pub fn add(&mut self, other: &Self) {
+        for (blocks, others) in self.rad_s.iter_mut().zip(&other.rad_s) {
+            blocks.iter_mut().zip(others).for_each(|(sum, error)| *sum += error);
+        }
+    }
+}
+
+/// Compares a run with its target while it goes, and ends it when its part of Eq. 8 has passed what is worth while.
+#[derive(Debug)]
+pub struct Comparison<'a> {
+    samples: &'a [Sample],
+    reading: Reading,
+    next: usize,
+    errors: Errors,
+    /// 1 / ∫|θ_i,exp| of the whole test.
+    weights: Pair,
+    wme: f64,
+    most_wme: f64,
+    residuals: Option<Vec<f64>>,
+}
+
+impl<'a> Comparison<'a> {
+    /// Before the run; `weights` are the channels' in Eq. 8 of the whole test.
+    pub(crate) fn new(samples: &'a [Sample], weights: Pair, most_wme: f64) -> Self {
+        let reading = Reading::TRUE;
+        Self { samples, reading, next: 0, errors: Errors::NONE, weights, wme: 0.0, most_wme, residuals: None }
+    }
+
+    /// Keeps the signed errors of all samples as they weigh in Eq. 8: the sum of their sizes is the WME.
+    pub(crate) fn keeping_residuals(mut self) -> Self {
+        self.residuals = Some(Vec::with_capacity(2 * self.samples.len()));
+        self
+    }
+
+    /// The signed errors, if they were to be kept.
+    pub(crate) fn into_residuals(self) -> Vec<f64> {
+        self.residuals.unwrap_or_default()
+    }
+
+    /// Compares what sensors read of the rotations.
+    #[must_use]
+    pub fn read_by(self, reading: Reading) -> Self {
+        Self { reading, ..self }
+    }
+
+    /// After the run.
+    pub fn errors(&self) -> Errors {
+        self.errors
+    }
+
+    /// This run's part of Eq. 8 so far; it only grows.
+    pub fn wme(&self) -> f64 {
+        self.wme
+    }
+}
+
+impl Sink for Comparison<'_> {
+    fn next_s(&self) -> Option<f64> {
+        self.samples.get(self.next).map(|sample| sample.time_s)
+    }
+
+    fn take(&mut self, theta_rad: Pair, _: Contact) {
+        let sample = &self.samples[self.next];
+        let theta = self.reading.of(theta_rad);
+        for (i, blocks) in self.errors.rad_s.iter_mut().enumerate() {
+            let error = sample.weight_s[i] * (sample.theta_rad[i] - theta[i]);
+            blocks[sample.block] += error.abs();
+            self.wme += self.weights[i] * error.abs();
+            if let Some(residuals) = &mut self.residuals {
+                residuals.push(self.weights[i] * error);
+            }
+        }
+        self.next += 1;
+    }
+
+    /// A wall that collapsed stays at the rotation it collapsed at.
+    fn rests_where_it_ended(&self) -> bool {
+        true
+    }
+
+    fn seen_enough(&self) -> bool {
+        self.wme > self.most_wme
+    }
 }
 
 #[cfg(test)]

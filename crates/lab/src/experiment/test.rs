@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use super::alignment::{Alignment, aligned};
-use super::comparison::{Comparison, Errors};
+use super::file::{ExperimentFile, Purpose, TestTable};
 use super::measured::Measured;
-use super::misfit::Target;
-use super::shaking::{read_shaking, until};
-use super::windows::{Window, windows};
-use crate::experiment_file::{Purpose, TestTable};
+use super::misfit::{Comparison, Errors, Target};
+use super::rotations::AtTimes;
+use super::segments::{Segment, segments};
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{Accuracy, History, Outcome, Response, Shaking, Simulator};
+use mrbd_records::{Accelerogram, ReadOptions, read};
 
 /// One test of an experiment.
 #[derive(Debug, Clone)]
@@ -32,13 +32,13 @@ pub struct Test {
     pub shaking: Shaking,
     /// The same up to the end of what counts, made ready for the wall as given.
     simulator: Simulator,
-    windows: Vec<Window>,
+    segments: Vec<Segment>,
 }
 
 /// What one simulation of one test gave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulated {
-    /// Eq. 8; none where the run could not be finished or was abandoned.
+    /// Eq. 8; `None` where the run could not be finished or was abandoned.
     pub wme: Option<f64>,
     /// `stood`, `collapsed`, `failed`, or `abandoned` when Eq. 8 had passed what was worth while.
     pub outcome: &'static str,
@@ -50,6 +50,15 @@ pub struct Simulated {
     pub errors: Errors,
     /// Steps of the integration.
     pub steps: u64,
+}
+
+/// The tests of an experiment file at `path`, in its order; beginnings are matched by this wall.
+///
+/// # Errors
+/// As [`Test::load`].
+pub fn load_tests(path: &Path, file: &ExperimentFile, wall: &Wall, accuracy: Accuracy) -> Result<Vec<Test>> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    file.tests.iter().map(|table| Test::load(folder, table, wall, accuracy)).collect()
 }
 
 impl Test {
@@ -74,7 +83,7 @@ impl Test {
             alignment,
             simulator: Simulator::new(wall, &until(&shaking, target.end_s()), accuracy),
             shaking,
-            windows: vec![Window::whole(&target)],
+            segments: vec![Segment::whole(&target)],
             target,
             measured,
         })
@@ -84,17 +93,17 @@ impl Test {
     /// one.
     #[must_use]
     pub fn in_windows(&self, wall: &Wall, accuracy: Accuracy) -> Self {
-        let windows = windows(&self.target, &self.simulator.with_wall(wall, accuracy));
-        let samples = windows.iter().flat_map(|w| w.samples.iter().copied()).collect();
-        Self { target: self.target.counting(samples), windows, ..self.clone() }
+        let segments = segments(&self.target, &self.simulator.with_wall(wall, accuracy));
+        let samples = segments.iter().flat_map(|segment| segment.samples.iter().copied()).collect();
+        Self { target: self.target.counting(samples), segments, ..self.clone() }
     }
 
     /// The same test up to its first so many samples; each weighs as in the whole.
     #[must_use]
-    pub(super) fn first(&self, samples: usize) -> Self {
+    pub(crate) fn first(&self, samples: usize) -> Self {
         let samples = self.target.samples()[..samples].to_vec();
         let end_s = samples.last().map_or(0.0, |s| s.time_s);
-        Self { windows: vec![Window { start: None, end_s, samples }], ..self.clone() }
+        Self { segments: vec![Segment { start: None, end_s, samples }], ..self.clone() }
     }
 
     /// Rotations of a wall in the free-running test up to the end of what counts, a row every `step_s` seconds.
@@ -105,9 +114,9 @@ impl Test {
         history
     }
 
-    /// How many windows it is simulated in.
-    pub fn window_count(&self) -> usize {
-        self.windows.len()
+    /// How many segments it is simulated in.
+    pub fn segment_count(&self) -> usize {
+        self.segments.len()
     }
 
     /// Runs a wall through the test and compares.
@@ -116,7 +125,7 @@ impl Test {
     }
 
     /// The same with the signed error of every sample as it weighs in Eq. 8, θ_1 and θ_2 by turns.
-    pub(super) fn residuals(&self, wall: &Wall, accuracy: Accuracy) -> (Simulated, Vec<f64>) {
+    pub(crate) fn residuals(&self, wall: &Wall, accuracy: Accuracy) -> (Simulated, Vec<f64>) {
         let mut residuals = Vec::new();
         let simulated = self.run(wall, accuracy, f64::INFINITY, Some(&mut residuals));
         (simulated, residuals)
@@ -145,16 +154,18 @@ impl Test {
             steps: 0,
         };
         let mut wme = 0.0;
-        for window in &self.windows {
-            let comparison = Comparison::new(&window.samples, weights, most_wme - wme);
+        for segment in &self.segments {
+            let comparison = Comparison::new(&segment.samples, weights, most_wme - wme);
             let mut comparison = comparison.read_by(wall.reading());
             if residuals.is_some() {
                 comparison = comparison.keeping_residuals();
             }
-            let response = match &window.start {
-                None => simulator.run_from(&simulator.release(), window.end_s, &mut comparison),
-                Some(start) => simulator.run_from(start, window.end_s, &mut comparison),
+            let mut comparison = AtTimes(comparison);
+            let response = match &segment.start {
+                None => simulator.run_from(&simulator.release(), segment.end_s, &mut comparison),
+                Some(start) => simulator.run_from(start, segment.end_s, &mut comparison),
             };
+            let comparison = comparison.0;
             wme += comparison.wme();
             sum.add(&response, &comparison.errors());
             if let Some(residuals) = &mut residuals {
@@ -187,4 +198,53 @@ impl Simulated {
         self.transitions.iter_mut().zip(response.impacts.table2).for_each(|(sum, n)| *sum += n);
         self.steps += response.work.steps;
     }
+}
+
+/// Steps this near each other, as a share, are equal: files round them.
+const SAME_STEP: f64 = 1e-9;
+
+/// What is kept of a record beyond its last use, s, for walls whose effects bring it earlier: by no more than this.
+const SPARE_S: f64 = 1.0;
+
+/// Reads the records of a test; paths are relative to `folder`.
+///
+/// # Errors
+/// Input errors of the records, or if their steps differ.
+fn read_shaking(folder: &Path, table: &TestTable) -> Result<Shaking> {
+    let options = ReadOptions { step_s: table.record_step_s, ..ReadOptions::default() };
+    let horizontal = read(&folder.join(&table.record), &options)?.accelerogram.scaled(table.scale);
+    let vertical = match &table.vertical {
+        None => None,
+        Some(name) => {
+            let path = folder.join(name);
+            let record = read(&path, &options)?.accelerogram;
+            let (step_s, needed) = (record.step_s(), horizontal.step_s());
+            if (step_s / needed - 1.0).abs() > SAME_STEP {
+                let allowed = format!("the step of the horizontal record, {needed} s");
+                return Err(InputError::file(&path, format!("a step of {step_s} s"), allowed).into());
+            }
+            Some(record.scaled(table.vertical_scale.unwrap_or(table.scale)))
+        }
+    };
+    Ok(Shaking { horizontal: Some(horizontal), vertical, tail_s: 0.0 })
+}
+
+/// The records cut where nothing counts any more, or free motion added until there.
+///
+/// What comes after a time does not change what came before it, so the cut changes no result.
+fn until(shaking: &Shaking, end_s: f64) -> Shaking {
+    let horizontal = shaking.horizontal.as_ref().map(|record| cut(record, end_s));
+    let vertical = shaking.vertical.as_ref().map(|record| cut(record, end_s));
+    let duration_s = horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
+    Shaking { horizontal, vertical, tail_s: (end_s - duration_s).max(0.0) }
+}
+
+fn cut(record: &Accelerogram, end_s: f64) -> Accelerogram {
+    let samples = record.acceleration_m_s2();
+    let needed = ((end_s + SPARE_S) / record.step_s()).ceil() as usize + 2;
+    if needed >= samples.len() {
+        return record.clone();
+    }
+    // A part of a valid record, two samples at least, is valid.
+    Accelerogram::new(record.step_s(), samples[..needed].to_vec()).unwrap_or_else(|_| record.clone())
 }

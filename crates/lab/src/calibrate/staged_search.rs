@@ -2,22 +2,20 @@
 //!
 //! A free-running impact system forgets its coefficients behind chaos: over a long record the WME has many local minima.
 //! So the search begins in windows that begin anew from the measured motion before each impact
-//! ([`super::Test::in_windows`]): there every coefficient acts in every part of every test, and the misfit is nearly
-//! smooth. Where they lead, from several vectors on, and at vectors that the windows hardly tell from these, tracks
-//! ([`Track`]) begin that are led to follow the measured motion from rest ever farther, up to the free-running tests, whose
-//! WME is Eq. 8. CMA-ES goes on about the best of them.
+//! ([`crate::experiment::Test::in_windows`]): there every coefficient acts in every part of every test, and the misfit is nearly
+//! smooth. Tracks ([`Track`]) begin where windows lead from several vectors on, and at vectors that windows hardly
+//! tell from these. A track is led to follow the measured motion from rest ever farther, up to the free-running
+//! tests, whose WME is Eq. 8. CMA-ES goes on about the best of them.
 
 use super::archive::Archive;
 use super::cma_es::CmaEs;
-use super::draws::Draws;
-use super::experiment::Experiment;
-use super::following::{Followed, Track};
+use super::continuation::{Followed, Track};
+use super::flow::Experiment;
 use super::gauss_newton::GaussNewton;
 use super::objective::Objective;
-use super::search::Found;
-use super::space::ParameterSpace;
-use super::stages::{MOST_TRACKS, Stage};
-use super::trial::Test;
+use super::parameters::ParameterSpace;
+use super::search::{Draws, Found};
+use crate::experiment::Test;
 use mrbd_files::error::Result;
 
 /// The most of the budget that windows and tracks take, and what a track that is let go takes; CMA-ES has the rest.
@@ -36,7 +34,7 @@ const LEAST_VECTORS: usize = 12;
 
 /// A staged search in some tests of an experiment.
 #[derive(Debug, Clone, Copy)]
-pub struct Staged<'a> {
+pub struct StagedSearch<'a> {
     /// The experiment.
     pub experiment: &'a Experiment,
     /// What makes a wall of a vector; the experiment's own, or under another law.
@@ -51,7 +49,7 @@ pub struct Staged<'a> {
     pub budget: usize,
 }
 
-impl Staged<'_> {
+impl StagedSearch<'_> {
     /// Searches from a vector on until the budget is spent or nothing is left to find; what is found is the best of the
     /// free-running tests, with all evaluations counted.
     ///
@@ -123,7 +121,7 @@ impl Staged<'_> {
             // Between impacts the wall moves as the vector makes it, the best known.
             tests[k] = tests[k].in_windows(&wall, self.experiment.accuracy());
         }
-        if self.chosen.iter().all(|&k| tests[k].window_count() == 1) {
+        if self.chosen.iter().all(|&k| tests[k].segment_count() == 1) {
             return Ok(0);
         }
         let name = Stage::Windows(number).name(self.method);
@@ -132,7 +130,7 @@ impl Staged<'_> {
         Ok(at.minimise(&self.space.bounds(), budget, &mut objective)?.evaluations)
     }
 
-    /// CMA-ES about the best; none where nothing is left to find, or to find it with.
+    /// CMA-ES about the best; `None` where nothing is left to find, or to find it with.
     fn cloud(&self, about: &Followed, budget: usize, draws: &Draws) -> Result<Option<Found>> {
         let bounds = self.space.bounds();
         let lambda = (VECTORS_PER_VARIABLE * bounds.len()).max(LEAST_VECTORS);
@@ -154,4 +152,43 @@ impl Staged<'_> {
             method,
         }
     }
+}
+
+/// Tracks at most.
+pub(super) const MOST_TRACKS: usize = 12;
+
+/// Where a stage's vectors are simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Stage {
+    /// In windows from each stretch without impacts, before the `number`-th track.
+    Windows(usize),
+    /// From rest up to where the `number`-th track leaves the measurement.
+    Parts(usize),
+    /// In the free-running tests, by the `number`-th track.
+    Whole(usize),
+}
+
+impl Stage {
+    /// The name under which its simulations are kept.
+    pub fn name(self, method: &str) -> String {
+        match self {
+            Stage::Windows(number) => format!("{method} {} windows", number + 1),
+            Stage::Parts(number) => format!("{method} {} parts", number + 1),
+            Stage::Whole(number) => format!("{method} {} whole", number + 1),
+        }
+    }
+}
+
+/// The stages of a search, in their order; the last, CMA-ES over the free-running tests, has the search's own name.
+pub(super) fn stage_names(method: &str) -> Vec<String> {
+    // The last track is the one that is let go.
+    let of_track = |number: usize| [Stage::Windows(number), Stage::Parts(number), Stage::Whole(number)];
+    let stages = (0..=MOST_TRACKS).flat_map(of_track);
+    stages.map(|stage| stage.name(method)).chain([method.to_owned()]).collect()
+}
+
+/// The names of those whose simulations are of the whole tests.
+pub(super) fn whole_names(method: &str) -> Vec<String> {
+    let tracks = (0..=MOST_TRACKS).map(|number| Stage::Whole(number).name(method));
+    tracks.chain([method.to_owned()]).collect()
 }

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use super::noise::noise_rad;
-use super::offset::rest_offset_rad;
-use crate::calibrate::{Test, median_step};
-use crate::experiment_file::{Purpose, TestTable};
+use super::file::{Purpose, TestTable};
+use super::measured::median_step;
+use super::noise::{noise_rad, rest_offset_rad};
+use super::test::Test;
 use mrbd_files::error::InputError;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Pair, Wall};
@@ -43,12 +43,12 @@ pub struct TestData {
 }
 
 impl TestData {
-    /// A test as it was read for the errors over whole runs, with what its table says of the file at `path` and of what
-    /// counts, and with the gains at which sensors of the wall read.
+    /// A test as it was read for the errors over whole runs. Its table says what of the file at `path` counts, and
+    /// the wall at which gains its sensors read.
     ///
     /// # Errors
-    /// Input errors for a channel that is lost, rotations no standing wall has, a measurement apart from its record, too few
-    /// samples, or no noise.
+    /// Input errors for a channel that is lost or without noise, rotations no standing wall has, a measurement apart
+    /// from its record, or too few samples.
     pub fn new(test: &Test, path: &Path, table: &TestTable, wall: &Wall) -> Result<Self, InputError> {
         let refuse = |found: String, allowed: &str| Err(InputError::file(path, found, allowed));
         let measured = &test.measured;
@@ -67,16 +67,7 @@ impl TestData {
                 "radians, below 0.7 while the wall stands; are these degrees? A wall that fell: collapse_s",
             );
         }
-        let end_s = measured.collapse_s.unwrap_or(f64::INFINITY);
-        let kept = |k: &usize| measured.time_s[*k] >= 0.0 && measured.time_s[*k] < end_s;
-        let kept = (0..measured.time_s.len()).filter(kept).collect::<Vec<_>>();
-        let time_s = kept.iter().map(|&k| measured.time_s[k]).collect::<Vec<_>>();
-        let counts = |t: f64| {
-            table.windows_s.is_empty() || table.windows_s.iter().any(|[from, to]| *from <= t && t <= *to)
-        };
-        let theta =
-            |&k: &usize| if counts(measured.time_s[k]) { [lower[k], upper[k]] } else { [f64::NAN; 2] };
-        let theta_rad = kept.iter().map(theta).collect::<Vec<_>>();
+        let (time_s, theta_rad) = measured.counted(&table.windows_s);
         let record_s = test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
         let last_s = time_s.last().copied().unwrap_or(0.0);
         if last_s.min(record_s) <= time_s.first().copied().unwrap_or(0.0) {
@@ -89,22 +80,24 @@ impl TestData {
                 &format!("times that overlap the record, 0 to {record_s:.2} s; see start_s"),
             );
         }
-        if time_s.len() < LEAST_SAMPLES {
+        let Some(step_s) = median_step(&time_s).filter(|_| time_s.len() >= LEAST_SAMPLES) else {
             let found =
                 format!("{} samples of test {:?} from its record's beginning on", time_s.len(), test.name);
             return refuse(
                 found,
                 &format!("{LEAST_SAMPLES} or more before the wall falls; are rotations in radians?"),
             );
-        }
-        let noise_rad = noise_rad(&time_s, &theta_rad, measured.gap_s)
-            .ok_or_else(|| InputError::file(path, "no noise at all", "rotations as measured"))?;
+        };
+        let [Some(lower_rad), Some(upper_rad)] = noise_rad(&time_s, &theta_rad, measured.gap_s) else {
+            return refuse("no noise at all".into(), "rotations as measured");
+        };
+        let noise_rad = [lower_rad, upper_rad];
         let tail_s = (last_s - record_s).max(0.0) + measured.gap_s;
         Ok(Self {
             name: test.name.clone(),
             purpose: test.purpose,
             shaking: Shaking { tail_s, ..test.shaking.clone() },
-            step_s: median_step(&time_s),
+            step_s,
             time_s,
             rest_offset_rad: rest_offset_rad(&theta_rad, noise_rad),
             read_gain: wall.reading().gain,

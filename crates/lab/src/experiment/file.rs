@@ -213,6 +213,22 @@ impl ExperimentFile {
         Ok(file)
     }
 
+    /// Every file that an experiment file at `path` reads, itself the first, each with its role.
+    pub fn files(&self, path: &Path) -> Vec<(String, PathBuf)> {
+        let beside = |name: &Path| path.parent().unwrap_or(Path::new("")).join(name);
+        let mut files =
+            vec![("experiment".to_owned(), path.to_path_buf()), ("wall".to_owned(), beside(&self.wall))];
+        let coefficients = self.calibrate.coefficients.iter();
+        files.extend(coefficients.map(|name| ("coefficients".to_owned(), beside(name))));
+        for test in &self.tests {
+            files.push((format!("record of {}", test.name), beside(&test.record)));
+            let vertical = test.vertical.iter();
+            files.extend(vertical.map(|name| (format!("vertical of {}", test.name), beside(name))));
+            files.push((format!("measured in {}", test.name), beside(&test.measured)));
+        }
+        files
+    }
+
     fn check(&self, path: &Path) -> Result<(), InputError> {
         let refuse =
             |key: String, found: String, allowed: &str| Err(InputError::key(path, key, found, allowed));

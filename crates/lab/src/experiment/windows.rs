@@ -5,9 +5,9 @@
 
 use std::ops::Range;
 
+use super::file::Purpose;
 use super::pattern::{Freedom, MeasuredState, measured_state};
 use super::test_data::TestData;
-use crate::experiment_file::Purpose;
 
 /// Length aimed at, s: windows are half to one and a half times as long, and up to four times where no pattern is beyond doubt
 /// for so long. About half a period of a rocking wall, so that most hold one impact at the ground.

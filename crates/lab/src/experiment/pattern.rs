@@ -1,11 +1,14 @@
-//! Which pattern a measured wall is in, where that is beyond doubt.
+//! Which pattern a measured wall is in where that is beyond doubt, and its state there: cubics through the samples around.
 
-use super::smooth::{CUBIC, HALF, Local, local};
 use super::test_data::TestData;
 use mrbd_kernel::model::{Contact, Pair, Pivot, State};
 
+/// Samples to either side of the middle.
+pub const HALF: usize = 8;
 /// Samples that are looked at together.
 const COUNT: usize = 2 * HALF + 1;
+/// Free numbers of a cubic.
+const CUBIC: f64 = 4.0;
 /// Standard deviations beyond which a sum of squares is not noise alone.
 const BEYOND_NOISE: f64 = 3.0;
 /// Share of a step by which times may be off: twice what rounding to milliseconds does at 256 Hz.
@@ -37,6 +40,26 @@ impl Freedom {
         }
     }
 
+    /// What a contact state leaves free.
+    pub fn of(contact: Contact) -> Self {
+        match (contact.ground.is_open(), contact.crack.is_open()) {
+            (false, false) => Freedom::Rest,
+            (true, false) => Freedom::Monolithic,
+            (false, true) => Freedom::Upper,
+            (true, true) => Freedom::Both,
+        }
+    }
+
+    /// The numbers of a state near these rotations, rad, and velocities, rad/s, of both bodies.
+    pub fn numbers_of(self, theta: Pair, omega: Pair) -> Vec<f64> {
+        match self {
+            Freedom::Rest => Vec::new(),
+            Freedom::Monolithic => [theta, omega].map(|both| 0.5 * (both[0] + both[1])).to_vec(),
+            Freedom::Upper => vec![theta[1], omega[1]],
+            Freedom::Both => vec![theta[0], omega[0], theta[1], omega[1]],
+        }
+    }
+
     /// The state these numbers make, rad and rad/s, and its contact.
     pub fn state(self, x: &[f64]) -> (State, Contact) {
         let (theta, omega, closed) = match self {
@@ -61,7 +84,7 @@ pub struct MeasuredState {
     pub numbers: Vec<f64>,
 }
 
-/// The pattern about a sample; none where the samples around it leave doubt or are not all there.
+/// The pattern about a sample; `None` where the samples around it leave doubt or are not all there.
 pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     let from = k.checked_sub(HALF)?;
     test.theta_rad.get(from..from + COUNT)?;
@@ -78,22 +101,18 @@ pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     let crack_noise = noise[0].hypot(noise[1]);
     let ground_closed = is_zero(&lower, noise[0]);
     let crack_closed = is_zero(&crack, crack_noise);
-    let number = |l: Local| [l.value, l.slope / test.step_s];
     let (lower_fit, upper_fit) = (local(&lower), local(&upper));
     let lower_open = is_clear(&lower, noise[0]) && is_smooth(&lower_fit, noise[0]);
     let crack_open = is_clear(&crack, crack_noise) && is_smooth(&upper_fit, noise[1]);
-    let (freedom, numbers) = match (ground_closed, crack_closed) {
-        (true, true) if is_zero(&upper, noise[1]) => (Freedom::Rest, Vec::new()),
-        (true, false) if crack_open => (Freedom::Upper, number(upper_fit).to_vec()),
-        (false, true) if lower_open => {
-            let both = [number(lower_fit), number(upper_fit)];
-            (Freedom::Monolithic, (0..2).map(|i| 0.5 * (both[0][i] + both[1][i])).collect())
-        }
-        (false, false) if lower_open && crack_open => {
-            (Freedom::Both, [number(lower_fit), number(upper_fit)].concat())
-        }
+    let freedom = match (ground_closed, crack_closed) {
+        (true, true) if is_zero(&upper, noise[1]) => Freedom::Rest,
+        (true, false) if crack_open => Freedom::Upper,
+        (false, true) if lower_open => Freedom::Monolithic,
+        (false, false) if lower_open && crack_open => Freedom::Both,
         _ => return None,
     };
+    let fits = [lower_fit, upper_fit];
+    let numbers = freedom.numbers_of(fits.map(|fit| fit.value), fits.map(|fit| fit.slope / test.step_s));
     Some(MeasuredState { freedom, numbers })
 }
 
@@ -123,6 +142,36 @@ fn is_clear(y: &[f64; COUNT], noise: f64) -> bool {
     y.windows(AVERAGED).all(|some| some.iter().sum::<f64>() / n * sign > CLEAR * noise / n.sqrt())
 }
 
+/// A channel about the middle of 2 [`HALF`] + 1 samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Local {
+    /// Value in the middle.
+    pub value: f64,
+    /// Slope in the middle, per sample.
+    pub slope: f64,
+    /// Curvature in the middle, per sample squared.
+    pub curvature: f64,
+    /// Sum of the squared residuals of the cubic.
+    pub residual: f64,
+}
+
+/// Least squares of a cubic: even and odd parts are orthogonal on a symmetric grid (Savitzky and Golay).
+pub fn local(y: &[f64; COUNT]) -> Local {
+    let x = |i: usize| i as f64 - HALF as f64;
+    let moment = |p: i32| (0..COUNT).map(|i| x(i).powi(p)).sum::<f64>();
+    let with = |p: i32| (0..COUNT).map(|i| x(i).powi(p) * y[i]).sum::<f64>();
+    let (s0, s2, s4, s6) = (COUNT as f64, moment(2), moment(4), moment(6));
+    let even = s0 * s4 - s2 * s2;
+    let odd = s2 * s6 - s4 * s4;
+    let a0 = (s4 * with(0) - s2 * with(2)) / even;
+    let a2 = (s0 * with(2) - s2 * with(0)) / even;
+    let a1 = (s6 * with(1) - s4 * with(3)) / odd;
+    let a3 = (s2 * with(3) - s4 * with(1)) / odd;
+    let fitted = |i: usize| a0 + x(i) * (a1 + x(i) * (a2 + x(i) * a3));
+    let residual = (0..COUNT).map(|i| (y[i] - fitted(i)).powi(2)).sum();
+    Local { value: a0, slope: a1, curvature: 2.0 * a2, residual }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -134,5 +183,17 @@ mod tests {
         assert!(is_even(&rounded, 1.0 / 256.0));
         let finer = (0..17).map(|k| 0.0025 * f64::from(k)).collect::<Vec<_>>();
         assert!(is_even(&finer, 0.0025) && !is_even(&finer, 0.005));
+    }
+
+    #[test]
+    fn analytic_a_cubic_is_given_back() {
+        let at = |i: usize| {
+            let x = i as f64 - HALF as f64;
+            0.3 - 0.2 * x + 0.05 * x * x + 0.01 * x * x * x
+        };
+        let found = local(&std::array::from_fn(at));
+        // Roundings of sums of cubes up to 512.
+        assert!((found.value - 0.3).abs() < 1e-12 && (found.slope + 0.2).abs() < 1e-12);
+        assert!((found.curvature - 0.1).abs() < 1e-12 && found.residual < 1e-20);
     }
 }

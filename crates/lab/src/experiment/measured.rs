@@ -1,11 +1,15 @@
 //! Measured rotations as laboratories have them: any sampling, gaps, offsets, other start times, other readings.
+//!
+//! Displacements become rotations by the exact kinematics of the two bodies, inverted. With s the sign of the open joint,
+//! a point of the lower body at height y moves by u = y sin θ_1 + s b_1/2 (1 - cos θ_1). A point of the upper body moves by
+//! the displacement of its pivot and (y - h_1) sin θ_2 + s_2 b_2/2 (1 - cos θ_2). All are relative to the ground (model
+//! section 3).
 
-use std::path::Path;
-
-use super::reading::{lower_rotation_rad, upper_rotation_rad};
-use crate::experiment_file::{Reading, TestTable};
+use super::file::{Reading, TestTable};
 use mrbd_files::error::{InputError, Result};
-use mrbd_kernel::model::Wall;
+use mrbd_kernel::model::{Pair, Wall, WallParameters};
+use mrbd_statistics::median;
+use std::path::Path;
 
 /// Samples farther apart than this many median distances leave a gap.
 const GAP_IN_STEPS: f64 = 2.5;
@@ -15,7 +19,7 @@ const GAP_IN_STEPS: f64 = 2.5;
 pub struct Measured {
     /// Times of the samples, s, increasing.
     pub time_s: Vec<f64>,
-    /// θ_1 and θ_2 at the samples, rad; NaN where missing; none: the channel is lost.
+    /// θ_1 and θ_2 at the samples, rad; NaN where missing; `None`: the channel is lost.
     pub theta_rad: [Option<Vec<f64>>; 2],
     /// Samples farther apart than this are not joined, s.
     pub gap_s: f64,
@@ -47,7 +51,9 @@ impl Measured {
     pub fn load(path: &Path, test: &TestTable, wall: &Wall) -> Result<Self> {
         let columns = read_columns(path)?;
         let time_s = times(path, &columns)?;
-        let gap_s = test.gap_s.unwrap_or_else(|| GAP_IN_STEPS * median_step(&time_s));
+        let step_s = median_step(&time_s)
+            .ok_or_else(|| InputError::file(path, format!("{} sample(s)", time_s.len()), "2 or more"))?;
+        let gap_s = test.gap_s.unwrap_or(GAP_IN_STEPS * step_s);
         let channels = Channels { path, columns: &columns, test, wall, time_s: &time_s };
         let theta_rad = channels.rotations()?;
         if theta_rad.iter().all(Option::is_none) {
@@ -65,6 +71,23 @@ impl Measured {
         self.time_s.iter_mut().for_each(|t| *t += start_s);
         self.collapse_s = collapse_s.or_else(|| first_collapse(&self.time_s, &self.theta_rad, wall));
         self
+    }
+
+    /// Times, s, and rotations, rad, from the beginning of the record until the wall fell; NaN where a sample is missing or
+    /// lies in none of these windows of time, s; no windows: all count.
+    pub fn counted(&self, windows_s: &[[f64; 2]]) -> (Vec<f64>, Vec<Pair>) {
+        let end_s = self.collapse_s.unwrap_or(f64::INFINITY);
+        let counts =
+            |t: f64| windows_s.is_empty() || windows_s.iter().any(|[from, to]| *from <= t && t <= *to);
+        let value =
+            |channel: &Option<Vec<f64>>, k: usize| channel.as_ref().map_or(f64::NAN, |theta| theta[k]);
+        let kept = (0..self.time_s.len()).filter(|&k| self.time_s[k] >= 0.0 && self.time_s[k] < end_s);
+        let sample = |k: usize| {
+            let t = self.time_s[k];
+            let theta = self.theta_rad.each_ref().map(|channel| value(channel, k));
+            (t, if counts(t) { theta } else { [f64::NAN; 2] })
+        };
+        kept.map(sample).unzip()
     }
 }
 
@@ -102,9 +125,6 @@ fn times(path: &Path, columns: &Columns) -> Result<Vec<f64>, InputError> {
         let found = format!("columns {}", columns.names.join(", "));
         return Err(InputError::line(path, 1, found, "a column time_s"));
     };
-    if time.len() < 2 {
-        return Err(InputError::file(path, format!("{} sample(s)", time.len()), "2 or more"));
-    }
     // The header is line 1.
     let not_after = |i: usize| !(time[i].is_finite() && (i == 0 || time[i] > time[i - 1]));
     if let Some(i) = (0..time.len()).find(|&i| not_after(i)) {
@@ -114,11 +134,9 @@ fn times(path: &Path, columns: &Columns) -> Result<Vec<f64>, InputError> {
     Ok(time.to_vec())
 }
 
-/// Median distance of times in order, s.
-pub(crate) fn median_step(time_s: &[f64]) -> f64 {
-    let mut steps = time_s.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>();
-    steps.sort_by(f64::total_cmp);
-    steps[steps.len() / 2]
+/// Median distance of times in order, s; `None` of less than two.
+pub(crate) fn median_step(time_s: &[f64]) -> Option<f64> {
+    median(&time_s.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<_>>())
 }
 
 /// Finds and cleans the channels of a test.
@@ -193,4 +211,81 @@ fn first_collapse(time_s: &[f64], theta_rad: &[Option<Vec<f64>>; 2], wall: &Wall
     let passed =
         |k: usize| (0..2).any(|i| theta_rad[i].as_ref().is_some_and(|theta| theta[k].abs() >= limits[i]));
     (0..time_s.len()).find(|&k| passed(k)).map(|k| time_s[k])
+}
+
+/// Steps of Newton's method: rotations are below a quarter turn, so the error is squared five times or more.
+const STEPS: usize = 12;
+
+/// θ_1, rad, from the displacement of the lower body at a height, m; NaN stays NaN.
+pub fn lower_rotation_rad(wall: &WallParameters, height_m: f64, displacement_m: f64) -> f64 {
+    // b_1/2 and u have the same sign as θ_1, so the reading itself tells the corner.
+    solve(height_m, displacement_m.signum() * 0.5 * wall.lower_width_m, displacement_m)
+}
+
+/// θ_2, rad, from θ_1 and the displacement of the upper body at a height, m; NaN stays NaN.
+pub fn upper_rotation_rad(wall: &WallParameters, height_m: f64, displacement_m: f64, theta1: f64) -> f64 {
+    let Some(h1) = wall.crack_height_m else { return theta1 };
+    let half_1 = theta1.signum() * 0.5 * wall.lower_width_m;
+    // The crack opens to the side where turning with the lower body falls short of the reading.
+    let together = h1 * theta1.sin() + half_1 * (1.0 - theta1.cos()) + (height_m - h1) * theta1.sin();
+    let half_2 = (displacement_m - together).signum() * 0.5 * wall.upper_width_m;
+    let pivot = half_1 + (half_2 - half_1) * theta1.cos() + h1 * theta1.sin() - half_2;
+    solve(height_m - h1, half_2, displacement_m - pivot)
+}
+
+/// The rotation at which arm sin θ + half (1 - cos θ) equals u.
+fn solve(arm: f64, half: f64, u: f64) -> f64 {
+    let mut theta = u / arm;
+    for _ in 0..STEPS {
+        let residual = arm * theta.sin() + half * (1.0 - theta.cos()) - u;
+        theta -= residual / (arm * theta.cos() + half * theta.sin());
+    }
+    theta
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mrbd_kernel::model::{Restitution, RockingWall};
+
+    fn table_wall() -> WallParameters {
+        WallParameters {
+            thickness_m: 0.291,
+            height_m: 3.984,
+            crack_height_m: Some(2.191),
+            length_m: 1.5,
+            mass_kg: 3614.0,
+            lower_width_m: 0.271,
+            upper_width_m: 0.281,
+            diaphragm_mass_kg: 179.0,
+            carriage_mass_kg: 663.0,
+            stiffness_n_per_m: 37000.0,
+            eccentricity_m: 0.0,
+            restitution: Restitution::default(),
+            collapse_rotation_ratio: 2.0,
+            initial_rotation_rad: [0.0, 0.0],
+            effects: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn analytic_rotations_come_back_from_the_models_own_displacements() {
+        let p = table_wall();
+        let wall = RockingWall::new(&Wall::new(p.clone()).expect("a possible wall"));
+        for theta in [[0.05, 0.08], [0.05, 0.01], [-0.03, 0.02], [-0.03, -0.05], [0.1, 0.1], [0.0, 0.02]] {
+            let contact = mrbd_kernel::model::Contact::of_rotations(theta);
+            let top = wall.top_displacement_m(contact, theta);
+            let crack = 2.191 * theta[0].sin()
+                + 0.5
+                    * 0.271
+                    * theta[0].abs()
+                    * theta[0].tan().signum()
+                    * ((1.0 - theta[0].cos()) / theta[0].abs().max(1e-300));
+            let theta1 = lower_rotation_rad(&p, 2.191, crack);
+            // Roundings of a displacement of up to half a metre, over an arm of some metres.
+            assert!((theta1 - theta[0]).abs() < 1e-14, "{theta:?}: {theta1}");
+            let theta2 = upper_rotation_rad(&p, 3.984, top, theta1);
+            assert!((theta2 - theta[1]).abs() < 1e-13, "{theta:?}: {theta2}");
+        }
+    }
 }

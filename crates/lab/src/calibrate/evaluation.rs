@@ -1,23 +1,32 @@
-//! What the searches found, told: each search's best vector in every test, and every test under the one vector.
+//! What the searches found, evaluated. Each search's best vector is run in every test, and every test under the one
+//! vector. The search is repeated under other laws and capture velocities.
+//!
+//! Under `whole` every impact of a burst scales the whole motion. So the capture velocity, which cuts bursts off, is a
+//! parameter of the model, and C_l mean little without it. Under `contact` it should not matter.
 
 use rayon::prelude::*;
 
-use super::experiment::Experiment;
+use super::archive::Archive;
+use super::flow::Experiment;
+use super::gauss_newton::GaussNewton;
 use super::identifiability::Judge;
-use super::objective::simulate;
-use super::result::{MethodResult, TestResult, Vector};
+use super::objective::{Objective, simulate};
+use super::parameters::ParameterSpace;
+use super::result::{CaptureRow, MethodResult, TestResult, Vector};
 use super::search::Found;
-use super::trial::Simulated;
+use crate::experiment::Simulated;
+use mrbd_files::error::Result;
+use mrbd_kernel::model::ImpactLaw;
 
 /// Puts results together for an experiment.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Assembly<'a> {
+pub(super) struct Evaluation<'a> {
     pub experiment: &'a Experiment,
     /// Numbers of the tests to fit.
     pub fit: &'a [usize],
 }
 
-impl Assembly<'_> {
+impl Evaluation<'_> {
     /// The searches in the order they are told.
     pub fn methods(
         &self,
@@ -116,4 +125,64 @@ impl Assembly<'_> {
         };
         (0..self.experiment.tests.len()).map(result).collect()
     }
+}
+
+/// Vectors of each search: three iterations of Gauss and Newton with eight variables, which suffice from the joint
+/// vector on where the misfit is smooth.
+const VECTORS: usize = 75;
+
+const LAWS: [ImpactLaw; 2] = [ImpactLaw::Whole, ImpactLaw::Contact];
+
+fn capture_name(law: ImpactLaw, velocity_rad_s: f64) -> String {
+    format!("capture {} {velocity_rad_s}", law.name())
+}
+
+/// The names of the searches.
+pub(super) fn capture_names(velocities_rad_s: &[f64]) -> Vec<String> {
+    let of_law =
+        |law: &ImpactLaw| velocities_rad_s.iter().map(|v| capture_name(*law, *v)).collect::<Vec<_>>();
+    LAWS.iter().flat_map(of_law).collect()
+}
+
+/// Repeats the search over the whole of all tests under both laws at every capture velocity, beginning with the joint
+/// vector.
+pub(super) fn capture_study(
+    experiment: &Experiment,
+    archive: &Archive,
+    fit: &[usize],
+    joint: &[f64],
+) -> Result<Vec<CaptureRow>> {
+    let mut rows = Vec::new();
+    for law in LAWS {
+        for &velocity in &experiment.settings.capture_study_rad_s {
+            let space = experiment.space.under(law, velocity);
+            let method = capture_name(law, velocity);
+            let mut objective = Objective {
+                space: &space,
+                tests: &experiment.tests,
+                chosen: fit,
+                accuracy: experiment.accuracy(),
+                archive,
+                method: &method,
+            };
+            let bounds = space.bounds();
+            let mut search = GaussNewton::near(joint.to_vec());
+            search.minimise(&bounds, VECTORS, &mut objective)?;
+            let best = search.values;
+            rows.push(CaptureRow {
+                law: law.name().to_owned(),
+                capture_velocity_rad_s: velocity,
+                wme_of_joint: mean_wme(experiment, &space, fit, joint),
+                wme_of_best: mean_wme(experiment, &space, fit, &best),
+                best,
+            });
+        }
+    }
+    Ok(rows)
+}
+
+fn mean_wme(experiment: &Experiment, space: &ParameterSpace, fit: &[usize], values: &[f64]) -> Option<f64> {
+    let wme = |&k: &usize| simulate(space, &experiment.tests[k], values, experiment.accuracy())?.wme;
+    let sum = fit.iter().map(wme).sum::<Option<f64>>()?;
+    Some(sum / fit.len() as f64)
 }

@@ -1,16 +1,16 @@
 //! Clocks of record and measurement brought together: by a time that was given, or by matching the first motion.
 //!
-//! The simulated beginning of the wall as given is moved along the measurement until ∫|θ_exp - θ_num| is least. Only until
-//! the first impacts does it not depend on the coefficients that are sought; where shaking grows slowly these are over
-//! before a rotation can be seen, and with wrong coefficients the time found would be some hundredths of a second off. So a
-//! beginning that does not fit is refused, and the time must be given.
+//! The simulated beginning of the wall as given is moved along the measurement until ∫|θ_exp - θ_num| is least. Only
+//! until the first impacts does it not depend on the coefficients that are sought. Where shaking grows slowly these
+//! impacts are over before a rotation can be seen. With wrong coefficients the time found would then be some
+//! hundredths of a second off. So a beginning that does not fit is refused, and the time must be given.
 
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::file::{StartTime, TestTable};
 use super::measured::Measured;
-use crate::experiment_file::{StartTime, TestTable};
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::{Pair, Wall};
 use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
@@ -25,8 +25,8 @@ const REST_BEFORE_S: f64 = 0.5;
 const SWINGS: usize = 2;
 /// Share of the matched stretch that must have been measured.
 const COVERED: f64 = 0.9;
-/// Mismatch above which nothing is said to fit: a twin whose wall file had C_l = 1 for 0.76 to 1.03 was aligned 25 ms off
-/// at 0.2, with the right ones to 0.1 ms.
+/// Mismatch above which nothing fits. A twin whose wall file had C_l = 1 for 0.76 to 1.03 was aligned 25 ms off, at
+/// 0.2. With the right ones it was aligned to 0.1 ms.
 const MOST_MISMATCH: f64 = 0.1;
 /// Halvings of the step about the best time found.
 const HALVINGS: u32 = 12;
@@ -38,7 +38,7 @@ pub struct Alignment {
     pub start_s: f64,
     /// Whether it was found by matching.
     pub matched: bool,
-    /// ∫|θ_exp - θ_num| / ∫|θ_num| of the matched beginning; none where the time was given.
+    /// ∫|θ_exp - θ_num| / ∫|θ_num| of the matched beginning; `None` where the time was given.
     pub mismatch: Option<f64>,
 }
 
@@ -117,7 +117,7 @@ impl Beginning {
         Some(best)
     }
 
-    /// ∫|θ_exp - θ_num| / ∫|θ_num| over the beginning; none if too little of it was measured.
+    /// ∫|θ_exp - θ_num| / ∫|θ_num| over the beginning; `None` if too little of it was measured.
     fn mismatch(&self, measured: &Measured, start_s: f64) -> Option<f64> {
         let from = measured.time_s.partition_point(|t| t + start_s < self.from_s);
         let to = measured.time_s.partition_point(|t| t + start_s <= self.to_s);

@@ -1,0 +1,37 @@
+//! Measured tests: one room under calibration and diagnosis.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | [`mod@file`] | the experiment file: wall, what was known of it, tests |
+//! | [`measured`] | measured rotations as laboratories have them |
+//! | [`alignment`] | clocks of record and measurement brought together |
+//! | [`test`] | one test: how the wall was shaken, what was measured, and a simulation held against it |
+//! | [`misfit`] | the weighted mean error over a whole run: the paper's Eq. 8 |
+//! | [`rotations`] | rotations of a run at the times of a measurement |
+//! | [`noise`] | white noise of a channel, and its offset at rest |
+//! | [`pattern`] | contact patterns beyond doubt, and what is free in them |
+//! | [`test_data`], [`windows`] | a test with noise and offsets, cut into the short windows of a diagnosis |
+//! | `segments` | a test that starts anew from the measured motion, for a search by Eq. 8 |
+
+pub mod alignment;
+pub mod file;
+pub mod measured;
+pub mod misfit;
+pub mod noise;
+pub mod pattern;
+pub mod rotations;
+mod segments;
+pub mod test;
+pub mod test_data;
+pub mod windows;
+
+pub use alignment::Alignment;
+pub use file::{ExperimentFile, Purpose};
+pub use measured::Measured;
+pub use misfit::Target;
+pub use noise::rest_offset_rad;
+pub use pattern::{Freedom, measured_state};
+pub use rotations::Sampled;
+pub use test::{Simulated, Test, load_tests};
+pub use test_data::TestData;
+pub use windows::{Window, is_readable, windows};

@@ -1,0 +1,128 @@
+//! What a channel reads beside the motion, from the channel alone: white noise, and an offset at rest.
+
+use mrbd_kernel::model::Pair;
+use mrbd_statistics::median;
+
+/// Fourth differences of white noise are √70 times as large as the noise.
+const FOURTH_DIFFERENCE: f64 = 8.366_600_265_340_756;
+/// The median magnitude of a normal variable over its standard deviation.
+const MEDIAN_OF_NORMAL: f64 = 0.674_489_750_196_081_7;
+
+/// Standard deviation of the white noise of each channel, rad; `None` of one with too few samples or no noise.
+///
+/// From the median of the fourth differences. Motion is smooth from sample to sample but for the impacts, which a
+/// median does not see. Samples farther apart than `gap_s` are not joined; NaN is no sample.
+pub fn noise_rad(time_s: &[f64], theta_rad: &[Pair], gap_s: f64) -> [Option<f64>; 2] {
+    [0, 1].map(|channel: usize| {
+        let joined = |k: usize| time_s[k + 4] - time_s[k] <= 4.0 * gap_s;
+        let at = |k: usize| theta_rad[k][channel];
+        let differences = (0..theta_rad.len().saturating_sub(4))
+            .filter(|&k| joined(k))
+            .map(|k| (at(k) - 4.0 * at(k + 1) + 6.0 * at(k + 2) - 4.0 * at(k + 3) + at(k + 4)).abs())
+            .filter(|d| d.is_finite())
+            .collect::<Vec<_>>();
+        let middle = median(&differences).filter(|middle| *middle > 0.0)?;
+        Some(middle / (MEDIAN_OF_NORMAL * FOURTH_DIFFERENCE))
+    })
+}
+
+/// Samples looked at together.
+const BLOCK: usize = 40;
+/// Fewest blocks of standing still.
+const LEAST_BLOCKS: usize = 2;
+/// A block whose scatter is this many times the noise, or whose two halves differ by as many standard deviations, moves.
+const SCATTER: f64 = 1.4;
+const DRIFT: f64 = 5.0;
+/// Standard deviations of the mean that are an offset: below, it is taken for zero.
+const CLEAR: f64 = 6.0;
+
+/// What each channel reads at rest, rad, from the quiet beginning of a test; zero where that is not clear of zero or the
+/// test does not begin at rest.
+pub fn rest_offset_rad(theta_rad: &[Pair], noise_rad: Pair) -> Pair {
+    let still = theta_rad.chunks_exact(BLOCK).take_while(|block| is_still(block, noise_rad)).count();
+    if still < LEAST_BLOCKS {
+        return [0.0; 2];
+    }
+    let quiet = &theta_rad[..still * BLOCK];
+    let n = quiet.len() as f64;
+    [0, 1].map(|i| {
+        let mean = mean(quiet, i);
+        if mean.abs() > CLEAR * noise_rad[i] / n.sqrt() { mean } else { 0.0 }
+    })
+}
+
+fn is_still(block: &[Pair], noise_rad: Pair) -> bool {
+    let (first, second) = block.split_at(BLOCK / 2);
+    (0..2).all(|i| {
+        let about = mean(block, i);
+        let variance = block.iter().map(|theta| (theta[i] - about).powi(2)).sum::<f64>() / BLOCK as f64;
+        let drift = (mean(first, i) - mean(second, i)).abs();
+        // A missing sample is no sign of rest: comparisons with NaN fail.
+        variance.sqrt() < SCATTER * noise_rad[i] && drift < DRIFT * noise_rad[i] * (4.0 / BLOCK as f64).sqrt()
+    })
+}
+
+fn mean(some: &[Pair], channel: usize) -> f64 {
+    some.iter().map(|theta| theta[channel]).sum::<f64>() / some.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, Normal};
+
+    use super::*;
+
+    #[test]
+    fn analytic_white_noise_on_a_swing_is_found_within_its_own_scatter() {
+        // The median of n differences scatters by about 1.2/√n with overlap: 2 % of 5000 is over three times that.
+        let normal = Normal::new(0.0, 3e-5).unwrap();
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        let time = (0..5000).map(|k| 0.005 * f64::from(k)).collect::<Vec<_>>();
+        let theta = time
+            .iter()
+            .map(|t| [0.01 * (6.0 * t).sin(), 0.02 * (5.0 * t).cos()])
+            .map(|theta| theta.map(|x| x + normal.sample(&mut random)))
+            .collect::<Vec<_>>();
+        let found = noise_rad(&time, &theta, 0.0125).map(|sigma| sigma.expect("noise"));
+        assert!(found.iter().all(|sigma| (sigma / 3e-5 - 1.0).abs() < 0.06), "{found:?}");
+    }
+
+    #[test]
+    fn analytic_noise_is_told_from_a_fast_motion_and_a_lost_channel_has_none() {
+        let wave = |k: usize| 0.05 * (0.05 * k as f64).sin();
+        let noise = |k: usize| if k.is_multiple_of(2) { 1e-4 } else { -1e-4 };
+        let time = (0..400).map(|k| 0.01 * f64::from(k)).collect::<Vec<_>>();
+        let theta = (0..400).map(|k| [wave(k), wave(k) + noise(k)]).collect::<Vec<_>>();
+        let [smooth, noisy] = noise_rad(&time, &theta, 0.025).map(|sigma| sigma.expect("differences"));
+        // A fourth difference of alternating ± a is 16 a: 16e-4 / (0.6745 √70) = 2.84e-4; that of the wave is 0.05⁵.
+        assert!(smooth < 1e-7 && (noisy / 2.835e-4 - 1.0).abs() < 0.01, "{smooth} {noisy}");
+        let lost = theta.iter().map(|theta| [theta[1], f64::NAN]).collect::<Vec<_>>();
+        assert!(matches!(noise_rad(&time, &lost, 0.025), [Some(_), None]));
+    }
+
+    const NOISE_RAD: f64 = 1e-4;
+
+    /// Two seconds of rest, then four of rocking, with noise and these offsets.
+    fn measured(offset_rad: Pair) -> Vec<Pair> {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        let noise = Normal::new(0.0, NOISE_RAD).expect("a positive standard deviation");
+        let rocking = |k: usize| if k < 400 { 0.0 } else { 0.02 * ((k - 400) as f64 / 60.0).sin() };
+        (0..1200).map(|k| offset_rad.map(|offset| rocking(k) + offset + noise.sample(&mut random))).collect()
+    }
+
+    #[test]
+    fn analytic_offset_is_the_mean_at_rest() {
+        let found = rest_offset_rad(&measured([0.0, -3e-4]), [NOISE_RAD; 2]);
+        // 400 samples: the mean is known to a twentieth of the noise; four of those.
+        assert_eq!(found[0], 0.0);
+        assert!((found[1] + 3e-4).abs() < 4.0 * NOISE_RAD / 20.0, "{found:?}");
+    }
+
+    #[test]
+    fn analytic_test_that_begins_in_motion_has_none() {
+        let moving = measured([1e-3, 1e-3]).split_off(420);
+        assert_eq!(rest_offset_rad(&moving, [NOISE_RAD; 2]), [0.0; 2]);
+    }
+}
