@@ -1,10 +1,11 @@
 //! The catalogue of effects: what it says holds, what it does not allow is refused.
 
 use std::collections::HashSet;
+use std::path::Path;
 
 use mrbd_kernel::model::{Effect, EffectKind, Wall};
 
-use crate::walls::{bare_wall, effect, table_wall};
+use crate::walls::{any_of_all_effects, any_wall, bare_wall, effect, rng, table_wall};
 use mrbd_kernel::model::ImpactLaw;
 
 #[derive(Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -54,6 +55,31 @@ fn analytic_every_variant_survives_a_file_and_its_parameters() {
             assert!(json.starts_with(&format!("{{\"kind\":\"{}\"", kind.name())), "{json}");
             assert_eq!(serde_json::from_str::<Effect>(&json).expect(&json), example);
         }
+    }
+}
+
+#[test]
+fn analytic_a_wall_file_keeps_every_effect_of_the_catalogue() {
+    let wall = include_str!("../../src/starter/wall.toml");
+    for variant in EffectKind::ALL.iter().flat_map(|kind| kind.variants()) {
+        let file = File { effects: vec![variant.example()] };
+        let text = format!("{wall}\n{}", toml::to_string(&file).expect("a table"));
+        let read = mrbd_files::parse_wall(Path::new("wall.toml"), &text).expect(&text);
+        assert_eq!(read.parameters().effects.last(), file.effects.last(), "{text}");
+    }
+}
+
+#[test]
+fn analytic_walls_drawn_with_all_effects_have_every_kind() {
+    let drawn = |index| {
+        let mut rng = rng(324, index);
+        let wall = any_wall(&mut rng);
+        any_of_all_effects(&mut rng, &wall)
+    };
+    // One wall in two has each effect: a kind that the list of `walls` has is missed once in 2^50.
+    let seen: HashSet<EffectKind> = (0..50).flat_map(drawn).map(|effect| effect.kind()).collect();
+    for kind in EffectKind::ALL {
+        assert!(seen.contains(kind), "no drawn wall has {}", kind.name());
     }
 }
 
