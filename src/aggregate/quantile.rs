@@ -17,6 +17,13 @@ pub fn quantiles(standing: &[f64], collapsed: usize) -> [Option<f64>; 7] {
     LEVELS.map(|level| quantile(standing, collapsed, level))
 }
 
+/// The median of values in increasing order and of `collapsed` more above them, by the same rule.
+///
+/// `None` of nothing, and where it lands among collapses or between a value and one.
+pub fn median(standing: &[f64], collapsed: usize) -> Option<f64> {
+    quantile(standing, collapsed, LEVELS[MEDIAN])
+}
+
 fn quantile(standing: &[f64], collapsed: usize, level: f64) -> Option<f64> {
     let last = (standing.len() + collapsed).checked_sub(1)?;
     let rank = level * last as f64;
@@ -60,6 +67,7 @@ mod tests {
     fn analytic_a_median_between_standing_and_collapsed_does_not_exist() {
         assert_eq!(quantiles(&SEVEN[..1], 1)[MEDIAN], None);
         assert_eq!(quantiles(&SEVEN[..2], 0)[MEDIAN], Some(1.5));
+        assert_eq!((median(&SEVEN[..1], 1), median(&SEVEN[..2], 0)), (None, Some(1.5)));
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::experiment_file::{ExperimentFile, ParameterTable};
 use mrbd_files::coefficients::CoefficientSets;
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::suggestion::with_suggestion;
+use mrbd_kernel::written;
 
 /// Tables in which a bare key is looked for, in this order: `mass_kg` is the wall's.
 const TABLES: [&str; 6] = ["wall", "corners", "diaphragm", "restitution", "collapse", "initial"];
@@ -87,7 +88,7 @@ impl Resolver<'_> {
         let bounds =
             Bounds { lower: bound(table.lower, 0, "lower")?, upper: bound(table.upper, 1, "upper")? };
         if !(bounds.lower.is_finite() && bounds.upper.is_finite() && bounds.lower < bounds.upper) {
-            let found = format!("{} to {} for {name}", bounds.lower, bounds.upper);
+            let found = format!("{} to {} for {name}", written(bounds.lower), written(bounds.upper));
             return Err(self.fault(i, "lower", found, "finite bounds with lower < upper"));
         }
         Ok(Parameter { name, target, bounds, nominal, prior_sd })
