@@ -9,7 +9,7 @@ include make/peers.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep monte-carlo fragility check test test-browser bench blind lint docs clean
+.PHONY: help sweep monte-carlo fragility check readme test test-browser bench blind lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -30,6 +30,9 @@ fragility: ## run drawn façades under scaled records, fit θ/α > 0.1, θ/α > 
 check: ## run a smaller sweep and compare its medians with the accepted ones
 	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null
 	cargo run --release --locked --bin mrbd -- check outputs/check --baseline tests/baselines/emilia7.csv
+
+readme: ## figures of README.md and of the guide made anew from runs
+	UPDATE_README=1 cargo test --release --locked --test it readme::
 
 test: ## all tests, of the program and of its crates
 	cargo test --release --locked --workspace

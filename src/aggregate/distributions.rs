@@ -23,7 +23,7 @@ pub struct Distribution {
     pub intensity: Option<f64>,
     /// Limit of an incremental analysis; none in other studies.
     pub limit: Option<String>,
-    /// What is told, a column of the run files.
+    /// What is told: a column of the run files, or [`super::CAPACITY`].
     pub quantity: &'static str,
     /// Runs, failed ones too.
     pub runs: u64,
@@ -87,7 +87,7 @@ const COLUMNS: &[Column<Distribution>] = &[
     Column::input("record", "", "record; null over all of them", Read::Text(|d| d.record.as_deref().map(Cow::Borrowed))),
     Column::input("intensity", "unit of the measure", "intensity of a stripe; null in other studies", Read::Number(|d| d.intensity)),
     Column::input("limit", "", "limit of an incremental analysis; null in other studies", Read::Text(|d| d.limit.as_deref().map(Cow::Borrowed))),
-    Column::input("quantity", "", "what the quantiles are of, a column of the run files", text!(|d| d.quantity)),
+    Column::input("quantity", "", "what the quantiles are of, a column of the run files; capacity: the geometric middle of stood_intensity and intensity", text!(|d| d.quantity)),
     Column::result("runs", "", "runs, failed ones too", Read::Count(|d| Some(d.runs))),
     Column::result("failed", "", "runs that failed; they take no part in the quantiles", Read::Count(|d| Some(d.failed))),
     Column::result("beyond", "", "runs above all numbers: collapsed walls; in an incremental analysis, walls that never exceeded the limit", Read::Count(|d| Some(d.beyond))),

@@ -1,8 +1,9 @@
 //! Quantiles over drawn façades and over records.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use polars::prelude::PolarsResult;
+use polars::prelude::{Float64Chunked, PolarsResult};
 
 use super::distributions::{Distribution, Distributions};
 use super::group::{Group, in_plan_order};
@@ -23,8 +24,14 @@ const ROTATIONS: &[&str] = &[
     "theta2_max_over_alpha",
 ];
 
-/// What is told of incremental analyses.
-const CAPACITIES: &[&str] = &["intensity"];
+/// What is told of incremental analyses: the intensity at which a limit is exceeded.
+///
+/// It lies between two columns, `stood_intensity` and `intensity`. The search halves the logarithm of that bracket,
+/// so the geometric middle stands for it.
+pub const CAPACITY: &str = "capacity";
+
+/// The ends of the bracket.
+const BRACKET: [&str; 2] = ["stood_intensity", "intensity"];
 
 /// How runs at given intensities are compared between variants. Intensities are those asked for, to the bit.
 const BY_ROTATION: Comparison = Comparison {
@@ -64,13 +71,38 @@ fn read(files: &[PathBuf], kind: Kind) -> PolarsResult<Distributions> {
 fn rows(files: &[PathBuf], kind: Kind) -> PolarsResult<Vec<Distribution>> {
     let told = Told::of(kind);
     let frame = frame::read(files, &told.columns())?;
+    let quantities: Vec<Quantity> =
+        told.quantities.iter().map(|&name| Quantity::of(&frame, name)).collect::<PolarsResult<_>>()?;
     let mut rows = Vec::new();
     for by_record in [false, true] {
         for group in in_plan_order(&frame, &told.keys(by_record))? {
-            rows.extend(told.distributions(&frame, &group, by_record)?);
+            rows.extend(told.distributions((&frame, &quantities), &group, by_record)?);
         }
     }
     Ok(rows)
+}
+
+/// A quantity of every run.
+struct Quantity<'a> {
+    name: &'static str,
+    numbers: Cow<'a, Float64Chunked>,
+}
+
+impl<'a> Quantity<'a> {
+    fn of(frame: &'a Frame, name: &'static str) -> PolarsResult<Self> {
+        let numbers = match name {
+            CAPACITY => Cow::Owned(middles(frame)?),
+            _ => Cow::Borrowed(frame.numbers(name)?),
+        };
+        Ok(Self { name, numbers })
+    }
+}
+
+/// Geometric middles of the brackets.
+fn middles(frame: &Frame) -> PolarsResult<Float64Chunked> {
+    let [stood, exceeded] = [frame.numbers(BRACKET[0])?, frame.numbers(BRACKET[1])?];
+    let pairs = stood.iter().zip(exceeded.iter());
+    Ok(pairs.map(|(stood, exceeded)| Some((stood? * exceeded?).sqrt())).collect())
 }
 
 /// What is told of the runs of a study, and the columns that it is read off.
@@ -89,7 +121,7 @@ impl Told {
         match kind {
             Kind::Incremental => Self {
                 stratum: Some("limit"),
-                quantities: CAPACITIES,
+                quantities: &[CAPACITY],
                 // Null for a failed run, which has no answer.
                 ended: ["limit_exceeded", "true", "false"],
             },
@@ -106,7 +138,10 @@ impl Told {
     fn columns(&self) -> Vec<&'static str> {
         let mut columns = self.keys(true);
         columns.extend(["run", "outcome"]);
-        columns.extend(self.quantities);
+        columns.extend(self.quantities.iter().filter(|name| **name != CAPACITY));
+        if self.quantities.contains(&CAPACITY) {
+            columns.extend(BRACKET);
+        }
         columns.push(self.ended[0]);
         columns.sort_unstable();
         columns.dedup();
@@ -116,7 +151,7 @@ impl Told {
     /// One row a quantity.
     fn distributions(
         &self,
-        frame: &Frame,
+        (frame, quantities): (&Frame, &[Quantity]),
         group: &Group,
         by_record: bool,
     ) -> PolarsResult<Vec<Distribution>> {
@@ -124,8 +159,8 @@ impl Told {
         let [ended, numbered, beyond] = self.ended;
         let ended = frame.texts(ended)?;
         let beyond = group.how_many(ended, beyond);
-        let one = |&quantity: &&'static str| {
-            let numbers = group.sorted(frame.numbers(quantity)?, ended, numbered);
+        let one = |quantity: &Quantity| {
+            let numbers = group.sorted(&quantity.numbers, ended, numbered);
             Ok(Distribution {
                 variant: first.text("variant")?,
                 configuration: first.text("configuration")?,
@@ -138,14 +173,14 @@ impl Told {
                     Some("limit") => Some(first.text("limit")?),
                     _ => None,
                 },
-                quantity,
+                quantity: quantity.name,
                 runs: group.len(),
                 failed: group.how_many(frame.texts("outcome")?, "failed"),
                 beyond,
                 quantiles: quantiles(&numbers, beyond as usize),
             })
         };
-        self.quantities.iter().map(one).collect()
+        quantities.iter().map(one).collect()
     }
 }
 

@@ -19,6 +19,13 @@ pub fn quantiles(standing: &[f64], collapsed: usize) -> [Option<f64>; 7] {
     LEVELS.map(|level| censored_quantile(standing, collapsed, level))
 }
 
+/// The median of values in increasing order and of `collapsed` more above them, by the same rule.
+///
+/// `None` of nothing, and where it lands among collapses or between a value and one.
+pub fn median(standing: &[f64], collapsed: usize) -> Option<f64> {
+    censored_quantile(standing, collapsed, LEVELS[MEDIAN])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -49,6 +56,7 @@ mod tests {
     fn analytic_a_median_between_standing_and_collapsed_does_not_exist() {
         assert_eq!(quantiles(&SEVEN[..1], 1)[MEDIAN], None);
         assert_eq!(quantiles(&SEVEN[..2], 0)[MEDIAN], Some(1.5));
+        assert_eq!((median(&SEVEN[..1], 1), median(&SEVEN[..2], 0)), (None, Some(1.5)));
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub struct Entry {
     /// Record; empty over all of them.
     #[serde(default)]
     pub record: String,
-    /// Normalised largest rotation, a column of the run files.
+    /// Normalised largest rotation, a column of the run files; or `capacity`.
     pub measure: String,
     /// Runs.
     pub runs: u64,

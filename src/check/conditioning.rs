@@ -8,10 +8,7 @@ use std::collections::BTreeMap;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::aggregate::{Answer, Compared, MOVED_SHARE, quantiles};
-
-/// Position of the median among the quantiles.
-const MEDIAN: usize = 3;
+use crate::aggregate::{Answer, Compared, MOVED_SHARE, median};
 
 /// Standard deviations of a normal distribution that hold 95 %.
 const Z_95: f64 = 1.959_963_984_540_054;
@@ -96,15 +93,15 @@ pub fn conditioning(compared: &Compared, sample: &[Again]) -> Vec<Conditioning> 
 fn of_group(compared: &Compared, (variant, configuration): (&str, &str), group: &[&Again]) -> Conditioning {
     let count = |holds: &dyn Fn(&Again) -> bool| group.iter().filter(|again| holds(again)).count() as u64;
     let other = |again: &Again| again.stored.outcome != again.tighter.outcome;
-    let median = |number: usize, of: &dyn Fn(&Again) -> Answer| {
+    let median_of = |number: usize, of: &dyn Fn(&Again) -> Answer| {
         let answers: Vec<Answer> = group.iter().map(|again| of(again)).collect();
         let usable = answers.iter().filter(|answer| answer.outcome == compared.usable);
         let mut values: Vec<f64> = usable.filter_map(|answer| answer.numbers[number]).collect();
         values.sort_by(f64::total_cmp);
-        quantiles(&values, answers.len() - values.len())[MEDIAN]
+        median(&values, answers.len() - values.len())
     };
     let medians = (0..compared.numbers.len()).map(|number| {
-        [median(number, &|again| again.stored.clone()), median(number, &|again| again.tighter.clone())]
+        [median_of(number, &|again| again.stored.clone()), median_of(number, &|again| again.tighter.clone())]
     });
     Conditioning {
         variant: variant.to_owned(),

@@ -1,7 +1,7 @@
 //! The medians of a study as entries of a baseline, their tolerances not yet known.
 
 use super::baseline::Entry;
-use crate::aggregate::{Distribution, Distributions, Measure, Median, Medians, Middle};
+use crate::aggregate::{CAPACITY, Distribution, Distributions, Measure, Median, Medians, Middle};
 use crate::study::pipeline::Kind;
 
 /// The medians of θ_i/α_i of a sweep.
@@ -13,7 +13,7 @@ pub fn figures_of_sweep(medians: &Medians) -> Vec<Entry> {
 /// The medians of a study of drawn façades: θ_i/α_i, or the intensities at which limits are exceeded.
 pub fn figures_of_drawn(study: &Distributions) -> Vec<Entry> {
     let quantities: &[&str] = match study.kind {
-        Kind::Incremental => &["intensity"],
+        Kind::Incremental => &[CAPACITY],
         _ => &["theta1_max_over_alpha1", "theta2_max_over_alpha2"],
     };
     let rows = study.rows.iter().filter(|row| quantities.contains(&row.quantity));

@@ -8,17 +8,11 @@ use clap::Args;
 use super::threads::Threads;
 use super::{output, progress, replay};
 use crate::aggregate::{Compared, MOVED_SHARE, stored_answers};
-use crate::check::{Again, Conditioning, conditioning, sampled};
+use crate::check::{Conditioning, conditioning, run_again, sampled};
 use crate::error::{InputError, Result};
 use crate::findings::aligned;
-use crate::study::batch;
 use crate::study::plan::Plan;
 use crate::study::runs::OutputFolder;
-use mrbd_kernel::model::Wall;
-use mrbd_kernel::simulate::{Accuracy, Shaking, simulate};
-
-/// The tolerance of the runs again, over that of the study, if none is asked for.
-const TIGHTER: f64 = 1e-2;
 
 /// Run a sample of a study's runs again at a tighter tolerance: the share that comes out differently, and the medians.
 ///
@@ -53,22 +47,11 @@ impl CheckToleranceCommand {
         let compared = Compared::of(plan.kind());
         let positions = sampled(plan.len(), self.sample.get(), self.seed);
         let stored = stored_answers(folder.path(), &positions, &compared)?;
-        let positions: Vec<u64> = stored.keys().copied().collect();
-        eprintln!("mrbd: {} runs again at a tighter tolerance", positions.len());
-        let tighter = |wall: &Wall, shaking: &Shaking, accuracy: Accuracy| {
-            let tolerance = self.tolerance.unwrap_or(TIGHTER * accuracy.tolerance);
-            simulate(wall, shaking, Accuracy { tolerance })
-        };
-        let progress = progress::of_runs(positions.len() as u64);
-        let runs = self.threads.pool()?.install(|| batch::run_all(&plan, positions, &tighter, &progress));
+        eprintln!("mrbd: {} runs again at a tighter tolerance", stored.len());
+        let progress = progress::of_runs(stored.len() as u64);
+        let again = || run_again(&plan, &stored, self.tolerance, &progress);
+        let sample = self.threads.pool()?.install(again);
         progress.finish_and_clear();
-        let again = |finished: batch::Finished| Again {
-            variant: finished.run.variant.name.clone(),
-            configuration: finished.run.configuration.name().to_owned(),
-            stored: stored[&finished.run.position].clone(),
-            tighter: compared.answer(&finished),
-        };
-        let sample: Vec<Again> = runs.into_iter().map(again).collect();
         let found = conditioning(&compared, &sample);
         let compared_runs: u64 = found.iter().map(|group| group.runs).sum();
         if compared_runs < sample.len() as u64 {

@@ -1,10 +1,14 @@
 //! How much the façades rotate, and how much more with a parallel floor.
 
+use std::cmp::Ordering;
+
 use super::Finding;
 use super::change::tell;
-use super::verdict::{Answer, NOTICEABLE, Verdict, Vote};
-use super::view::{Slender, View};
-use crate::aggregate::{Measure, Middle};
+use super::needs::{BOTH_RANGES, Needs, Subject};
+use super::verdict::{Answer, Verdict};
+use super::view::{Point, Slender, View};
+use super::vote::{NOTICEABLE, Vote};
+use crate::aggregate::{Measure, Middle, median};
 use crate::study::pipeline::Parameter;
 use crate::study::plan::Level;
 use crate::survey::Configuration;
@@ -19,9 +23,11 @@ const FIVEFOLD: f64 = 5.0;
 /// moderate and large slenderness, h/b = 14, is the source's own (section 5 (6)).
 pub(super) const ONLY_SLENDER: Finding = Finding {
     name: "only slender walls rotate",
+    label: "rotations matter (θ/α > 0.05) only at large slenderness",
     claim: "maximum rotations are significant (θ/α > 0.05) only for large slenderness",
     source: "sections 4.3 and 5 (2), Fig. 12",
     criterion: "of the reference façades no median with h/b ≤ 14 exceeds 0.05 and one with h/b > 14 does; undecided if none exceeds it anywhere",
+    needs: Needs { subject: Subject::Reference, floors: &Configuration::ALL, slender: BOTH_RANGES },
     check: only_slender,
 };
 
@@ -48,7 +54,20 @@ fn only_slender(view: &View) -> Answer {
         all.agree,
         all.agree + all.against,
     );
-    Answer { verdict, numbers }
+    Answer { verdict, short: largest_moderate(view), numbers }
+}
+
+/// The largest median of moderate slenderness and where it is.
+fn largest_moderate(view: &View) -> String {
+    let of_floor = |floor: Configuration| {
+        let points = view.points(Slender::Moderate).into_iter();
+        points.filter_map(move |point| Some((view.reference(floor, point)?.middle()?, floor, point)))
+    };
+    let all = Configuration::ALL.into_iter().flat_map(of_floor);
+    let largest = all.max_by(|(a, ..), (b, ..)| a.partial_cmp(b).unwrap_or(Ordering::Equal));
+    largest.map_or(String::new(), |(middle, floor, (slenderness, _)): (Middle, Configuration, Point)| {
+        format!("{} at h/b {slenderness}, {} floor", tell(Some(middle)), floor.name())
+    })
 }
 
 fn is_significant(middle: Middle) -> bool {
@@ -62,7 +81,7 @@ fn is_significant(middle: Middle) -> bool {
 fn onset(view: &View, configuration: Configuration) -> String {
     let middle = |point| view.reference(configuration, point).and_then(|row| row.middle());
     let moderate = view.points(Slender::Moderate).into_iter().filter_map(middle);
-    let largest = moderate.max_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    let largest = moderate.max_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
     let significant = |point: &(f64, Measure)| middle(*point).is_some_and(is_significant);
     let first = view.points(Slender::Any).into_iter().find(significant);
     let from = first.map_or("never above 0.05".to_owned(), |(slenderness, _)| {
@@ -74,9 +93,11 @@ fn onset(view: &View, configuration: Configuration) -> String {
 /// Section 4.3: "a trend that will be observed systematically", so asked of every curve that both floors have.
 pub(super) const PARALLEL_MORE: Finding = Finding {
     name: "parallel floor rotates more",
+    label: "a parallel floor rotates more",
     claim: "the floor parallel to the façade involves much larger rotations",
     source: "section 4.3, Figs. 12 to 20",
     criterion: "at the same parameter, level, slenderness and body the median with the parallel floor is the larger in 4 of 5 noticeable comparisons",
+    needs: Needs { subject: Subject::Shared, floors: &Configuration::ALL, slender: &[Slender::Any] },
     check: parallel_more,
 };
 
@@ -93,15 +114,22 @@ fn parallel_more(view: &View) -> Answer {
         ratio(Slender::Large),
         ratio(Slender::Any)
     );
-    Answer { verdict: vote.verdict(), numbers }
+    let short = format!("{}, {} times", vote.short(), times(median_ratio(&pairs(Slender::Any))));
+    Answer { verdict: vote.verdict(), short, numbers }
 }
 
 /// Section 4.3, Fig. 14: "about five times" taken as within a half of five; beyond a factor of two it is another number.
 pub(super) const PARALLEL_FIVEFOLD: Finding = Finding {
     name: "about five times more",
+    label: "… about five times more",
     claim: "rotations are about five times larger when the floor is parallel to the façade",
     source: "section 4.3, Fig. 14",
     criterion: "the median ratio of parallel to perpendicular over the crack-height curves is 2.5 to 7.5; undecided up to 10",
+    needs: Needs {
+        subject: Subject::Of(Parameter::CrackHeight),
+        floors: &Configuration::ALL,
+        slender: &[Slender::Any],
+    },
     check: parallel_fivefold,
 };
 
@@ -113,7 +141,8 @@ fn parallel_fivefold(view: &View) -> Answer {
         Some(ratio) if (FIVEFOLD / 2.0..=FIVEFOLD * 2.0).contains(&ratio) => Verdict::Undecided,
         Some(_) => Verdict::DoesNot,
     };
-    Answer { verdict, numbers: format!("median ratio {}", tell_ratio(ratio)) }
+    let short = format!("{} times", times(ratio));
+    Answer { verdict, short, numbers: format!("median ratio {}", tell_ratio(ratio)) }
 }
 
 type Pair = (Option<Middle>, Option<Middle>);
@@ -132,7 +161,7 @@ fn pairs(view: &View, parameters: &[Parameter], which: Slender) -> Vec<Pair> {
     pairs
 }
 
-/// Median of the ratios of rotations that are both noticeable; none if there are none.
+/// Median of the ratios of rotations that are both noticeable; `None` if there are none.
 fn median_ratio(pairs: &[Pair]) -> Option<f64> {
     let mut ratios: Vec<f64> = pairs
         .iter()
@@ -144,9 +173,28 @@ fn median_ratio(pairs: &[Pair]) -> Option<f64> {
         })
         .collect();
     ratios.sort_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied()
+    median(&ratios, 0)
 }
 
 fn tell_ratio(ratio: Option<f64>) -> String {
     ratio.map_or("none".to_owned(), |ratio| format!("{ratio:.2}"))
+}
+
+fn times(ratio: Option<f64>) -> String {
+    ratio.map_or("none".to_owned(), |ratio| format!("{ratio:.1}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_the_median_ratio_of_an_even_number_lies_between_two() {
+        let pair = |ratio: f64| (Some(Middle::Rotation(0.01)), Some(Middle::Rotation(0.01 * ratio)));
+        let fallen = (Some(Middle::Rotation(0.01)), Some(Middle::Collapsed));
+        let ratio = median_ratio(&[pair(4.0), pair(1.0), fallen, pair(3.0), pair(2.0)]);
+        // Quotients of products: rounding.
+        assert!(ratio.is_some_and(|ratio| (ratio - 2.5).abs() < 1e-12), "{ratio:?}");
+        assert_eq!(median_ratio(&[fallen]), None);
+    }
 }

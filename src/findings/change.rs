@@ -1,8 +1,6 @@
 //! Differences between medians, some of which may be collapses.
 
-use crate::aggregate::Middle;
-
-use super::verdict::compare;
+use crate::aggregate::{Middle, median};
 
 /// A change of rotation over α below this matters little: a tenth of the 0.05 the source calls significant.
 pub const LITTLE: f64 = 0.005;
@@ -10,7 +8,7 @@ pub const LITTLE: f64 = 0.005;
 /// A change below this share of the rotation matters little: the share below which engineers call a parameter weak.
 pub const LITTLE_SHARE: f64 = 0.10;
 
-/// From one median to another: a rotation, or endless where only the second collapsed; none where the first did.
+/// From one median to another: a rotation, or endless where only the second collapsed; `None` where the first did.
 pub fn increase(from: Option<Middle>, to: Option<Middle>) -> Option<Middle> {
     match (from?, to?) {
         (Middle::Rotation(from), Middle::Rotation(to)) => Some(Middle::Rotation(to - from)),
@@ -39,11 +37,20 @@ pub fn is_little(distance: Middle, beside: Middle) -> bool {
     }
 }
 
-/// The middle of several: the upper of the two central ones for an even count, collapses last; none of nothing.
+/// The median of several, by the rule of [`median`]: one that lands among collapses is a collapse. `None` of nothing.
 pub fn middle_of(values: impl IntoIterator<Item = Middle>) -> Option<Middle> {
-    let mut values: Vec<Middle> = values.into_iter().collect();
-    values.sort_by(|a, b| a.partial_cmp(b).unwrap_or_else(|| compare(*a, *b)));
-    values.get(values.len() / 2).copied()
+    let (mut rotations, mut collapsed) = (Vec::new(), 0);
+    for value in values {
+        match value {
+            Middle::Rotation(rotation) => rotations.push(rotation),
+            Middle::Collapsed => collapsed += 1,
+        }
+    }
+    rotations.sort_by(f64::total_cmp);
+    match median(&rotations, collapsed) {
+        Some(rotation) => Some(Middle::Rotation(rotation)),
+        None => (collapsed > 0).then_some(Middle::Collapsed),
+    }
 }
 
 /// A median as it is printed.
@@ -80,10 +87,20 @@ mod tests {
     }
 
     #[test]
-    fn analytic_middle_ranks_collapses_last() {
-        let values = [Middle::Collapsed, ROTATION(2.0), ROTATION(1.0)];
-        assert_eq!(middle_of(values), Some(ROTATION(2.0)));
-        assert_eq!(middle_of([Middle::Collapsed, Middle::Collapsed, ROTATION(1.0)]), Some(Middle::Collapsed));
+    fn analytic_a_median_is_the_mean_of_the_two_in_the_middle() {
+        let [one, two, four] = [1.0, 2.0, 4.0].map(ROTATION);
+        assert_eq!(middle_of([four, one]), Some(ROTATION(2.5)));
+        assert_eq!(middle_of([four, one, two]), Some(two));
+        assert_eq!(middle_of([four, Middle::Collapsed, one, two]), Some(ROTATION(3.0)));
         assert_eq!(middle_of([]), None);
+    }
+
+    #[test]
+    fn analytic_a_median_among_collapses_is_one() {
+        let [one, two] = [1.0, 2.0].map(ROTATION);
+        assert_eq!(middle_of([Middle::Collapsed, two, one]), Some(two));
+        // Between a rotation and a collapse there is no number.
+        assert_eq!(middle_of([Middle::Collapsed, one]), Some(Middle::Collapsed));
+        assert_eq!(middle_of([Middle::Collapsed, Middle::Collapsed, one]), Some(Middle::Collapsed));
     }
 }

@@ -1,41 +1,52 @@
 //! Stiffness and mass of the floor.
 
 use super::Finding;
-use super::change::{increase, middle_of, tell};
-use super::geometry::rises;
-use super::verdict::{Answer, Verdict, Vote};
+use super::change::{distance, increase, is_little, middle_of, tell};
+use super::geometry::{example, rise_votes};
+use super::needs::{BOTH_RANGES, Needs, Subject};
+use super::verdict::{Answer, Verdict};
 use super::view::{Slender, View};
+use super::vote::{FloorVotes, Vote};
 use crate::aggregate::{Measure, Middle};
 use crate::study::pipeline::Parameter;
+use crate::study::plan::Level;
 use crate::survey::Configuration;
 
 /// Sections 4.4 and 5 (3), Fig. 16.
 pub(super) const STIFFER_LESS: Finding = Finding {
     name: "stiffer floor, smaller rotation",
+    label: "a stiffer floor, a smaller rotation",
     claim: "an increase in the stiffness of the diaphragm decreases rotations",
     source: "sections 4.4 and 5 (3), Fig. 16",
-    criterion: "the median at the softest floor exceeds that at the stiffest in 4 of 5 noticeable comparisons, both floors, all slendernesses",
+    criterion: "under each floor the median at the softest floor exceeds that at the stiffest in 4 of 5 noticeable comparisons, all slendernesses",
+    needs: Needs {
+        subject: Subject::Of(Parameter::Stiffness),
+        floors: &Configuration::ALL,
+        slender: &[Slender::Any],
+    },
     check: stiffer_less,
 };
 
 fn stiffer_less(view: &View) -> Answer {
-    let pairs = |configuration: Configuration| {
+    let votes = FloorVotes::of(&Configuration::ALL, |floor| {
         let points = view.points(Slender::Any).into_iter();
-        points.map(move |point| view.ends(configuration, Parameter::Stiffness, point))
-    };
-    let [perpendicular, parallel] = Configuration::ALL.map(|c| Vote::greater(pairs(c)));
-    let vote = Vote::greater(Configuration::ALL.into_iter().flat_map(pairs));
-    let numbers =
-        format!("{} (perpendicular {}; parallel {})", vote.tell(), perpendicular.tell(), parallel.tell());
-    Answer { verdict: vote.verdict(), numbers }
+        Vote::greater(points.map(|point| view.ends(floor, Parameter::Stiffness, point)))
+    });
+    Answer { verdict: votes.verdict(), short: votes.short(), numbers: votes.tell() }
 }
 
 /// Section 4.4, Fig. 17 left: "generally" more with mass; "as the slenderness increases, this behavior reverses".
 pub(super) const PERPENDICULAR_MASS: Finding = Finding {
     name: "perpendicular floor mass",
+    label: "perpendicular m_d: more at moderate, less at large slenderness",
     claim: "a heavier perpendicular floor rotates the wall more at moderate slenderness and stabilises it at large slenderness",
     source: "section 4.4, Fig. 17 left",
     criterion: "from lightest to heaviest the median rises in 4 of 5 noticeable comparisons for h/b ≤ 14, and falls in 4 of 5 above",
+    needs: Needs {
+        subject: Subject::Of(Parameter::DiaphragmMass),
+        floors: &[Configuration::Perpendicular],
+        slender: BOTH_RANGES,
+    },
     check: perpendicular_mass,
 };
 
@@ -51,20 +62,65 @@ fn perpendicular_mass(view: &View) -> Answer {
         more.tell(),
         less.tell()
     );
-    Answer { verdict: Verdict::of_parts(&[more.verdict(), less.verdict()]), numbers }
+    let short = format!("{}, {}", more.short(), less.short());
+    Answer { verdict: Verdict::of_parts([more.verdict(), less.verdict()]), short, numbers }
+}
+
+/// Section 5 (5), its first half: "not relevant if it acts in both vertical and horizontal directions".
+pub(super) const PERPENDICULAR_MASS_LITTLE: Finding = Finding {
+    name: "perpendicular floor mass not relevant",
+    label: "… not relevant, acting both ways",
+    claim: "the diaphragm mass is not relevant if it acts in both vertical and horizontal directions",
+    source: "section 5 (5), Fig. 17 left",
+    criterion: "under the perpendicular floor the median changes from lightest to heaviest by at most 0.005 or 10 % of it in 4 of 5 comparisons, all slendernesses",
+    needs: Needs {
+        subject: Subject::Of(Parameter::DiaphragmMass),
+        floors: &[Configuration::Perpendicular],
+        slender: &[Slender::Any],
+    },
+    check: perpendicular_mass_little,
+};
+
+fn perpendicular_mass_little(view: &View) -> Answer {
+    let little = |which| little(view, Configuration::Perpendicular, Parameter::DiaphragmMass, which);
+    let all = little(Slender::Any);
+    let numbers = format!(
+        "little change: {} ({} for h/b ≤ 14, {} above)",
+        all.tell(),
+        little(Slender::Moderate).short(),
+        little(Slender::Large).short()
+    );
+    Answer { verdict: all.verdict(), short: all.short(), numbers }
+}
+
+/// Votes "the median changes little from the lowest to the highest level of the parameter".
+pub(super) fn little(view: &View, floor: Configuration, parameter: Parameter, which: Slender) -> Vote {
+    let facts = view.points(which).into_iter().filter_map(|point| {
+        let (low, high) = view.ends(floor, parameter, point);
+        let mean = view.middle(floor, parameter, Level::Mean, point)?;
+        Some(is_little(distance(low, high)?, mean))
+    });
+    Vote::of(facts)
 }
 
 /// Sections 4.4 and 5 (5), Fig. 17 right.
 pub(super) const PARALLEL_MASS: Finding = Finding {
     name: "parallel floor mass",
+    label: "parallel m_dp: more, amplified for slender walls",
     claim: "a heavier parallel floor rotates both bodies more, and this is amplified for large slenderness",
     source: "sections 4.4 and 5 (5), Fig. 17 right",
-    criterion: "from lightest to heaviest the median rises in 4 of 5 noticeable comparisons, and for each body the median rise for h/b > 14 is noticeably larger than for h/b ≤ 14",
+    criterion: "from lightest to heaviest the median rises in 4 of 5 noticeable comparisons, all slendernesses, and for each body the median rise for h/b > 14 is noticeably larger than for h/b ≤ 14",
+    needs: Needs {
+        subject: Subject::Of(Parameter::CarriageMass),
+        floors: &[Configuration::Parallel],
+        slender: BOTH_RANGES,
+    },
     check: parallel_mass,
 };
 
 fn parallel_mass(view: &View) -> Answer {
-    let more = rises(view, Parameter::CarriageMass, Slender::Any, &[Configuration::Parallel]);
+    let floors = &[Configuration::Parallel];
+    let more = rise_votes(view, Parameter::CarriageMass, Slender::Any, floors);
     let rise = |which: Slender, body: Measure| -> Option<Middle> {
         let ends =
             |slenderness| view.ends(Configuration::Parallel, Parameter::CarriageMass, (slenderness, body));
@@ -81,8 +137,9 @@ fn parallel_mass(view: &View) -> Answer {
     };
     let [lower, upper] = pairs.map(|(large, moderate)| format!("{} against {}", tell(large), tell(moderate)));
     let numbers = format!(
-        "{}; median rise for h/b > 14 against ≤ 14: lower body {lower}, upper body {upper}",
-        more.numbers
+        "{}{}; median rise for h/b > 14 against ≤ 14: lower body {lower}, upper body {upper}",
+        more.tell(),
+        example(view, Parameter::CarriageMass, Slender::Any, floors)
     );
-    Answer { verdict: Verdict::of_parts(&[more.verdict, amplified]), numbers }
+    Answer { verdict: Verdict::of_parts([more.verdict(), amplified]), short: more.short(), numbers }
 }

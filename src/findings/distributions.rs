@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use super::report::{assumptions, heading};
 use super::text::{aligned, wrapped};
-use crate::aggregate::{Distribution, Distributions, MOVED_SHARE, Moved};
+use crate::aggregate::{CAPACITY, Distribution, Distributions, MOVED_SHARE, Moved};
 use crate::study::pipeline::Kind;
 
 /// Rows of a table by record that still can be read; more are in the file of medians.
@@ -52,7 +52,7 @@ fn legend(kind: Kind) -> String {
 /// Quantities that are shown, and their symbols.
 fn shown(kind: Kind) -> &'static [(&'static str, &'static str)] {
     match kind {
-        Kind::Incremental => &[("intensity", "")],
+        Kind::Incremental => &[(CAPACITY, "")],
         _ => &[("theta1_max_over_alpha1", "θ1/α1 "), ("theta2_max_over_alpha2", "θ2/α2 ")],
     }
 }

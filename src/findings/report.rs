@@ -6,7 +6,8 @@ use std::path::Path;
 use super::tables::print_tables;
 use super::text::{aligned, wrapped};
 use super::variants::shift;
-use super::{FINDINGS, Finding, View};
+use super::vote::{noticeable, rules};
+use super::{FINDINGS, Finding, Held, Verdict, View};
 use crate::aggregate::{MOVED_SHARE, Measure, Medians, Moved, VariantNote};
 use crate::error::{Error, Result};
 use crate::store::write_durably;
@@ -30,7 +31,9 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     writeln!(out, "*: some records collapsed; fell: the median record collapsed; -: no such run")?;
     print_tables(out, &view)?;
     heading(out, &format!("Conclusions of the source against these medians, variant {:?}", base.name))?;
+    writeln!(out, "{}", wrapped(&rules(), 0))?;
     findings(out, &view)?;
+    writeln!(out, "{}", wrapped(&held(&view), 0))?;
     if medians.variants.len() > 1 {
         heading(out, "The same conclusions under every variant")?;
         matrix(out, medians)?;
@@ -47,15 +50,17 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
 pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
     let failed = |e: csv::Error| Error::table(path, e);
     let mut csv = csv::Writer::from_writer(Vec::new());
-    csv.write_record(["variant", "finding", "answer", "numbers", "claim", "source", "holds_if"])
-        .map_err(failed)?;
+    let head = ["variant", "finding", "answer", "numbers", "claim", "source", "holds_if", "noticeable"];
+    csv.write_record(head).map_err(failed)?;
+    let noticeable = noticeable();
     for variant in &medians.variants {
         let view = View::new(medians, &variant.name);
         for finding in &FINDINGS {
-            let answer = (finding.check)(&view);
+            let answer = finding.answer(&view);
             let Finding { name, claim, source, criterion, .. } = finding;
-            let row: [&str; 7] =
-                [&variant.name, name, answer.verdict.name(), &answer.numbers, claim, source, criterion];
+            let (verdict, numbers) = (answer.verdict.name(), &answer.numbers);
+            let row: [&str; 8] =
+                [&variant.name, name, verdict, numbers, claim, source, criterion, &noticeable];
             csv.write_record(row).map_err(failed)?;
         }
     }
@@ -129,7 +134,7 @@ fn suite(variant: &VariantNote) -> String {
 
 fn findings(out: &mut dyn Write, view: &View) -> io::Result<()> {
     for (index, finding) in FINDINGS.iter().enumerate() {
-        let answer = (finding.check)(view);
+        let answer = finding.answer(view);
         writeln!(out, "{:>2}. {}: {}", index + 1, finding.name, answer.verdict.name().to_uppercase())?;
         writeln!(out, "{}", wrapped(&format!("Claim: {} ({}).", finding.claim, finding.source), 4))?;
         writeln!(out, "{}", wrapped(&format!("Holds if {}.", finding.criterion), 4))?;
@@ -138,15 +143,28 @@ fn findings(out: &mut dyn Write, view: &View) -> io::Result<()> {
     Ok(())
 }
 
+fn held(view: &View) -> String {
+    let held = Held::of(view);
+    let held_of_asked = format!("{} of {} conclusions hold.", held.holds, held.asked);
+    match held.not_asked() {
+        0 => held_of_asked,
+        others => format!("{held_of_asked} {others} others are not in this study."),
+    }
+}
+
+/// Conclusions that no variant varies have no row.
 fn matrix(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     let mut head = vec!["conclusion".to_owned()];
     head.extend(medians.variants.iter().map(|variant| variant.name.clone()));
     let mut rows = vec![head];
     for (index, finding) in FINDINGS.iter().enumerate() {
-        let mut row = vec![format!("{:>2}. {}", index + 1, finding.name)];
-        let of = |variant: &VariantNote| (finding.check)(&View::new(medians, &variant.name));
-        row.extend(medians.variants.iter().map(|variant| of(variant).verdict.name().to_owned()));
-        rows.push(row);
+        let of = |variant: &VariantNote| finding.answer(&View::new(medians, &variant.name)).verdict;
+        let verdicts: Vec<Verdict> = medians.variants.iter().map(of).collect();
+        if verdicts.iter().any(|verdict| *verdict != Verdict::NotAsked) {
+            let name = format!("{:>2}. {}", index + 1, finding.name);
+            let verdicts = verdicts.into_iter().map(|verdict| verdict.name().to_owned());
+            rows.push(std::iter::once(name).chain(verdicts).collect());
+        }
     }
     writeln!(out, "{}", aligned(&rows))
 }

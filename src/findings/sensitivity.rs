@@ -1,20 +1,24 @@
 //! How much records and coefficients of restitution matter.
 
 use super::Finding;
-use super::change::{distance, is_little, middle_of, tell};
-use super::verdict::{Answer, Verdict, Vote};
+use super::change::{distance, middle_of, tell};
+use super::diaphragm::little;
+use super::needs::{BOTH_RANGES, Needs, Subject};
+use super::verdict::{Answer, Verdict};
 use super::view::{Point, Slender, View};
-use crate::aggregate::{Median, Middle};
+use super::vote::{FloorVotes, Vote};
+use crate::aggregate::{Measure, Median, Middle};
 use crate::study::pipeline::Parameter;
-use crate::study::plan::Level;
 use crate::survey::Configuration;
 
 /// Sections 4.5 and 5 (6), Figs. 18 and 19: spread as the figures show it, in θ/α between records of the reference façade.
 pub(super) const RECORD_SPREAD: Finding = Finding {
     name: "record-to-record spread",
+    label: "record-to-record spread: larger under parallel floors and for slender walls",
     claim: "the spread between records is small for perpendicular floors and larger for parallel ones and for slender walls",
     source: "sections 4.5 and 5 (6), Figs. 18 and 19",
-    criterion: "of the reference façades the distance between the 16 and 84 % quantiles is larger for the parallel floor in 4 of 5 noticeable comparisons, and its median is larger for h/b > 14 than for h/b ≤ 14 in at least 3 of 4 (floor, body)",
+    criterion: "of the reference façades the distance between the 16 and 84 % quantiles is larger for the parallel floor in 4 of 5 noticeable comparisons, and its median over h/b > 14 exceeds that over h/b ≤ 14 in 4 of 5 noticeable comparisons, one a floor and body",
+    needs: Needs { subject: Subject::Records, floors: &Configuration::ALL, slender: BOTH_RANGES },
     check: record_spread,
 };
 
@@ -31,7 +35,7 @@ fn record_spread(view: &View) -> Answer {
     let mut pairs = Vec::new();
     let mut told = Vec::new();
     for configuration in Configuration::ALL {
-        for body in crate::aggregate::Measure::BODIES {
+        for body in Measure::BODIES {
             let (large, moderate) = (
                 typical(configuration, Slender::Large, body),
                 typical(configuration, Slender::Moderate, body),
@@ -42,14 +46,16 @@ fn record_spread(view: &View) -> Answer {
     }
     let by_slenderness = Vote::greater(pairs);
     let numbers = format!(
-        "parallel spreads more: {}; median spread for h/b > 14 against ≤ 14: perpendicular {} (lower), {} (upper); parallel {} (lower), {} (upper)",
+        "parallel spreads more: {}; slender walls spread more: {}; median spread for h/b > 14 against ≤ 14: perpendicular {} (lower), {} (upper); parallel {} (lower), {} (upper)",
         by_floor.tell(),
+        by_slenderness.tell(),
         told[0],
         told[1],
         told[2],
         told[3]
     );
-    Answer { verdict: Verdict::of_parts(&[by_floor.verdict(), by_slenderness.verdict()]), numbers }
+    let verdict = Verdict::of_parts([by_floor.verdict(), by_slenderness.verdict()]);
+    Answer { verdict, short: format!("{}, {}", by_floor.short(), by_slenderness.short()), numbers }
 }
 
 /// Distance between the 16 and the 84 % quantiles: endless where the upper one lands among collapses.
@@ -65,43 +71,42 @@ fn spread(row: &Median) -> Option<Middle> {
 /// with the parallel one except for slender walls.
 pub(super) const COEFFICIENTS_LITTLE: Finding = Finding {
     name: "coefficients matter little",
+    label: "the coefficients C_l matter little",
     claim: "the influence of the coefficients C_l on the maximum response is small",
     source: "section 4.5, Fig. 20",
-    criterion: "from lower to upper bounds the median changes by at most 0.005 or 10 % of it in 4 of 5 comparisons: perpendicular floor, all slendernesses; parallel floor, h/b ≤ 14",
+    criterion: "under each floor the median changes from lower to upper bounds by at most 0.005 or 10 % of it in 4 of 5 comparisons: perpendicular, all slendernesses; parallel, h/b ≤ 14",
+    needs: Needs {
+        subject: Subject::Of(Parameter::Restitution),
+        floors: &Configuration::ALL,
+        slender: &[Slender::Moderate],
+    },
     check: coefficients_little,
 };
 
 fn coefficients_little(view: &View) -> Answer {
-    let perpendicular = little(view, Configuration::Perpendicular, Slender::Any);
-    let parallel = little(view, Configuration::Parallel, Slender::Moderate);
-    let vote = Vote {
-        agree: perpendicular.agree + parallel.agree,
-        against: perpendicular.against + parallel.against,
-        close: 0,
-    };
-    let numbers = format!(
-        "little change: {} (perpendicular {}; parallel {})",
-        vote.tell(),
-        perpendicular.tell(),
-        parallel.tell()
-    );
-    Answer { verdict: vote.verdict(), numbers }
-}
-
-fn little(view: &View, configuration: Configuration, which: Slender) -> Vote {
-    let facts = view.points(which).into_iter().filter_map(|point| {
-        let mean = view.middle(configuration, Parameter::Restitution, Level::Mean, point)?;
-        Some(is_little(moved(view, configuration, point)?, mean))
+    let votes = FloorVotes::of(&Configuration::ALL, |floor| {
+        let which = match floor {
+            Configuration::Perpendicular => Slender::Any,
+            Configuration::Parallel => Slender::Moderate,
+        };
+        little(view, floor, Parameter::Restitution, which)
     });
-    Vote::of(facts)
+    let numbers = format!("little change: {}", votes.tell());
+    Answer { verdict: votes.verdict(), short: votes.short(), numbers }
 }
 
 /// Sections 4.5 and 5 (6), Fig. 20: "for slender walls … larger effect on the response".
 pub(super) const COEFFICIENTS_SLENDER_PARALLEL: Finding = Finding {
     name: "coefficients, slender parallel",
+    label: "… more for slender walls under a parallel floor",
     claim: "the coefficients C_l matter more for slender walls with a parallel floor",
     source: "sections 4.5 and 5 (6), Fig. 20",
     criterion: "for h/b > 14 and the parallel floor the change from lower to upper bounds exceeds that at the same place with the perpendicular floor, and the median change for h/b ≤ 14, in 4 of 5 noticeable comparisons",
+    needs: Needs {
+        subject: Subject::Of(Parameter::Restitution),
+        floors: &Configuration::ALL,
+        slender: BOTH_RANGES,
+    },
     check: coefficients_slender_parallel,
 };
 
@@ -126,7 +131,7 @@ fn coefficients_slender_parallel(view: &View) -> Answer {
         tell(moderate),
         tell(typical(Configuration::Parallel, Slender::Large)),
     );
-    Answer { verdict: vote.verdict(), numbers }
+    Answer { verdict: vote.verdict(), short: vote.short(), numbers }
 }
 
 /// How far the median moves from the lower to the upper bounds of the coefficients.

@@ -1,6 +1,6 @@
 //! How far the medians move when the assumptions change.
 
-use crate::aggregate::{Case, Measure, Medians, Middle};
+use crate::aggregate::{Case, Measure, Medians, Middle, median};
 use crate::survey::Configuration;
 
 /// How the medians of a variant differ from those of the first, for one floor.
@@ -15,12 +15,12 @@ pub struct Shift {
 }
 
 impl Shift {
-    /// The median difference; none of nothing.
+    /// The median difference; `None` of nothing.
     pub fn median(&self) -> Option<f64> {
-        self.distances.get(self.distances.len() / 2).copied()
+        median(&self.distances, 0)
     }
 
-    /// The largest difference; none of nothing.
+    /// The largest difference; `None` of nothing.
     pub fn max(&self) -> Option<f64> {
         self.distances.last().copied()
     }
@@ -53,4 +53,18 @@ pub fn shift(medians: &Medians, base: &str, variant: &str, configuration: Config
     }
     shift.distances.sort_by(f64::total_cmp);
     shift
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_the_median_of_an_even_number_lies_between_two() {
+        let shift =
+            |distances: &[f64]| Shift { distances: distances.to_vec(), largest: None, changed_sides: 0 };
+        assert_eq!(shift(&[1.0, 2.0, 4.0, 9.0]).median(), Some(3.0));
+        assert_eq!(shift(&[1.0, 2.0, 4.0]).median(), Some(2.0));
+        assert_eq!(shift(&[]).median(), None);
+    }
 }

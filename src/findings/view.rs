@@ -28,6 +28,15 @@ impl Slender {
             Slender::Any => true,
         }
     }
+
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Slender::Moderate => "slenderness h/b ≤ 14",
+            Slender::Large => "slenderness h/b > 14",
+            Slender::Any => "slenderness",
+        }
+    }
 }
 
 /// The medians of one variant.
@@ -68,7 +77,7 @@ impl<'a> View<'a> {
         self.slendernesses(which).into_iter().flat_map(bodies).collect()
     }
 
-    /// The row of a case; none if the study has no such case.
+    /// The row of a case; `None` if the study has no such case.
     pub fn row(
         &self,
         configuration: Configuration,

@@ -13,6 +13,9 @@ use crate::error::{InputError, Result};
 pub struct Columns {
     /// The intensity.
     pub intensity: Expression,
+    /// Of incremental analyses, the highest intensity below that was stood, in the unit of the intensity: the capacity
+    /// is then the geometric middle of the two, for the search halves the logarithm of their bracket.
+    pub stood: Option<String>,
     /// Outcomes, numbers of failures, or numbers to compare.
     pub outcome: Outcomes,
     /// Demands of the runs that stood.
@@ -83,7 +86,13 @@ impl Columns {
             Outcomes::Words(name) | Outcomes::Above(name, _) => vec![name.as_str()],
             Outcomes::Counts(failures, trials) => vec![failures.as_str(), trials.as_str()],
         };
-        let others = self.demand.iter().chain(&self.groups).chain(&self.clusters).map(String::as_str);
+        let others = self
+            .stood
+            .iter()
+            .chain(&self.demand)
+            .chain(&self.groups)
+            .chain(&self.clusters)
+            .map(String::as_str);
         self.intensity.columns().chain(outcome).chain(others).collect()
     }
 }
@@ -93,6 +102,7 @@ struct Rows<'a> {
     table: &'a Table,
     columns: &'a Columns,
     factors: Vec<Vec<Option<f64>>>,
+    stood: Option<Vec<Option<f64>>>,
     tell: Tell,
     demand: Option<Vec<Option<f64>>>,
     groups: Vec<Vec<String>>,
@@ -119,6 +129,7 @@ impl<'a> Rows<'a> {
             table,
             columns,
             factors: columns.intensity.columns().map(|name| table.numbers(name)).collect::<Result<_>>()?,
+            stood: columns.stood.as_ref().map(|name| table.numbers(name)).transpose()?,
             tell,
             demand: columns.demand.as_ref().map(|name| table.numbers(name)).transpose()?,
             groups: labels(table, &columns.groups)?,
@@ -139,12 +150,17 @@ impl<'a> Rows<'a> {
     }
 
     fn intensity(&self, row: usize) -> Result<f64> {
-        let names = self.columns.intensity.columns();
-        let values = names.zip(&self.factors).map(|(name, cells)| {
+        let value = |name: &str, cells: &[Option<f64>]| {
             cells[row].ok_or_else(|| self.table.fault(name, row, "no value", "an intensity in every row"))
-        });
+        };
+        let names = self.columns.intensity.columns();
+        let values = names.zip(&self.factors).map(|(name, cells)| value(name, cells));
         let values: Vec<f64> = values.collect::<Result<_, _>>()?;
-        Ok(self.columns.intensity.value(values))
+        let intensity = self.columns.intensity.value(values);
+        Ok(match self.columns.stood.as_ref().zip(self.stood.as_ref()) {
+            Some((name, cells)) => (intensity * value(name, cells)?).sqrt(),
+            None => intensity,
+        })
     }
 
     fn demand(&self, demands: &[Option<f64>], row: usize) -> Result<f64> {
@@ -228,7 +244,8 @@ mod tests {
 
     fn columns(outcome: Outcomes) -> Columns {
         let intensity = Expression::parse("2*x").expect("valid");
-        Columns { intensity, outcome, demand: None, groups: vec!["g".into()], clusters: vec!["r".into()] }
+        let (groups, clusters) = (vec!["g".into()], vec!["r".into()]);
+        Columns { intensity, stood: None, outcome, demand: None, groups, clusters }
     }
 
     fn read(text: &str, columns: &Columns) -> Result<Vec<Group>> {
@@ -248,6 +265,18 @@ mod tests {
         assert_eq!(groups[0].sample.ln_intensity()[1], 6f64.ln());
         let above = read("g,r,x,y\na,1,1,0.5\na,1,2,0.6\n", &columns(Outcomes::Above("y".into(), 0.5)));
         assert_eq!(above.expect("valid")[0].sample.failures(), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn analytic_a_capacity_is_the_geometric_middle_of_its_bracket() {
+        let intensity = Expression::parse("x").expect("valid");
+        let columns = Columns { intensity, stood: Some("s".into()), ..columns(Outcomes::Words("y".into())) };
+        // The third stood the highest intensity that was run, the fourth was never finished.
+        let text = "g,r,x,y,s\na,1,1.02,1,1\na,2,9,1,4\na,3,10,0,10\na,4,,failed,\n";
+        let groups = read(text, &columns).expect("valid");
+        assert_eq!(groups[0].sample.ln_intensity(), [1.02f64.sqrt(), 6.0, 10.0].map(f64::ln));
+        let refused = read("g,r,x,y,s\na,1,1,1,\n", &columns).expect_err("refused").to_string();
+        assert!(refused.contains("t.csv:2: found s: no value"), "{refused}");
     }
 
     #[test]

@@ -11,7 +11,7 @@ use super::page::{Number, Page, Section};
 use super::provenance;
 use crate::aggregate::{Medians, VariantNote, aggregate, write_medians};
 use crate::error::{InputError, Result};
-use crate::findings::{FINDINGS, Verdict, View};
+use crate::findings::{Held, View, rules};
 use crate::study::runs::Manifest;
 use mrbd_records::Site;
 
@@ -58,13 +58,17 @@ fn lead(manifest: &Manifest) -> String {
 fn numbers(medians: &Medians, view: &View) -> Vec<Number> {
     let total =
         |of: fn(&crate::aggregate::VariantNote) -> u64| -> u64 { medians.variants.iter().map(of).sum() };
-    let holds = FINDINGS.iter().filter(|finding| (finding.check)(view).verdict == Verdict::Holds).count();
+    let held = Held::of(view);
+    let hold = match held.not_asked() {
+        0 => "conclusions of the paper hold here".to_owned(),
+        others => format!("conclusions of the paper hold here; {others} others are not in this study"),
+    };
     let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
     vec![
         number(total(|v| v.runs).to_string(), "runs"),
         number(total(|v| v.collapsed).to_string(), "collapsed"),
         number(total(|v| v.failed).to_string(), "failed"),
-        number(format!("{holds} of {}", FINDINGS.len()), "conclusions of the paper hold here"),
+        number(format!("{} of {}", held.holds, held.asked), &hold),
     ]
 }
 
@@ -78,6 +82,7 @@ fn findings(medians: &Medians, view: &View) -> Section {
         title: "The paper’s conclusions against these results".into(),
         text: vec![
             "Each conclusion has a criterion that was fixed beforehand; the numbers decide. Nothing is fitted.".into(),
+            rules(),
         ],
         tables,
         ..Section::default()

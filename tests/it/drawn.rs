@@ -6,8 +6,8 @@ use std::path::Path;
 use arrow_array::cast::AsArray;
 use arrow_array::types::UInt64Type;
 use arrow_array::{Array, RecordBatch};
-use mrbd::aggregate::{Distribution, distributions};
-use mrbd::study::batch::run_one;
+use mrbd::aggregate::{CAPACITY, Distribution, distributions};
+use mrbd::study::batch::{Finished, run_one};
 use mrbd::study::campaign::Shard;
 use mrbd::study::pipeline::Kind;
 use mrbd::study::plan::Plan;
@@ -181,6 +181,41 @@ fn analytic_incremental_analyses_bracket_the_capacity() {
         // Growth to it in steps of 1.5, and log2(ln 1.5/ln 1.02) = 4.4 halvings.
         let steps = ((expected / 0.5).ln() / 1.5f64.ln()).ceil() as u64 + 1;
         assert_eq!(finished.simulations, steps + 5, "{expected}");
+    }
+}
+
+#[test]
+fn analytic_medians_of_capacities_lie_in_the_middle_of_their_brackets() {
+    let plan = plan(&incremental(), 2);
+    let folder = stored(&plan, &proportional);
+    let told = distributions(folder.path(), Kind::Incremental).expect("distributions");
+    for floor in Configuration::ALL {
+        let of_floor = |finished: &Finished| {
+            let growth = finished.run.growth().expect("an analysis");
+            finished.run.configuration == floor && growth.limit.to_string() == "collapse"
+        };
+        let runs = (0..plan.len()).map(|position| run_one(plan.run(position), &proportional));
+        let (mut middles, mut capacities): (Vec<f64>, Vec<f64>) = runs
+            .filter(of_floor)
+            .map(|finished| {
+                let (_, intensity) = finished.run.scaled_to().expect("an intensity");
+                let stood = finished.found.expect("an analysis").stood_intensity;
+                ((stood * intensity).sqrt(), capacity_m_s2(finished.run.wall.as_ref().expect("a wall")))
+            })
+            .unzip();
+        assert_eq!(middles.len(), 12, "six façades under two records");
+        middles.sort_by(f64::total_cmp);
+        capacities.sort_by(f64::total_cmp);
+        let median = |values: &[f64]| 0.5 * (values[5] + values[6]);
+        let of_collapse = |row: &&Distribution| {
+            let limit = row.limit.as_deref() == Some("collapse");
+            limit && row.configuration == floor.name() && row.record.is_none() && row.quantity == CAPACITY
+        };
+        let found = told.rows.iter().find(of_collapse).and_then(Distribution::median).expect("a median");
+        // The same sum in another order: rounding.
+        assert!((found / median(&middles) - 1.0).abs() < 1e-15, "{found} {middles:?}");
+        // A bracket is 2 % wide, its middle within 1 % of what lies in it.
+        assert!((found / median(&capacities) - 1.0).abs() < 0.01, "{found} {capacities:?}");
     }
 }
 

@@ -53,6 +53,7 @@ mod pipeline_findings;
 mod pipeline_plan;
 mod pipeline_support;
 mod published;
+mod readme;
 mod replay;
 mod report_browser;
 mod report_kinds;

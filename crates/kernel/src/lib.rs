@@ -66,3 +66,6 @@ mod fused;
 pub mod model;
 pub mod simulate;
 pub mod solver;
+mod written;
+
+pub use written::written;

@@ -6,6 +6,9 @@ use crate::fragility::{Columns, Expression, Outcomes};
 use crate::study::pipeline::Kind;
 use crate::study::runs::Manifest;
 
+/// The lower end of the bracket of an incremental analysis, in the unit of the study's measure.
+const STOOD: &str = "stood_intensity";
+
 /// What the limit of a row, or of a pass over the rows, is called in results.
 const LIMIT: &str = "limit";
 
@@ -32,6 +35,11 @@ pub(super) struct State {
 impl Asked {
     pub fn intensity(&self) -> &Expression {
         &self.states[0].columns.intensity
+    }
+
+    /// Whether intensities stand at the upper ends of their brackets, for those of the lower ends are not known.
+    pub fn lies_above(&self) -> bool {
+        self.incremental && self.states[0].columns.stood.is_none()
     }
 
     pub fn clusters(&self) -> &[String] {
@@ -84,6 +92,7 @@ impl FragilityCommand {
         };
         let columns = Columns {
             intensity: self.expression(intensity)?,
+            stood: None,
             outcome,
             demand: self.demand.clone(),
             groups: self.group.clone(),
@@ -108,11 +117,15 @@ impl FragilityCommand {
             groups.clone_from(&columns);
         }
         let clusters = or(&self.cluster, &["record", "draw"]);
-        let intensity = self.expression(&self.intensity_of(manifest)?)?;
+        let asked = self.intensity_of(manifest)?;
+        let intensity = self.expression(&asked)?;
+        let own = [measure_of(manifest), Some("intensity")].contains(&Some(asked.as_str()));
+        let stood = (incremental && own).then(|| STOOD.to_owned());
         let state = |name: Option<String>, outcome| State {
             name,
             columns: Columns {
                 intensity: intensity.clone(),
+                stood: stood.clone(),
                 outcome,
                 demand: self.demand.clone(),
                 groups: groups.clone(),
@@ -139,10 +152,7 @@ impl FragilityCommand {
 
     /// The intensity asked for, or the measure the study was scaled by.
     fn intensity_of(&self, manifest: &Manifest) -> Result<String> {
-        let loading = &manifest.study["loading"];
-        let measure = [Kind::Stripes, Kind::Incremental].map(|kind| loading[kind.name()]["measure"].as_str());
-        let measure = measure.into_iter().flatten().next();
-        let intensity = self.intensity.as_deref().or(measure).map(str::to_owned);
+        let intensity = self.intensity.as_deref().or(measure_of(manifest)).map(str::to_owned);
         let allowed = "a column of intensities, such as pga_g, pgv_m_s or sa_average_m_s2";
         Ok(intensity.ok_or_else(|| InputError::option("--intensity", "nothing", allowed))?)
     }
@@ -161,4 +171,11 @@ impl FragilityCommand {
         thresholds.dedup();
         Ok(thresholds)
     }
+}
+
+/// The measure the study was scaled by.
+fn measure_of(manifest: &Manifest) -> Option<&str> {
+    let loading = &manifest.study["loading"];
+    let measure = |kind: Kind| loading[kind.name()]["measure"].as_str();
+    [Kind::Stripes, Kind::Incremental].into_iter().find_map(measure)
 }

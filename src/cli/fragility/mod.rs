@@ -268,6 +268,11 @@ impl FragilityCommand {
                 "mrbd: note: {beyond} medians lie outside the intensities observed: they are extrapolated"
             );
         }
+        if asked.lies_above() {
+            eprintln!(
+                "mrbd: note: intensities are those at the upper end of each bracket; of the study's own measure the middle is taken"
+            );
+        }
         if asked.clusters().is_empty() {
             eprintln!("mrbd: note: without --cluster, outcomes are taken as independent");
         }

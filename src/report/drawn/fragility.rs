@@ -84,6 +84,7 @@ fn fragilities(folder: &Path, study: &Distributions, base: &VariantNote) -> Resu
     let expression = Expression::parse(intensity).map_err(slip)?;
     let columns = |outcome: Outcomes, groups: &[&str]| Columns {
         intensity: expression.clone(),
+        stood: (study.kind == Kind::Incremental).then(|| "stood_intensity".to_owned()),
         outcome,
         demand: None,
         groups: groups.iter().map(|&name| name.to_owned()).collect(),

@@ -6,7 +6,7 @@ use super::super::colours::PALETTE;
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Key, Section};
 use super::{along, medians, titled};
-use crate::aggregate::{Distribution, Distributions, VariantNote};
+use crate::aggregate::{CAPACITY, Distribution, Distributions, VariantNote};
 use crate::error::Result;
 use crate::study::pipeline::Kind;
 
@@ -18,7 +18,7 @@ pub(super) const HIGH: usize = 5;
 /// Quantities and their names in the legend.
 pub(super) fn quantities(kind: Kind) -> &'static [(&'static str, &'static str)] {
     match kind {
-        Kind::Incremental => &[("intensity", "intensity that reaches the limit")],
+        Kind::Incremental => &[(CAPACITY, "intensity that reaches the limit")],
         _ => &[
             ("theta1_max_over_alpha1", "|θ₁|/α₁, lower body"),
             ("theta2_max_over_alpha2", "|θ₂|/α₂, upper body"),

@@ -81,7 +81,7 @@ fn figure(suite: &Suite, site: Option<&Site>) -> Result<Figure> {
     });
     Ok(Figure {
         id: "spectra-figure".into(),
-        title: format!("Elastic response spectra, {} % damping", 100.0 * damping),
+        title: format!("Elastic response spectra, {} % damping", mrbd_kernel::written(100.0 * damping)),
         paper: (suite.records.len() > 1).then(|| "Fig. 11".into()),
         legend: legend.collect(),
         panels: vec![panel(rounded_up(1.02 * largest.max(f64::MIN_POSITIVE)), lines).svg()?],

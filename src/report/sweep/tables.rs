@@ -9,6 +9,7 @@ fn verdict(verdict: Verdict) -> Cell {
         Verdict::Holds => "holds",
         Verdict::DoesNot => "does-not",
         Verdict::Undecided => "undecided",
+        Verdict::NotAsked => "not-asked",
     };
     Cell { text: verdict.name().to_owned(), class }
 }
@@ -20,7 +21,7 @@ fn heads(heads: &[&str]) -> Vec<String> {
 /// Every conclusion with its criterion, its verdict and the numbers that decide.
 pub fn findings(view: &View) -> Table {
     let row = |(index, finding): (usize, &crate::findings::Finding)| {
-        let answer = (finding.check)(view);
+        let answer = finding.answer(view);
         vec![
             Cell::from(format!("{}. {}", index + 1, finding.name)),
             verdict(answer.verdict),
@@ -43,7 +44,7 @@ pub fn by_variant(medians: &Medians) -> Table {
     head.extend(medians.variants.iter().map(|variant| variant.name.clone()));
     let row = |(index, finding): (usize, &crate::findings::Finding)| {
         let mut row = vec![Cell::from(format!("{}. {}", index + 1, finding.name))];
-        let of = |variant: &VariantNote| (finding.check)(&View::new(medians, &variant.name)).verdict;
+        let of = |variant: &VariantNote| finding.answer(&View::new(medians, &variant.name)).verdict;
         row.extend(medians.variants.iter().map(|variant| verdict(of(variant))));
         row
     };

@@ -177,7 +177,7 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::result("theta2_max_time_s", "s", "when it was reached", outcome_number!(|r| r.theta_max_rad[1].time_s)),
     Column::result("theta2_max_over_alpha2", "", "largest rotation of the upper body over its slenderness angle", outcome_number!(|r| r.theta_max_over_alpha_i()[1])),
     Column::result("theta2_max_over_alpha", "", "largest rotation of the upper body over the slenderness angle of the uncracked wall", outcome_number!(|r| r.theta_max_over_alpha()[1])),
-    Column::result("theta_max_over_own_alpha", "", "the larger of θ_1/α_1 and θ_2/α_2 at their largest; that of a collapsed wall is collapse_rotation_ratio or more", outcome_number!(|r| r.theta_max_over_own_alpha())),
+    Column::result("theta_max_over_own_alpha", "", "the larger of θ_1/α_1 and θ_2/α_2 at their largest; that of a collapsed wall is collapse_rotation_ratio, to rounding", outcome_number!(|r| r.theta_max_over_own_alpha())),
     Column::result("top_displacement_m", "m", "largest horizontal displacement of the top relative to the ground, with its sign", outcome_number!(|r| r.top_displacement_m.value)),
     Column::result("top_displacement_time_s", "s", "when it was reached", outcome_number!(|r| r.top_displacement_m.time_s)),
     Column::result("crack_displacement_m", "m", "largest horizontal displacement of the middle of the crack relative to the ground, with its sign", outcome_number!(|r| r.crack_displacement_m.value)),

@@ -11,6 +11,7 @@ use mrbd_files::error::{InputError, Result};
 use mrbd_files::suggestion::with_suggestion;
 use mrbd_files::{toml_file, wall_from_table};
 use mrbd_kernel::model::{ImpactLaw, Wall, WallParameters};
+use mrbd_kernel::written;
 
 /// Where a parameter stands in the wall.
 #[derive(Debug, Clone, PartialEq)]
@@ -269,7 +270,7 @@ impl Resolver<'_> {
         let bounds =
             Bounds { lower: bound(table.lower, 0, "lower")?, upper: bound(table.upper, 1, "upper")? };
         if !(bounds.lower.is_finite() && bounds.upper.is_finite() && bounds.lower < bounds.upper) {
-            let found = format!("{} to {} for {name}", bounds.lower, bounds.upper);
+            let found = format!("{} to {} for {name}", written(bounds.lower), written(bounds.upper));
             return Err(self.fault(i, "lower", found, "finite bounds with lower < upper"));
         }
         Ok(Parameter { name, target, bounds, nominal, prior_sd })

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use super::super::contact::Joint;
 use super::super::wall::{ImpossibleWall, WallParameters};
 use super::{Effect, EffectKind, Lanes};
+use crate::written;
 
 /// Everything the effects of a wall add to it; without effects, nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -145,7 +146,7 @@ pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(
     let widths = [("lower", p.lower_width_m), ("upper", p.upper_width_m)];
     for ((body, width_m), indentation_m) in widths.into_iter().zip(sums.indentation_m) {
         if indentation_m >= width_m {
-            let found = format!("corners that lie {indentation_m} m inwards");
+            let found = format!("corners that lie {} m inwards", written(indentation_m));
             let i = last(&p.effects, EffectKind::CornerIndentation);
             return Err(refused(i, found, format!("below corners.{body}_width_m = {width_m}")));
         }
@@ -153,7 +154,8 @@ pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(
     for (c_l, factor) in p.restitution.coefficients.into_iter().zip(sums.impact_factors) {
         if c_l * factor > 2.0 {
             let i = last(&p.effects, EffectKind::ImpactDissipation);
-            return Err(refused(i, format!("C_l times factor = {}", c_l * factor), "0 to 2".to_owned()));
+            let found = format!("C_l times factor = {}", written(c_l * factor));
+            return Err(refused(i, found, "0 to 2".to_owned()));
         }
     }
     Ok(())
