@@ -6,7 +6,7 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::diagnose::fit::{Fit, WindowSlopes};
 use crate::diagnose::hypothesis::Addition;
@@ -22,7 +22,7 @@ const CHANGE_SD: f64 = 1.0;
 const BENT: f64 = 0.25;
 
 /// An effect that another imitates in these tests.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Confused {
     /// The effect.
     pub effect: String,
@@ -33,7 +33,7 @@ pub struct Confused {
     /// Its number, with unit.
     pub parameter: String,
     /// Unit.
-    pub unit: &'static str,
+    pub unit: String,
     /// Smallest size told from nothing ...
     pub told_from_nothing: f64,
     /// ... and from the other.
@@ -41,7 +41,7 @@ pub struct Confused {
     /// A size that matters.
     pub matters: f64,
     /// The measurement that tells the effect by itself.
-    pub told_by: &'static str,
+    pub told_by: String,
 }
 
 /// How the windows change with the numbers of one addition.
@@ -111,12 +111,12 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
         imitated_by: other.tried.hypothesis.additions[0].name(),
         share,
         parameter: unknown.key.clone(),
-        unit: unknown.unit,
+        unit: unknown.unit.to_owned(),
         told_from_nothing: DETECTED / alone.sqrt(),
         // Half the square of the size over its standard deviation is what speaks for one and against the other.
         told_apart: (2.0 * EQUIVALENT / left).sqrt(),
         matters: unknown.scale,
-        told_by: variant.entry().told_by,
+        told_by: variant.entry().told_by.to_owned(),
     })
 }
 

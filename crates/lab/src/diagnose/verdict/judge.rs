@@ -253,7 +253,7 @@ impl<P: Progress> Gap<'_, P> {
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
         let measured = || {
             let physics = self.before.hypothesis.physics(&self.before.fit.values)?;
-            acts_at_top(&force_points(&self.trials.experiment.tests, &physics)).then_some("top")
+            acts_at_top(&force_points(self.trials.data.fit.tests, &physics)).then_some("top")
         };
         let place = measured().or_else(|| place(&self.trials.data, &self.recalibrated, &tried));
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };

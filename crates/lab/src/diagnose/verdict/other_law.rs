@@ -1,6 +1,6 @@
 //! What speaks for another law than the one that is about to be named, though it closes the gap.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::amplitude::{Trend, trends_with_amplitude};
 use super::names;
@@ -20,7 +20,7 @@ const TREND: f64 = 25.0;
 const TREND_SHARE: f64 = 0.04;
 
 /// Signs of a law outside the catalogue.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OtherLaw {
     /// The effects it would be taken for.
     pub looks_like: Vec<String>,
