@@ -8,6 +8,7 @@ use super::words::{at, parameters};
 use super::{MEASURED, key};
 use crate::error::Result;
 use mrbd_lab::diagnose::answer::{Rival, Summary};
+use mrbd_lab::diagnose::limits::EQUIVALENT;
 
 /// Most rows of a figure, and of a table.
 const DRAWN: usize = 12;
@@ -30,8 +31,10 @@ fn is_effect(rival: &Rival) -> bool {
 /// [`crate::Error::Picture`] if plotters refuses.
 pub fn section(summary: &Summary) -> Result<Section> {
     let rivals = summary.rivals.iter().filter(|r| is_effect(r)).collect::<Vec<_>>();
-    let text = "Every effect of the catalogue, fitted to the tests; the first explains them best. What speaks against a hypothesis is half its squared error beyond noise, bounded window by window, on all tests, with a price for every number: natural logarithms of likelihood. 15 less than every other is a name. WME is the error of whole runs (Eq. 8), in brackets its range over numbers that fit as well: where that is wide, it says little.";
-    made(summary, ["candidates", "The candidates, ranked", text], &rivals)
+    let text = format!(
+        "Every effect of the catalogue, fitted to the tests; the first explains them best. What speaks against a hypothesis is half its squared error beyond noise, bounded window by window, on all tests, with a price for every number: natural logarithms of likelihood. {EQUIVALENT} less than every other is a name. WME is the error of whole runs (Eq. 8), in brackets its range over numbers that fit as well: where that is wide, it says little."
+    );
+    made(summary, ["candidates", "The candidates, ranked", &text], &rivals)
 }
 
 /// What else was tried.

@@ -9,6 +9,7 @@ use super::{MEASURED, key};
 use crate::error::Result;
 use mrbd_lab::diagnose::answer::{CouldHide, Summary};
 use mrbd_lab::diagnose::certainty::Confused;
+use mrbd_lab::diagnose::limits::{DETECTED_SD, WORTH_A_NAME};
 
 /// Shares of a size that matters below and above which nothing is drawn more exactly.
 const RANGE: [f64; 2] = [1e-4, 30.0];
@@ -26,9 +27,11 @@ pub fn section(summary: &Summary) -> Result<Section> {
     powers.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let blind =
         summary.could_hide.iter().filter(|p| !p.sd.is_finite() || p.sd <= 0.0 || share(p) > 1.0).count();
-    let mut text = vec![
-        "For every kind, the smallest size that would have been named in these tests, had it been alone: it gains 30 natural logarithms of likelihood, some 8 standard deviations. What is smaller may be there all the same, though from 3.3 standard deviations on it differs from nothing by more than chance.".to_owned(),
-    ];
+    let mut text = vec![format!(
+        "For every kind, the smallest size that would have been named in these tests, had it been alone: it gains {WORTH_A_NAME} natural logarithms of likelihood, some {:.0} standard deviations. What is smaller may be there all the same, though from {DETECTED_SD} standard deviations on it differs from nothing by more than chance.",
+        // An effect gains half of its squared size in standard deviations.
+        (2.0 * WORTH_A_NAME).sqrt()
+    )];
     if blind > 0 {
         text.push(format!("{blind} of them could hide at a size that matters."));
     }

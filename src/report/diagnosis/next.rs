@@ -5,6 +5,7 @@ use super::words::number;
 use mrbd_lab::diagnose::Verdict;
 use mrbd_lab::diagnose::answer::Summary;
 use mrbd_lab::diagnose::certainty::{NextPull, NextShaking, NextTests};
+use mrbd_lab::diagnose::limits::EQUIVALENT;
 
 /// The section.
 pub fn section(summary: &Summary) -> Section {
@@ -54,7 +55,7 @@ fn shaking(next: &NextTests) -> Table {
         "natural logarithms of likelihood between them",
     ];
     Table::of(
-        "Records there are, scaled; 15 would be enough to part them",
+        &format!("Records there are, scaled; {EQUIVALENT} would be enough to part them"),
         &head,
         next.shaking.iter().map(row),
     )

@@ -11,13 +11,11 @@ use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
 use mrbd_kernel::model::PATTERN_NAMES;
 use mrbd_lab::diagnose::answer::{Rival, Summary};
-use mrbd_lab::diagnose::force::ALONG;
+use mrbd_lab::diagnose::limits::{ALONG_TOP, LEAST_DIRECTIONS};
 
 /// Share off the direction of the top from which a force there alone does not explain the residual: twins of a late record
 /// have 0.1 and more.
 const OFF: f64 = 0.1;
-/// Fewest points with a direction to speak of one.
-const LEAST_POINTS: usize = 3;
 
 /// Where the missing force acts.
 ///
@@ -151,10 +149,10 @@ impl Points {
 fn direction_in_words(summary: &Summary) -> String {
     let force = &summary.missing_force;
     match force.median_share_off_top {
-        Some(share) if force.points_with_direction >= LEAST_POINTS => format!(
+        Some(share) if force.points_with_direction >= LEAST_DIRECTIONS => format!(
             "Off the direction of a horizontal force at the top lies {share:.3} of the squared moments (median of {} stretches clear of the noise): {}.",
             force.points_with_direction,
-            if share < ALONG {
+            if share < ALONG_TOP {
                 "what is missing acts at the top, as far as smooth motion tells"
             } else if share < OFF {
                 "it may act at the top, or shake the whole wall"

@@ -3,6 +3,7 @@
 use crate::Progress;
 use crate::diagnose::answer::{Diagnosis, Findings};
 use crate::diagnose::experiment::Experiment;
+use crate::diagnose::limits::READ_AGAIN;
 use crate::diagnose::measured::{TestData, Window, is_readable, windows};
 use crate::diagnose::trials::{
     Alone, Data, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain,
@@ -10,9 +11,6 @@ use crate::diagnose::trials::{
 use crate::diagnose::verdict::judge;
 use crate::experiment_file::Purpose;
 use mrbd_files::error::{InputError, Result};
-
-/// Times that patterns are read again without a sensor's gain.
-const READ_AGAIN: usize = 3;
 
 /// Diagnoses an experiment: the verdict, everything it rests on, and the updated wall.
 ///

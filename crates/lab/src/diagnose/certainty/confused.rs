@@ -10,11 +10,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::diagnose::fit::{Fit, WindowSlopes};
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{Data, EQUIVALENT, Tried};
-use crate::diagnose::verdict::DETECTED;
+use crate::diagnose::limits::{DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
+use crate::diagnose::trials::{Data, Tried};
 
-/// Share of an effect's trace that another must imitate to be told of.
-const IMITATED: f64 = 0.9;
 /// Changes over which slopes are taken, in standard deviations of a number: well inside what the tests can tell.
 const CHANGE_SD: f64 = 1.0;
 /// A window whose change over half of that differs from half its change by more than this share is not linear there: an impact
@@ -100,7 +98,7 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
         Some((1.0 - left / information(effect, other, 0)?, left, other))
     });
     let (share, left, other) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    if share < IMITATED {
+    if share < IMITATED_SHARE {
         return None;
     }
     let h = &effect.tried.hypothesis;
@@ -112,7 +110,7 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
         share,
         parameter: unknown.key.clone(),
         unit: unknown.unit.to_owned(),
-        told_from_nothing: DETECTED / alone.sqrt(),
+        told_from_nothing: DETECTED_SD / alone.sqrt(),
         // Half the square of the size over its standard deviation is what speaks for one and against the other.
         told_apart: (2.0 * EQUIVALENT / left).sqrt(),
         matters: unknown.scale,

@@ -12,23 +12,17 @@ use serde::{Deserialize, Serialize};
 use crate::diagnose::answer::Findings;
 use crate::diagnose::fit::{Fit, Problem, nats, shaken, windowed_error};
 use crate::diagnose::hypothesis::Addition;
+use crate::diagnose::limits::{EQUIVALENT, NEXT_FACTORS, NEXT_FITTED, NEXT_PULLS};
 use crate::diagnose::measured::{TestData, Window, windows};
-use crate::diagnose::trials::{EQUIVALENT, Tried, against, kinds};
+use crate::diagnose::trials::{Tried, against, kinds};
 use crate::diagnose::verdict::Verdict;
 use crate::experiment::Sampled;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Contact, RockingWall};
 use mrbd_kernel::simulate::{Accuracy, Shaking, Simulator};
 
-/// Factors on the records of the tests.
-const FACTORS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
-/// Candidates the second hypothesis is fitted to; the others are told by its values as they are.
-const FITTED: usize = 3;
 /// Seed of the noise.
 const SEED: u64 = 7;
-/// Displacements of the top that a slow pull might reach, as shares of the wall's thickness: far from where it would tip,
-/// and no farther than the tests went.
-const PULLS: [f64; 2] = [0.05, 0.1];
 
 /// What would part two hypotheses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -77,7 +71,7 @@ pub fn next_tests(findings: &Findings) -> Option<NextTests> {
     let pair = Pair { findings, first, second };
     let mut shaking = pair.candidates();
     shaking.sort_by(|a, b| b.0.nats.unwrap_or(0.0).total_cmp(&a.0.nats.unwrap_or(0.0)));
-    for (row, data) in shaking.iter_mut().take(FITTED) {
+    for (row, data) in shaking.iter_mut().take(NEXT_FITTED) {
         if let Some(better) = data.as_ref().and_then(|data| pair.fitted(row, data)) {
             *row = better;
         }
@@ -122,7 +116,7 @@ struct Made {
 impl Pair<'_> {
     fn candidates(&self) -> Vec<(NextShaking, Option<Made>)> {
         let tests = self.findings.tests.iter();
-        let each = tests.flat_map(|test| FACTORS.map(|factor| (test, factor)));
+        let each = tests.flat_map(|test| NEXT_FACTORS.map(|factor| (test, factor)));
         // The tests there are have told what they can.
         let scaled = each.filter(|(_, factor)| *factor != 1.0);
         scaled.map(|(test, factor)| self.candidate(test, factor)).collect()
@@ -212,7 +206,7 @@ impl Pair<'_> {
             let force_n = walls.each_ref().map(|wall| -wall.top_force_n(displacement_m, 0.0, 0.0));
             NextPull { displacement_m, force_n }
         };
-        Some(PULLS.map(pull).to_vec())
+        Some(NEXT_PULLS.map(pull).to_vec())
     }
 }
 

@@ -8,10 +8,8 @@ use super::window_fit::{
 };
 use super::{Loss, Replay, WindowFit, fit_windows, poor_share};
 use crate::diagnose::hypothesis::Hypothesis;
+use crate::diagnose::limits::MOST_MISSED;
 use crate::diagnose::measured::{TestData, Window};
-
-/// Share of poor windows above which no other valleys are looked for.
-const MOST_POOR: f64 = 0.3;
 
 /// A fitted hypothesis.
 #[derive(Debug, Clone)]
@@ -39,7 +37,7 @@ impl Fit {
 
     /// Whether the model, and not the states it was given, is what misses the windows.
     pub fn misses_many(&self) -> bool {
-        poor_share(&self.windows) > MOST_POOR
+        poor_share(&self.windows) > MOST_MISSED
     }
 }
 

@@ -1,12 +1,7 @@
 //! How well a hypothesis follows the measurement over windows.
 
 use super::window_fit::WindowFit;
-
-/// Share of the windows, those worst followed, left out of the windowed error: an impact decided by less than the noise
-/// parts even a perfect simulation from the measurement.
-const LEFT_OUT: f64 = 0.1;
-/// What one window can say against a hypothesis at most, in natural logarithms of likelihood.
-const MOST_NATS: f64 = 40.0;
+use crate::diagnose::limits::{LEFT_OUT, MOST_NATS};
 
 /// Root mean square error over windows, in standard deviations of the noise; 1 is perfect.
 /// None where there are none.

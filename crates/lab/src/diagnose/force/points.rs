@@ -6,6 +6,7 @@ use super::kernel::Kernel;
 use super::stretch::{Stretch, stretches};
 use crate::diagnose::fit::{SpringMemory, shaken};
 use crate::diagnose::hypothesis::Physics;
+use crate::diagnose::limits::DIRECTION_CLEAR;
 use crate::diagnose::measured::{Freedom, TestData, rest_offset_rad};
 use mrbd_kernel::model::{Contact, Pair, RockingWall, State, Vector};
 use mrbd_kernel::simulate::{Accuracy, Simulator};
@@ -19,8 +20,6 @@ const KNOWN_TO: f64 = 0.1;
 const LEAST_HALF: usize = 4;
 /// Shorter stretches than this share of the full reach know the force too badly.
 const LEAST_REACH: f64 = 0.5;
-/// Squared standard deviations of noise beyond which a residual has a direction.
-const CLEAR: f64 = 16.0;
 /// Parts in which the ground motion about a sample is summed.
 const PARTS: i32 = 8;
 
@@ -192,7 +191,7 @@ impl Residual {
         missing: &Missing,
     ) -> Option<f64> {
         let size = (0..2).map(|i| missing.theta_dd[i].powi(2) / missing.variance[i]).sum::<f64>();
-        if freedom != Freedom::Both || size < CLEAR {
+        if freedom != Freedom::Both || size < DIRECTION_CLEAR {
             return None;
         }
         let m = self.wall.moments_n_m(contact, theta, missing.theta_dd);

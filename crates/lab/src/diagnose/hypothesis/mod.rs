@@ -11,7 +11,7 @@ mod wall_number;
 
 pub use addition::{ACTING, Addition};
 pub use candidates::candidates;
-pub use nuisance::{Nuisance, PRIOR_REACH};
+pub use nuisance::Nuisance;
 pub use scale::Scales;
 pub use unknown::Unknown;
 pub use wall_number::{WALL_NUMBERS, WallNumber, wall_number};

@@ -9,6 +9,7 @@
 
 use rayon::prelude::*;
 
+use crate::diagnose::limits::FRICTION_WITHIN;
 use super::Tried;
 use super::search::refit;
 use super::{Trials, is_noise, kinds};
@@ -20,10 +21,7 @@ use mrbd_kernel::model::EffectKind;
 const SPRING: EffectKind = EffectKind::YieldingSpring;
 /// Friction.
 pub const FRICTION: EffectKind = EffectKind::CoulombFriction;
-/// Share of the largest displacement of the top within which a spring yields that is friction. Chosen: a tie or a nail that
-/// yields gives by tens of percent of it, friction by hundredths of one.
-const AT_ONCE: f64 = 0.01;
-/// Shares of it over which friction may set in, from which a spring in its place is fitted.
+/// Shares of the largest displacement of the top over which friction may set in, from which a spring in its place is fitted.
 const ONSETS: [f64; 4] = [3e-4, 1e-3, 3e-3, 1e-2];
 
 /// Friction that is an addition by the name of a spring.
@@ -44,7 +42,7 @@ pub fn giving_friction(h: &Hypothesis, values: &[f64], index: usize) -> Option<G
     let onset_m = values[force] / values[stiffness];
     // The size of a force that matters over that of a stiffness is the largest displacement.
     let largest_m = h.unknowns[force].scale / h.unknowns[stiffness].scale;
-    (onset_m > 0.0 && onset_m < AT_ONCE * largest_m).then_some(GivingFriction { force, onset_m })
+    (onset_m > 0.0 && onset_m < FRICTION_WITHIN * largest_m).then_some(GivingFriction { force, onset_m })
 }
 
 /// Which of the numbers of a hypothesis an addition has by this key.

@@ -26,10 +26,7 @@ mod starts;
 mod tried;
 
 pub use alone::Alone;
-pub use criteria::{
-    EQUIVALENT, FLOOR, HELD_OUT, against, all_windows, best_answer, closes, does_something, is_noise,
-    joint_error, kinds,
-};
+pub use criteria::{against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds};
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub use misread_gain::{gain_misread, reads_better, set_gain};
 pub use opened_joints::{opened_as_given, opened_windows};
@@ -41,13 +38,9 @@ use rayon::prelude::*;
 use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
+use crate::diagnose::limits::{POLISHED, WORTH_POLISH};
 use finishing::{Coarse, worth_finishing};
 use search::{finish, refit, try_coarsely};
-
-/// Rivals fitted once more from other starts.
-const POLISHED: usize = 3;
-/// Gain above which that is worth its time.
-const WORTH_POLISH: f64 = 10.0;
 
 /// Where hypotheses are tried.
 pub struct Trials<'a, P> {

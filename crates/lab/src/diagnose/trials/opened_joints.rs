@@ -9,18 +9,11 @@ use super::{Alone, Data, Tried, best_answer, untouched};
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Fit, Problem, Replay, WindowFit, fit_windows};
 use crate::diagnose::hypothesis::{Hypothesis, Physics};
+use crate::diagnose::limits::{GAINED_BY_OPENING, READS_CLOSED, WORTH_OPENING};
 use crate::diagnose::measured::{Freedom, TestData, Window};
 
-/// Windows that start with a joint open by less than the noise, for which everything is fitted again.
-const WORTH_OPENING: usize = 2;
 /// Steps by which the state of a window with its bodies free is fitted.
 const STEPS: usize = 6;
-/// What the free bodies must take away of the squared error of a window, in squared noise, for its joints to count as open.
-/// Chosen: two numbers that say nothing take away two, from the best of forty starts some ten.
-const GAINED_BY_OPENING: f64 = 60.0;
-/// A joint open by more than this, in the noise of a channel, does not read as closed: 17 samples know each rotation to 0.37 of
-/// the noise, and their difference to half of it; three times that.
-const READS_CLOSED: f64 = 1.5;
 
 /// The windows with joints open that read as closed, where the wall as given follows them so: a small gap does not show
 /// beside windows that no wall follows.

@@ -10,12 +10,10 @@ use super::Tried;
 use super::search::{refit, shared_states};
 use super::{Trials, against, kinds};
 use crate::Progress;
+use crate::diagnose::limits::{ANSWER_ROUNDS, WORTH_A_ROUND};
 
 /// Shares of what an added number does from which the fits set out.
 const SHARES: [f64; 6] = [0.7, 0.87, 0.96, 1.04, 1.15, 1.4];
-/// Times that the best sets out again, and the gain that is worth it, in natural logarithms of likelihood.
-const ROUNDS: usize = 3;
-const WORTH_A_ROUND: f64 = 1.0;
 
 impl<P: Progress> Trials<'_, P> {
     /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one
@@ -31,7 +29,7 @@ impl<P: Progress> Trials<'_, P> {
     /// The same additions with the numbers and states that speak least against them.
     pub fn settled(&self, answer: Tried) -> Tried {
         let mut best = answer;
-        for _ in 0..ROUNDS {
+        for _ in 0..ANSWER_ROUNDS {
             let next = self.once_more(&best);
             let gain = against(&self.data, &best) - against(&self.data, &next);
             if gain > 0.0 {

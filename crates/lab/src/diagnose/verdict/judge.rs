@@ -9,21 +9,13 @@ use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
+use crate::diagnose::limits::{
+    EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS,
+};
 use crate::diagnose::trials::{
-    Alone, EQUIVALENT, HELD_OUT, Trials, Tried, against, best_answer, closes, does_something, is_noise,
-    joint_error, kinds,
+    Alone, Trials, Tried, against, best_answer, closes, does_something, is_noise, joint_error, kinds,
 };
 use mrbd_kernel::model::{EffectKind, Role};
-
-/// Gain in natural logarithms of likelihood, over the windows fitted and held out together, below which an effect is not
-/// worth its name. Chosen: the effects of the development set gain hundreds.
-pub const WORTH_A_NAME: f64 = 30.0;
-/// Gain of the best single addition below which pairs are not tried.
-const WORTH_PAIRS: f64 = 60.0;
-/// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
-const KNOWN: f64 = 0.02;
-/// Share by which a number of the wall moves that was not known.
-const MOVED: f64 = 0.1;
 
 /// What was found in given windows.
 #[derive(Debug)]
@@ -117,7 +109,7 @@ impl<P: Progress> Gap<'_, P> {
         let singles = self.trials.with_imitations(self.trials.with_far_settled(singles), self.error);
         let one = self.named(&singles, &self.recalibrated);
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
-        let far = joint_error(&self.recalibrated).is_some_and(|error| error > HELD_OUT);
+        let far = joint_error(&self.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
         if one.is_none() && !far && gain <= WORTH_PAIRS {
             return self.placed(None, singles);
         }
@@ -209,7 +201,7 @@ impl<P: Progress> Gap<'_, P> {
             };
             let found = hypothesis.unknowns.iter().zip(&fit.values).find(|(u, _)| u.key == key);
             let change = found.map_or(0.0, |(u, value)| (value / u.start - 1.0).abs());
-            nuisance.is_wide() && change > MOVED
+            nuisance.is_wide() && change > MOVED_SHARE
         };
         self.trials.experiment.nuisances.iter().filter(moved).copied().collect()
     }
@@ -217,8 +209,8 @@ impl<P: Progress> Gap<'_, P> {
     /// Effects in place of numbers of the wall, as if these were known.
     fn effects_instead(&self) -> Vec<Tried> {
         let known = |n: &Nuisance| match *n {
-            Nuisance::Number(number, sd) => Nuisance::Number(number, sd.min(KNOWN)),
-            Nuisance::Coefficient(l, sd) => Nuisance::Coefficient(l, sd.min(KNOWN)),
+            Nuisance::Number(number, sd) => Nuisance::Number(number, sd.min(MEASURED_PRIOR)),
+            Nuisance::Coefficient(l, sd) => Nuisance::Coefficient(l, sd.min(MEASURED_PRIOR)),
         };
         let Experiment { nuisances, wall, .. } = self.trials.experiment;
         let nuisances = nuisances.iter().map(known).collect::<Vec<_>>();

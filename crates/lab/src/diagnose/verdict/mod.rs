@@ -12,7 +12,7 @@ pub use amplitude::Trend;
 pub use judge::{Found, judge};
 pub use names::names;
 pub use other_law::OtherLaw;
-pub use power::{DETECTED, power};
+pub use power::power;
 
 use serde::{Deserialize, Serialize};
 

@@ -1,20 +1,10 @@
 //! Whether two effects are worth telling where one was.
 
 use crate::diagnose::fit::{Fit, nats};
+use crate::diagnose::limits::{
+    WORTH_A_SECOND, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
+};
 use crate::diagnose::trials::{Data, Tried, all_windows};
-
-/// Gain of a second effect over the best single one below which it is not told, in natural logarithms of likelihood over all
-/// windows. Chosen: a second effect that was there gained 1026; one that was not took up what another way of modelling a
-/// contact leaves, 79, or a law outside the catalogue, 240 and once 399.
-const WORTH_A_SECOND: f64 = 300.0;
-/// The same where both together leave no more than noise: what takes up another law or another contact leaves the rest of it.
-/// Chosen above the 79; one that was there gained 226.
-const WORTH_A_SECOND_TO_NOISE: f64 = 150.0;
-/// The same where the tests held out see it too. Chosen: of some 210 cases with one effect hidden, a second one that they saw
-/// gained 47 at most to noise, and one of which they saw 3 gained 89; one that was there gained 91.
-const WORTH_A_SECOND_SEEN: f64 = 70.0;
-/// Gain over the tests held out below which it is not told, where they could show it.
-const WORTH_A_SECOND_HELD_OUT: f64 = 30.0;
 
 /// Whether two effects are worth telling where one was.
 pub fn worth_two(data: &Data, one: &Tried, two: &Tried) -> bool {
