@@ -117,6 +117,8 @@ limits! {
     MISSED_SD: f64 = 5.0, "standard deviations";
     /// Share of missed windows above which no other valleys are looked for.
     MOST_MISSED: f64 = 0.3, "share";
+    /// Squared error that the middle loss bounds: where a third of the windows lie beyond it, a fit is far from the tests.
+    MIDDLE_BOUND: f64 = 8.0, "squared noise";
     /// Share of the windows, those followed worst, left out of the windowed error.
     ///
     /// An impact decided by less than the noise parts even a perfect simulation from the measurement.
@@ -198,6 +200,8 @@ limits! {
     IMITATING_PAIRS: usize = 8, "";
     /// Gain of the best single addition below which pairs are not tried, if the gap is not far above the noise.
     WORTH_PAIRS: f64 = 60.0, "ln of likelihood";
+    /// Shares of its fitted size from which each number of an answer is fitted again.
+    ANSWER_SHARES: [f64; 6] = [0.7, 0.87, 0.96, 1.04, 1.15, 1.4], "share";
     /// Times that an answer is fitted again from about itself.
     ANSWER_ROUNDS: usize = 3, "";
     /// Gain that is worth another time.

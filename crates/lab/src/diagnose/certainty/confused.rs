@@ -45,7 +45,7 @@ pub struct Confused {
 /// How the windows change with the numbers of one addition.
 struct Trace<'t> {
     tried: &'t Tried,
-    /// Of every window; none where it is not linear.
+    /// Of every window; `None` where it is not linear.
     slopes: Vec<Option<WindowSlopes>>,
 }
 
@@ -119,7 +119,7 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
 }
 
 /// Inverse variance of an effect's number beside the wall's own uncertain numbers and the first few of another addition, in
-/// the windows in which both are linear; none where it leaves no trace.
+/// the windows in which both are linear; `None` where it leaves no trace.
 fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
     let h = &effect.tried.hypothesis;
     let (own, at) = (h.nuisances, h.nuisances);

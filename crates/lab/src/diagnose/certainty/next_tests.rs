@@ -61,7 +61,7 @@ pub struct NextPull {
     pub force_n: [f64; 2],
 }
 
-/// What would part the answer from its nearest rival; none where the verdict is no class.
+/// What would part the answer from its nearest rival; `None` where the verdict is no class.
 pub fn next_tests(findings: &Findings) -> Option<NextTests> {
     if findings.found.verdict != Verdict::Class {
         return None;

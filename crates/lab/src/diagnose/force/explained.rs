@@ -9,7 +9,7 @@ const NOISY: f64 = 2.0;
 const NOISY_SHARE: f64 = 0.2;
 
 /// Share of the squared missing force, noise taken off, that a line from neighbour to neighbour explains at each point
-/// without the point itself; none where the force is hardly more than noise.
+/// without the point itself; `None` where the force is hardly more than noise.
 ///
 /// 1: the force is a function of this quantity alone, sampled closely enough; 0 or less: it is none.
 pub fn explained_by(points: &[ForcePoint], against: Against) -> Option<f64> {

@@ -44,7 +44,7 @@ pub struct ForcePoint {
     pub force_n: f64,
     /// Standard deviation of that force by the noise of the rotations, N.
     pub force_sd_n: f64,
-    /// Share of the squared residual moment off the direction of a force at the top; none where a single moment, or noise,
+    /// Share of the squared residual moment off the direction of a force at the top; `None` where a single moment, or noise,
     /// has no direction.
     pub share_off_top: Option<f64>,
 }

@@ -17,7 +17,7 @@ pub struct Alone {
 }
 
 impl<P: Progress> Trials<'_, P> {
-    /// Everything that is tried alone; none if there is no window to start in. The wall's uncertain numbers are fitted from
+    /// Everything that is tried alone; `None` if there is no window to start in. The wall's uncertain numbers are fitted from
     /// values `known` from elsewhere too.
     pub fn alone(&self, known: Option<&[f64]>) -> Option<Alone> {
         let nuisances = &self.experiment.nuisances;

@@ -8,7 +8,7 @@ use super::{Data, Tried, kind_of};
 use crate::diagnose::fit::{WindowFit, more_poor_held_out_sd, poor_share, windowed_error};
 use mrbd_kernel::model::EffectKind;
 
-/// Windowed error over fitted and held-out windows together; none where there are none.
+/// Windowed error over fitted and held-out windows together; `None` where there are none.
 pub fn joint_error(tried: &Tried) -> Option<f64> {
     windowed_error(&all_windows(tried))
 }
@@ -45,7 +45,7 @@ pub fn closes(tried: &Tried, before: f64) -> bool {
     held_out && !too_many_poor(&all_windows(tried)) && (after < NOISE_AFTER || left < LEFT_OF_GAP)
 }
 
-/// Kinds of a hypothesis' additions, sorted; none if one is no answer.
+/// Kinds of a hypothesis' additions, sorted; `None` if one is no answer.
 pub fn kinds(tried: &Tried) -> Option<Vec<EffectKind>> {
     let h = &tried.hypothesis;
     let kind = |index| kind_of(h, &tried.fit.values, index);

@@ -69,7 +69,7 @@ impl<P: Progress> Trials<'_, P> {
         let Some((h, from)) = best.and_then(|best| Some((self.giving_instead(best)?, best))) else {
             return tried;
         };
-        self.progress.begin("friction that gives first", ONSETS.len());
+        self.progress.begin("friction with a soft onset", ONSETS.len());
         let fit = |onset: &f64| {
             let found = giving_values(&h, from, *onset)
                 .and_then(|values| refit(&self.data, h.clone(), from, &values));
@@ -80,7 +80,7 @@ impl<P: Progress> Trials<'_, P> {
         self.best_of_each([tried, found].concat())
     }
 
-    /// The hypothesis with a spring that yields in the place of friction; none if it has no friction, or a spring already.
+    /// The hypothesis with a spring that yields in the place of friction; `None` if it has no friction, or a spring already.
     fn giving_instead(&self, tried: &Tried) -> Option<Hypothesis> {
         let mut additions = tried.hypothesis.additions.clone();
         let (friction, None) = (position(&additions, FRICTION)?, position(&additions, SPRING)) else {
@@ -93,7 +93,7 @@ impl<P: Progress> Trials<'_, P> {
 }
 
 /// The values of a hypothesis with friction for the one with a spring in its place, which yields at the same force, after a
-/// share of the largest displacement; none if either is missing.
+/// share of the largest displacement; `None` if either is missing.
 fn giving_values(h: &Hypothesis, from: &Tried, onset: f64) -> Option<Vec<f64>> {
     let number_of = |h: &Hypothesis, kind, key| number(h, position(&h.additions, kind)?, key);
     let stiffness = number_of(h, SPRING, "stiffness_n_per_m")?;

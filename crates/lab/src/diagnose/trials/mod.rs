@@ -6,7 +6,7 @@
 //! | `criteria` | when it follows the tests within noise, closes a gap, does something |
 //! | `alone` | the wall as given, its own numbers, and effects one by one |
 //! | `pairs` | two effects together |
-//! | `imitate`, `rivals` | what may stand for the best, from where it would |
+//! | `imitate`, `rivals` | candidates that could imitate the best |
 //! | `friction` | friction that gives a little first |
 //! | `settle` | an answer from about itself, until it is the best of its kind |
 //! | `misread_gain`, `opened_joints` | patterns read again, without a sensor's gain and with joints open by less than the noise |
@@ -80,7 +80,7 @@ impl<P: Progress> Trials<'_, P> {
         let judge = |tried: &Tried| Coarse { against: against(tried), error: tried.fit_error() };
         let judged = coarse.iter().map(judge).collect::<Vec<_>>();
         let chosen = worth_finishing(&judged);
-        self.progress.begin("the best in full", chosen.len());
+        self.progress.begin("the best candidates, in full", chosen.len());
         let finish_one = |i: &usize| {
             let finished = finish(&self.data, &coarse[*i]);
             self.progress.advance(1);
@@ -126,7 +126,7 @@ impl<P: Progress> Trials<'_, P> {
             return tried;
         }
         let count = tried.len().min(POLISHED);
-        self.progress.begin("the best again", count);
+        self.progress.begin("the best candidates, again", count);
         let again = |old: &Tried| {
             let h = self.hypothesis(nuisances, &old.hypothesis.additions);
             let about = |factor: f64| {

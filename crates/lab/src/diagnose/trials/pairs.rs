@@ -47,7 +47,7 @@ impl<P: Progress> Trials<'_, P> {
         let effects = effects.into_iter().filter(effect).collect::<Vec<_>>();
         let Some(found) = seconds(&self.data, first, &effects, hypothesis) else { return Vec::new() };
         let found = found.into_iter().take(BESIDE_THE_BEST).collect::<Vec<_>>();
-        self.progress.begin("what helps most beside the best", found.len());
+        self.progress.begin("second effects beside the best", found.len());
         found.par_iter().filter_map(|imitation| self.fit_from(imitation, first)).collect()
     }
 
@@ -60,7 +60,7 @@ impl<P: Progress> Trials<'_, P> {
         count: usize,
     ) -> Vec<(Hypothesis, &'t Tried)> {
         let sets = sets(bases, answers);
-        self.progress.begin("a glance at pairs", sets.iter().map(Vec::len).sum());
+        self.progress.begin("pairs of effects, a first look", sets.iter().map(Vec::len).sum());
         let look = |first: &'t Tried, set: &[Addition; 2]| {
             let h = self.hypothesis(&self.experiment.nuisances, set);
             let cost = promise(&self.data, &h, first).unwrap_or(f64::NEG_INFINITY);

@@ -1,4 +1,4 @@
-//! What may stand for the best, fitted from where it would, and on the same terms.
+//! Candidates that could imitate the best, fitted from where a linear look puts them.
 
 use rayon::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::diagnose::hypothesis::{Addition, candidates};
 use mrbd_kernel::model::Role;
 
 impl<P: Progress> Trials<'_, P> {
-    /// Single effects or pairs, and where the best closes the gap, what may stand for it, from where it would.
+    /// Single effects or pairs; where the best closes the gap, with the candidates that could imitate it.
     pub fn with_imitations(&self, tried: Vec<Tried>, gap: f64) -> Vec<Tried> {
         let Some(best) = tried.first().filter(|t| closes(t, gap) && kinds(t).is_some()) else { return tried };
         let nuisances = &self.experiment.nuisances;
@@ -28,7 +28,7 @@ impl<P: Progress> Trials<'_, P> {
         };
         let new = imitations.into_iter().filter(|i| one || !fitted_before(i));
         let new = new.take(if one { IMITATING_SINGLES } else { IMITATING_PAIRS }).collect::<Vec<_>>();
-        self.progress.begin("what may stand for the best", new.len());
+        self.progress.begin("candidates that could imitate the best", new.len());
         let fitted = new.par_iter().filter_map(|i| self.fit_from(i, best)).collect::<Vec<_>>();
         self.sharing(self.best_of_each([tried, fitted].concat()))
     }

@@ -10,10 +10,7 @@ use super::Tried;
 use super::search::{refit, shared_states};
 use super::{Trials, against, kinds};
 use crate::Progress;
-use crate::diagnose::limits::{ANSWER_ROUNDS, WORTH_A_ROUND};
-
-/// Shares of what an added number does from which the fits set out.
-const SHARES: [f64; 6] = [0.7, 0.87, 0.96, 1.04, 1.15, 1.4];
+use crate::diagnose::limits::{ANSWER_ROUNDS, ANSWER_SHARES, WORTH_A_ROUND};
 
 impl<P: Progress> Trials<'_, P> {
     /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one
@@ -45,7 +42,7 @@ impl<P: Progress> Trials<'_, P> {
     fn once_more(&self, best: &Tried) -> Tried {
         let against = |tried: &Tried| against(&self.data, tried);
         let starts = starts(best);
-        self.progress.begin("the answer from about itself", starts.len());
+        self.progress.begin("the answer, from starts about it", starts.len());
         let fit = |values: Vec<f64>| {
             let found = refit(&self.data, best.hypothesis.clone(), best, &values);
             self.progress.advance(1);
@@ -79,5 +76,5 @@ fn starts(best: &Tried) -> Vec<Vec<f64>> {
         values
     };
     let sets = (0..h.additions.len()).flat_map(|index| together(of(index)));
-    sets.flat_map(|numbers| SHARES.map(|share| moved(&numbers, share))).collect()
+    sets.flat_map(|numbers| ANSWER_SHARES.map(|share| moved(&numbers, share))).collect()
 }

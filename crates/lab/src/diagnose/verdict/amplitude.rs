@@ -18,7 +18,7 @@ pub struct Trend {
 
 /// The trends of the added numbers of a fitted hypothesis.
 ///
-/// Linear about the fit. Factors of impacts are not asked: they come in sixes. None where the slopes cannot be told.
+/// Linear about the fit. Factors of impacts are not asked: they come in sixes. `None` where the slopes cannot be told.
 pub fn trends_with_amplitude(data: &Data, tried: &Tried) -> Option<Vec<Trend>> {
     let h = &tried.hypothesis;
     let sides = [(data.fit, &tried.fit), (data.held_out, &tried.held_out)];

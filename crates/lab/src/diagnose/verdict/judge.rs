@@ -130,7 +130,7 @@ impl<P: Progress> Gap<'_, P> {
         let best_single = |tried: &[Tried]| best_answer(tried).unwrap_or(&self.recalibrated).clone();
         let pairs = trials.pairs(&tried, &best_single(&tried), &self.before, self.error, one.is_some());
         let mut one = one;
-        // A pair of which one effect does nothing is the other alone, fitted better.
+        // Where one effect of the best pair does nothing, its fit is a better one of the other effect alone.
         if let Some(pair) = pairs.first().filter(|pair| !does_something(pair)) {
             tried = trials.ordered(tried.into_iter().map(|t| trials.better_part(t, pair)).collect());
             one = self.named(&tried, &self.recalibrated);
@@ -159,7 +159,7 @@ impl<P: Progress> Gap<'_, P> {
         Some(Answer { verdict, after: best.clone(), equivalent })
     }
 
-    /// Names of the best and of what cannot be told from it; none if that is nothing.
+    /// Names of the best and of what cannot be told from it; empty if that is nothing.
     fn equivalent(&self, best: &Tried, closing: &[&Tried]) -> Vec<String> {
         let own = kinds(best);
         let limit = against(&self.trials.data, best) + EQUIVALENT;
@@ -217,7 +217,7 @@ impl<P: Progress> Gap<'_, P> {
         // A second spring that hardly yields is the floor's own, by another name.
         let other_law = |a: &Addition| a.role().is_some_and(|role| role != Role::Memory);
         let sets = candidates(wall.parameters()).into_iter().filter(other_law).map(|a| vec![a]);
-        let what = "effects in place of what was not known";
+        let what = "effects in place of unknown numbers of the wall";
         self.trials.try_all(what, &nuisances, &[&self.before], &sets.collect::<Vec<_>>())
     }
 

@@ -22,7 +22,7 @@ pub fn could_show(data: &Data, without: &Tried, singles: &[Tried]) -> bool {
     2 * powers.iter().filter(|power| power.named_from < power.matters).count() >= powers.len()
 }
 
-/// What the tests can tell of a single effect, beside the wall `without` it; none where its fit leaves no covariance, or it is
+/// What the tests can tell of a single effect, beside the wall `without` it; `None` where its fit leaves no covariance, or it is
 /// no effect.
 pub fn power(data: &Data, without: &Tried, tried: &Tried) -> Option<Power> {
     let h = &tried.hypothesis;

@@ -6,7 +6,7 @@ use crate::diagnose::limits::{
 };
 use crate::diagnose::trials::{Data, Tried, all_windows};
 
-/// Whether two effects are worth telling where one was.
+/// Whether a second effect is worth naming beside the first.
 pub fn worth_two(data: &Data, one: &Tried, two: &Tried) -> bool {
     let gain: [f64; 2] = std::array::from_fn(|i| one.against(data)[i] - two.against(data)[i]);
     // A damper in a crack that stays shut in the tests held out is neither seen nor refuted there.
@@ -39,7 +39,7 @@ fn shows_held_out(data: &Data, one: &Tried, two: &Tried) -> bool {
 }
 
 /// What each addition of a hypothesis does to the windows held out beyond what their states can do, half its squared size over
-/// the noise: about what taking it away would cost, in natural logarithms of likelihood. Linear; none where slopes cannot be
+/// the noise: about what taking it away would cost, in natural logarithms of likelihood. Linear; `None` where slopes cannot be
 /// told.
 fn traces_held_out(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
     let h = &tried.hypothesis;
