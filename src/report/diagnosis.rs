@@ -3,14 +3,14 @@
 
 mod candidates;
 mod columns;
+mod could_hide;
 mod force;
-mod hide;
 mod histories;
 mod jumps;
-mod next;
-mod parting;
+mod next_tests;
 mod place;
 mod shape;
+mod window_errors;
 mod words;
 
 use std::path::Path;
@@ -38,19 +38,19 @@ pub fn page(folder: &Path) -> Result<Page> {
     let path = folder.join("diagnosis.json");
     let summary: Summary = read_json(&path, "results as `mrbd diagnose` writes them, finished")?;
     let note = Note::read(&folder.join("manifest.json"))?;
-    let windows = parting::Windows::read(&folder.join("windows.parquet"))?;
+    let windows = window_errors::Windows::read(&folder.join("windows.parquet"))?;
     let force = force::Points::read(folder)?;
     let histories = histories::Histories::read(&folder.join("histories.parquet"))?;
     let sections = vec![
         histories::measured_section(&histories, &summary)?,
-        parting_section(folder, &windows, &summary)?,
+        window_section(folder, &windows, &summary)?,
         place::place_section(&force, &histories, &summary)?,
         shape::shape_section(&force, &summary)?,
         candidates::section(&summary)?,
         candidates::rivals_section(&summary)?,
         histories::held_out_section(&histories, &summary)?,
-        hide::section(&summary)?,
-        next::section(&summary),
+        could_hide::section(&summary)?,
+        next_tests::section(&summary),
     ];
     let mut files = vec!["manifest.json", "diagnosis.json", "wall.updated.toml"];
     files.extend(TABLES);
@@ -65,8 +65,8 @@ pub fn page(folder: &Path) -> Result<Page> {
     })
 }
 
-fn parting_section(folder: &Path, windows: &parting::Windows, summary: &Summary) -> Result<Section> {
-    let mut section = parting::section(windows, summary)?;
+fn window_section(folder: &Path, windows: &window_errors::Windows, summary: &Summary) -> Result<Section> {
+    let mut section = window_errors::section(windows, summary)?;
     section.figures.extend(jumps::figure(&folder.join("jumps.parquet"), summary)?);
     Ok(section)
 }

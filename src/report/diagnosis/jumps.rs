@@ -7,7 +7,7 @@ use super::super::colours::Mark;
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link};
 use super::columns::Columns;
-use super::parting::CHANGES;
+use super::window_errors::CHANGES;
 use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
 use mrbd_lab::diagnose::answer::Summary;

@@ -6,22 +6,22 @@
 //! | `criteria` | when it follows the tests within noise, closes a gap, does something |
 //! | `alone` | the wall as given, its own numbers, and effects one by one |
 //! | `pairs` | two effects together |
-//! | `imitate`, `rivals` | candidates that could imitate the best |
+//! | `imitation`, `rivals` | candidates that could imitate the best |
 //! | `friction` | friction that gives a little first |
-//! | `settle` | an answer from about itself, until it is the best of its kind |
+//! | `refine` | an answer fitted again from starts about it, until that gains nothing |
 //! | `misread_gain`, `opened_joints` | patterns read again, without a sensor's gain and with joints open by less than the noise |
 
 mod alone;
 mod criteria;
 mod finishing;
 mod friction;
-mod imitate;
+mod imitation;
 mod misread_gain;
 mod opened_joints;
 mod pairs;
+mod refine;
 mod rivals;
 mod search;
-mod settle;
 mod starts;
 mod tried;
 

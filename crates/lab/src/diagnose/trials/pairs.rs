@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::diagnose::limits::{BESIDE_THE_BEST, PAIRED, PAIRS_BESIDE_A_NAME, PAIRS_WITHOUT_A_NAME};
-use super::imitate::seconds;
+use super::imitation::seconds;
 use super::search::{promise, try_second};
 use super::{Trials, Tried, kinds};
 use crate::Progress;

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::diagnose::limits::{IMITATING_PAIRS, IMITATING_SINGLES, NEAR_BEST, SHARING_STATES};
-use super::imitate::{Imitation, imitations};
+use super::imitation::{Imitation, imitations};
 use super::search::{refit, shared_states};
 use super::{Trials, Tried, against, closes, kinds};
 use crate::Progress;

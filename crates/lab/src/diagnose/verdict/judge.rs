@@ -106,7 +106,7 @@ impl<P: Progress> Gap<'_, P> {
 
     /// One effect or two by name, or the place of what is missing.
     fn with_effects(self, singles: Vec<Tried>, gain: f64) -> Found {
-        let singles = self.trials.with_imitations(self.trials.with_far_settled(singles), self.error);
+        let singles = self.trials.with_imitations(self.trials.with_far_refined(singles), self.error);
         let one = self.named(&singles, &self.recalibrated);
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
         let far = joint_error(&self.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
@@ -115,7 +115,7 @@ impl<P: Progress> Gap<'_, P> {
         }
         let (answer, tried) = self.with_pairs(one, singles);
         let Some(answer) = answer else { return self.placed(None, tried) };
-        let answer = Answer { after: self.trials.settled(answer.after), ..answer };
+        let answer = Answer { after: self.trials.refined(answer.after), ..answer };
         let other_law = OtherLaw::beside(&self.trials.data, &answer.after);
         if other_law.speaks() {
             return self.placed(Some(other_law), tried);

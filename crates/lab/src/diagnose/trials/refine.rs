@@ -14,17 +14,17 @@ use crate::diagnose::limits::{ANSWER_ROUNDS, ANSWER_SHARES, WORTH_A_ROUND};
 
 impl<P: Progress> Trials<'_, P> {
     /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one
-    /// settled: what such windows say is at its bound, and a fit ends before the numbers of the right law.
-    pub fn with_far_settled(&self, tried: Vec<Tried>) -> Vec<Tried> {
+    /// refined: what such windows say is at its bound, and a fit ends before the numbers of the right law.
+    pub fn with_far_refined(&self, tried: Vec<Tried>) -> Vec<Tried> {
         let answers = tried.iter().filter(|t| kinds(t).is_some());
         let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
         let Some(far) = follows.filter(|t| t.fit.is_far()).cloned() else { return tried };
-        let settled = self.settled(far);
-        self.best_of_each([tried, vec![settled]].concat())
+        let refined = self.refined(far);
+        self.best_of_each([tried, vec![refined]].concat())
     }
 
     /// The same additions with the numbers and states that speak least against them.
-    pub fn settled(&self, answer: Tried) -> Tried {
+    pub fn refined(&self, answer: Tried) -> Tried {
         let mut best = answer;
         for _ in 0..ANSWER_ROUNDS {
             let next = self.once_more(&best);
