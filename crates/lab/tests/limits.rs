@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use mrbd_lab::diagnose::limits::{GROUPS, Limit};
+use mrbd_lab::limits::{GROUPS, Limit};
 
 const BEGIN: &str = "<!-- limits: ";
 const END: &str = "<!-- end of limits -->";

@@ -8,7 +8,7 @@ use super::words::{at, parameters};
 use super::{MEASURED, key};
 use crate::error::Result;
 use mrbd_lab::diagnose::answer::{Rival, Summary};
-use mrbd_lab::diagnose::limits::EQUIVALENT;
+use mrbd_lab::limits::EQUIVALENT;
 
 /// Most rows of a figure, and of a table.
 const DRAWN: usize = 12;

@@ -9,7 +9,7 @@ use super::{MEASURED, key};
 use crate::error::Result;
 use mrbd_lab::diagnose::answer::{CouldHide, Summary};
 use mrbd_lab::diagnose::certainty::Confused;
-use mrbd_lab::diagnose::limits::{DETECTED_SD, WORTH_A_NAME};
+use mrbd_lab::limits::{DETECTED_SD, WORTH_A_NAME};
 
 /// Shares of a size that matters below and above which nothing is drawn more exactly.
 const RANGE: [f64; 2] = [1e-4, 30.0];

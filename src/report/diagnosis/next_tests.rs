@@ -5,7 +5,7 @@ use super::words::number;
 use mrbd_lab::diagnose::Verdict;
 use mrbd_lab::diagnose::answer::Summary;
 use mrbd_lab::diagnose::certainty::{NextPull, NextShaking, NextTests};
-use mrbd_lab::diagnose::limits::EQUIVALENT;
+use mrbd_lab::limits::EQUIVALENT;
 
 /// The section.
 pub fn section(summary: &Summary) -> Section {

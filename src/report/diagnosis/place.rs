@@ -11,7 +11,7 @@ use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
 use mrbd_kernel::model::PATTERN_NAMES;
 use mrbd_lab::diagnose::answer::{Rival, Summary};
-use mrbd_lab::diagnose::limits::{ALONG_TOP, LEAST_DIRECTIONS};
+use mrbd_lab::limits::{ALONG_TOP, LEAST_DIRECTIONS};
 
 /// Share off the direction of the top from which a force there alone does not explain the residual: twins of a late record
 /// have 0.1 and more.

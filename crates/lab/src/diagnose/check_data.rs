@@ -3,12 +3,12 @@
 
 use rayon::prelude::*;
 
-use crate::diagnose::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER};
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Problem, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::diagnose::trials::{Data, untouched};
 use crate::experiment::{TestData, rest_offset_rad, windows};
+use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER};
 use mrbd_files::error::{InputError, Result};
 
 type Misreading = (&'static str, fn(&mut TestData));

@@ -3,13 +3,13 @@
 use crate::Progress;
 use crate::diagnose::answer::{Diagnosis, Findings};
 use crate::diagnose::experiment::Experiment;
-use crate::diagnose::limits::READ_AGAIN;
 use crate::diagnose::measured::{TestData, Window, is_readable, windows};
 use crate::diagnose::trials::{
     Alone, Data, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain,
 };
 use crate::diagnose::verdict::judge;
 use crate::experiment_file::Purpose;
+use crate::limits::READ_AGAIN;
 use mrbd_files::error::{InputError, Result};
 
 /// Diagnoses an experiment: the verdict, everything it rests on, and the updated wall.

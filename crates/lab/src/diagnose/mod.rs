@@ -12,7 +12,7 @@
 //! | [`verdict`] | nothing missing, the wall's own numbers, one effect or two by name, or a place |
 //! | [`certainty`] | how well its numbers are known, what could not be told from it, which test would tell |
 //! | [`force`] | the missing force, measured: no hypothesis enters |
-//! | [`limits`] | every number that decides |
+//! | [`mod@crate::limits`] | every number that decides |
 //! | [`answer`] | all of it worked out: what `diagnosis.json` and the tables hold |
 
 pub mod answer;
@@ -23,7 +23,6 @@ pub mod fit;
 pub mod flow;
 pub mod force;
 pub mod hypothesis;
-pub mod limits;
 pub mod measured;
 pub mod trials;
 pub mod verdict;

@@ -1,6 +1,6 @@
 //! What a channel reads beside the motion, from the channel alone: white noise, and an offset at rest.
 
-use crate::diagnose::limits::{OFFSET_CLEAR, REST_DRIFT, REST_SCATTER};
+use crate::limits::{OFFSET_CLEAR, REST_DRIFT, REST_SCATTER};
 use mrbd_kernel::model::Pair;
 use mrbd_statistics::median;
 
@@ -54,7 +54,8 @@ fn is_still(block: &[Pair], noise_rad: Pair) -> bool {
         let variance = block.iter().map(|theta| (theta[i] - about).powi(2)).sum::<f64>() / BLOCK as f64;
         let drift = (mean(first, i) - mean(second, i)).abs();
         // A missing sample is no sign of rest: comparisons with NaN fail.
-        variance.sqrt() < REST_SCATTER * noise_rad[i] && drift < REST_DRIFT * noise_rad[i] * (4.0 / BLOCK as f64).sqrt()
+        variance.sqrt() < REST_SCATTER * noise_rad[i]
+            && drift < REST_DRIFT * noise_rad[i] * (4.0 / BLOCK as f64).sqrt()
     })
 }
 

@@ -1,7 +1,7 @@
 //! Which pattern a measured wall is in where that is beyond doubt, and its state there: cubics through the samples around.
 
 use super::test_data::TestData;
-use crate::diagnose::limits::{BEYOND_NOISE, OPEN_CLEAR, UNEVEN};
+use crate::limits::{BEYOND_NOISE, OPEN_CLEAR, UNEVEN};
 use mrbd_kernel::model::{Contact, Pair, Pivot, State};
 
 /// Samples to either side of the middle.

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use crate::diagnose::limits::{LEAST_SAMPLES, TOO_LARGE_RAD};
 use super::file::{Purpose, TestTable};
 use super::measured::median_step;
 use super::noise::{noise_rad, rest_offset_rad};
 use super::test::Test;
+use crate::limits::{LEAST_SAMPLES, TOO_LARGE_RAD};
 use mrbd_files::error::InputError;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Pair, Wall};

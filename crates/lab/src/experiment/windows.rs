@@ -5,10 +5,10 @@
 
 use std::ops::Range;
 
-use crate::diagnose::limits::{LEAST_WINDOW_SAMPLES, MOVES, WINDOW_S};
 use super::file::Purpose;
 use super::pattern::{Freedom, MeasuredState, measured_state};
 use super::test_data::TestData;
+use crate::limits::{LEAST_WINDOW_SAMPLES, MOVES, WINDOW_S};
 
 /// Samples to the next doubt beyond which a start is as good as any.
 const FAR_FROM_DOUBT: usize = 40;

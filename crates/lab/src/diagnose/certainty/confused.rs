@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::diagnose::fit::{Fit, WindowSlopes};
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::limits::{DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
 use crate::diagnose::trials::{Data, Tried};
+use crate::limits::{DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
 
 /// Changes over which slopes are taken, in standard deviations of a number: well inside what the tests can tell.
 const CHANGE_SD: f64 = 1.0;

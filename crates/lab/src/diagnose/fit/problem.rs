@@ -8,8 +8,8 @@ use super::window_fit::{
 };
 use super::{Loss, Replay, WindowFit, fit_windows, poor_share};
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::limits::MOST_MISSED;
 use crate::diagnose::measured::{TestData, Window};
+use crate::limits::MOST_MISSED;
 
 /// A fitted hypothesis.
 #[derive(Debug, Clone)]

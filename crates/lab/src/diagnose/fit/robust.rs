@@ -6,7 +6,7 @@
 //! likelihood, so that no window that is lost for good outweighs what the others say.
 
 use super::window_fit::WindowFit;
-use crate::diagnose::limits::{MIDDLE_BOUND, MOST_NATS};
+use crate::limits::{MIDDLE_BOUND, MOST_NATS};
 
 /// Bounds in squared noise, but for the first.
 const FIRST_BOUND: f64 = 20.0;

@@ -1,7 +1,7 @@
 //! How well a hypothesis follows the measurement over windows.
 
 use super::window_fit::WindowFit;
-use crate::diagnose::limits::{LEFT_OUT, MOST_NATS};
+use crate::limits::{LEFT_OUT, MOST_NATS};
 
 /// Root mean square error over windows, in standard deviations of the noise; 1 is perfect.
 /// `None` without windows.

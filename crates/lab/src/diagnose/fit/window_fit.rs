@@ -6,9 +6,9 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::replay::Replay;
-use crate::diagnose::limits::MISSED_SD;
 use crate::diagnose::measured::Window;
 pub(super) use crate::least_squares::newton_step;
+use crate::limits::MISSED_SD;
 
 /// Steps of Gauss and Newton tried at shrinking lengths before giving up.
 const SHORTER: [f64; 4] = [1.0, 0.4, 0.16, 0.06];

@@ -3,7 +3,7 @@
 use super::explained::explained_by;
 use super::law_curves::Against;
 use super::points::{ForcePoint, median_share_off_top};
-use crate::diagnose::limits::{ALONG_TOP, EXPLAINED_BY_ONE, LEAST_DIRECTIONS};
+use crate::limits::{ALONG_TOP, EXPLAINED_BY_ONE, LEAST_DIRECTIONS};
 
 /// Whether the points lie along the direction of a force at the top, and on a curve against what the top does.
 ///

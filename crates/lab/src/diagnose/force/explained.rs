@@ -2,7 +2,7 @@
 
 use super::law_curves::Against;
 use super::points::ForcePoint;
-use crate::diagnose::limits::FORCE_CLEAR;
+use crate::limits::FORCE_CLEAR;
 
 /// A point says nothing if its noise is so many times the usual and such a share of its force.
 const NOISY: f64 = 2.0;

@@ -6,8 +6,8 @@ use super::kernel::Kernel;
 use super::stretch::{Stretch, stretches};
 use crate::diagnose::fit::{SpringMemory, shaken};
 use crate::diagnose::hypothesis::Physics;
-use crate::diagnose::limits::DIRECTION_CLEAR;
 use crate::diagnose::measured::{Freedom, TestData, rest_offset_rad};
+use crate::limits::DIRECTION_CLEAR;
 use mrbd_kernel::model::{Contact, Pair, RockingWall, State, Vector};
 use mrbd_kernel::simulate::{Accuracy, Simulator};
 

@@ -1,8 +1,8 @@
 //! What may be added to a wall.
 
-use crate::diagnose::limits::{FACTOR_SD, STRONGEST_DAMPER};
 use super::unknown::Slot;
 use super::{Scales, Unknown, WallNumber};
+use crate::limits::{FACTOR_SD, STRONGEST_DAMPER};
 use mrbd_kernel::model::{
     EffectKind, EffectParameter, EffectVariant, Joint, Place, Quantity, Role, WallParameters,
 };

@@ -2,7 +2,7 @@
 
 use super::unknown::Slot;
 use super::{Unknown, WallNumber};
-use crate::diagnose::limits::{PRIOR_REACH, WIDE_PRIOR};
+use crate::limits::{PRIOR_REACH, WIDE_PRIOR};
 use mrbd_kernel::model::WallParameters;
 
 /// What was known of a number of the wall before the tests.

@@ -4,7 +4,7 @@ use super::search::{refit, shared_states, try_hypothesis};
 use super::{Trials, Tried, against, untouched};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Nuisance, candidates};
-use crate::diagnose::limits::{LEAST_MOVING, REFITTED_FROM, STATES_FOR_WALL, WORTH_POLISH};
+use crate::limits::{LEAST_MOVING, REFITTED_FROM, STATES_FOR_WALL, WORTH_POLISH};
 
 /// The wall as given, its numbers fitted, and single effects, best first; none of these where too little moves.
 pub struct Alone {

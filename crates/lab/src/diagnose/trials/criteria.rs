@@ -1,11 +1,11 @@
 //! When a hypothesis follows the tests within noise, closes a gap, and does something.
 
-use crate::diagnose::limits::{
+use super::{Data, Tried, kind_of};
+use crate::diagnose::fit::{WindowFit, more_poor_held_out_sd, poor_share, windowed_error};
+use crate::limits::{
     HELD_OUT_ERROR, LEAST_SIZE, LEFT_OF_GAP, MISSED_HELD_OUT_SD, MISSED_SHARE, MISSED_SHARE_SD, NOISE,
     NOISE_AFTER, SIGNIFICANT_SD,
 };
-use super::{Data, Tried, kind_of};
-use crate::diagnose::fit::{WindowFit, more_poor_held_out_sd, poor_share, windowed_error};
 use mrbd_kernel::model::EffectKind;
 
 /// Windowed error over fitted and held-out windows together; `None` where there are none.

@@ -1,6 +1,6 @@
 //! Which coarse fits are worth fitting to the end.
 
-use crate::diagnose::limits::{FOLLOWING, LEAST_FINISHED, MOST_FINISHED, NEAR_BEST};
+use crate::limits::{FOLLOWING, LEAST_FINISHED, MOST_FINISHED, NEAR_BEST};
 
 /// A hypothesis fitted coarsely.
 #[derive(Debug, Clone, Copy, PartialEq)]

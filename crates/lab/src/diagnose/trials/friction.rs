@@ -9,12 +9,12 @@
 
 use rayon::prelude::*;
 
-use crate::diagnose::limits::FRICTION_WITHIN;
 use super::Tried;
 use super::search::refit;
 use super::{Trials, is_noise, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, candidates};
+use crate::limits::FRICTION_WITHIN;
 use mrbd_kernel::model::EffectKind;
 
 /// The spring that yields.

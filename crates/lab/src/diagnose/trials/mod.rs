@@ -38,7 +38,7 @@ use rayon::prelude::*;
 use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
-use crate::diagnose::limits::{POLISHED, WORTH_POLISH};
+use crate::limits::{POLISHED, WORTH_POLISH};
 use finishing::{Coarse, worth_finishing};
 use search::{finish, refit, try_coarsely};
 

@@ -9,8 +9,8 @@ use super::{Alone, Data, Tried, best_answer, untouched};
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Fit, Problem, Replay, WindowFit, fit_windows};
 use crate::diagnose::hypothesis::{Hypothesis, Physics};
-use crate::diagnose::limits::{GAINED_BY_OPENING, READS_CLOSED, WORTH_OPENING};
 use crate::diagnose::measured::{Freedom, TestData, Window};
+use crate::limits::{GAINED_BY_OPENING, READS_CLOSED, WORTH_OPENING};
 
 /// Steps by which the state of a window with its bodies free is fitted.
 const STEPS: usize = 6;

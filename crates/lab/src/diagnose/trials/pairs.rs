@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::diagnose::limits::{BESIDE_THE_BEST, PAIRED, PAIRS_BESIDE_A_NAME, PAIRS_WITHOUT_A_NAME};
 use super::imitation::seconds;
 use super::search::{promise, try_second};
 use super::{Trials, Tried, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
+use crate::limits::{BESIDE_THE_BEST, PAIRED, PAIRS_BESIDE_A_NAME, PAIRS_WITHOUT_A_NAME};
 use mrbd_kernel::model::Role;
 
 impl<P: Progress> Trials<'_, P> {

@@ -10,7 +10,7 @@ use super::Tried;
 use super::search::{refit, shared_states};
 use super::{Trials, against, kinds};
 use crate::Progress;
-use crate::diagnose::limits::{ANSWER_ROUNDS, ANSWER_SHARES, WORTH_A_ROUND};
+use crate::limits::{ANSWER_ROUNDS, ANSWER_SHARES, WORTH_A_ROUND};
 
 impl<P: Progress> Trials<'_, P> {
     /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one

@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::diagnose::limits::{IMITATING_PAIRS, IMITATING_SINGLES, NEAR_BEST, SHARING_STATES};
 use super::imitation::{Imitation, imitations};
 use super::search::{refit, shared_states};
 use super::{Trials, Tried, against, closes, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, candidates};
+use crate::limits::{IMITATING_PAIRS, IMITATING_SINGLES, NEAR_BEST, SHARING_STATES};
 use mrbd_kernel::model::Role;
 
 impl<P: Progress> Trials<'_, P> {

@@ -2,7 +2,7 @@
 
 use crate::diagnose::fit::Fit;
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::limits::{BEGUN, STARTS_FROM};
+use crate::limits::{BEGUN, STARTS_FROM};
 
 /// Sizes tried for one added number, and for each of two, as shares of the size that matters.
 pub struct Sizes {

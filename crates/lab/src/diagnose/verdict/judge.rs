@@ -9,12 +9,10 @@ use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
-use crate::diagnose::limits::{
-    EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS,
-};
 use crate::diagnose::trials::{
     Alone, Trials, Tried, against, best_answer, closes, does_something, is_noise, joint_error, kinds,
 };
+use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
 
 /// What was found in given windows.

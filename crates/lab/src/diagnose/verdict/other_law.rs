@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::amplitude::{Trend, trends_with_amplitude};
 use super::names;
 use crate::diagnose::force::{curve_left, force_points};
-use crate::diagnose::limits::{BENT_FORCE, TREND_NATS, TREND_SHARE};
 use crate::diagnose::trials::{Data, Tried};
+use crate::limits::{BENT_FORCE, TREND_NATS, TREND_SHARE};
 
 /// Signs of a law outside the catalogue.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

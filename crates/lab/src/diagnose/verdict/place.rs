@@ -1,7 +1,7 @@
 //! Where a force is missing that no law of the catalogue follows.
 
-use crate::diagnose::limits::{PLACE_NATS, PLACE_SQUARED_ERROR};
 use crate::diagnose::trials::{Data, Tried, against, joint_error, kinds};
+use crate::limits::{PLACE_NATS, PLACE_SQUARED_ERROR};
 
 /// What a hypothesis leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! How large an effect must be to show in these tests.
 
-use crate::diagnose::limits::{DETECTED_SD, LEAST_SIZE, WORTH_A_NAME};
 use crate::diagnose::trials::{Data, Tried, kinds};
+use crate::limits::{DETECTED_SD, LEAST_SIZE, WORTH_A_NAME};
 
 /// What the tests can tell of a single effect, by its first number and in its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,8 @@
 //! Whether two effects are worth telling where one was.
 
 use crate::diagnose::fit::{Fit, nats};
-use crate::diagnose::limits::{
-    WORTH_A_SECOND, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
-};
 use crate::diagnose::trials::{Data, Tried, all_windows};
+use crate::limits::{WORTH_A_SECOND, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE};
 
 /// Whether a second effect is worth naming beside the first.
 pub fn worth_two(data: &Data, one: &Tried, two: &Tried) -> bool {
