@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use serde_json::Value;
 
 use super::output;
 use super::progress::Bar;
@@ -11,7 +10,8 @@ use super::threads::Threads;
 use crate::error::Result;
 use crate::report::report;
 use crate::results::diagnosis::{OutputNames, write_results};
-use mrbd_lab::diagnose::{Experiment, check_data, diagnose};
+use mrbd_lab::diagnose::answer::{FoundEffect, Summary};
+use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
 
 /// Find where model and measurement disagree, and name the missing effect.
 ///
@@ -42,46 +42,47 @@ pub struct DiagnoseArgs {
 /// # Errors
 /// Input errors of the experiment and what it names, and of the output folder; failures to write.
 pub fn execute(args: &DiagnoseArgs) -> Result<()> {
-    let mut experiment = Experiment::load(&args.experiment)?;
+    let experiment = Experiment::load(&args.experiment)?;
     let pool = args.threads.pool()?;
     let names = OutputNames::prepare(&args.out)?;
     let bar = Bar::of_steps();
-    let summary = pool.install(|| -> Result<Value> {
+    let diagnosis = pool.install(|| -> Result<Diagnosis> {
         check_data(&experiment)?;
-        let diagnosis = diagnose(&mut experiment, &bar)?;
-        write_results(&names, &experiment, &diagnosis)
+        Ok(diagnose(&experiment, &bar)?)
     })?;
+    write_results(&names, &experiment.inputs, &diagnosis)?;
     drop(bar);
-    eprintln!("{}", told(&summary));
+    eprintln!("{}", in_words(&diagnosis.summary));
     let page = report(&args.out, None)?;
     eprintln!("its page, to be opened in a browser: {}", page.display());
     output::to_stdout(|out| writeln!(out, "{}", names.diagnosis.display()).map_err(output::failed))
 }
 
 /// The answer in a few lines.
-fn told(summary: &Value) -> String {
-    let mut lines = vec![format!("verdict: {}", summary["verdict"].as_str().unwrap_or("?"))];
-    for effect in summary["effects"].as_array().into_iter().flatten() {
-        let name = effect["name"].as_str().unwrap_or("a law outside the catalogue");
-        lines.push(format!("  {name} at {}", effect["place"].as_str().unwrap_or("?")));
-        for (key, value) in effect["parameters"].as_object().into_iter().flatten() {
-            let interval = &effect["interval"][key];
-            let [value, low, high] =
-                [value, &interval[0], &interval[1]].map(|v| v.as_f64().unwrap_or(f64::NAN));
-            lines.push(format!("    {key} = {value:.5} (90 %: {low:.5} to {high:.5})"));
-        }
+fn in_words(summary: &Summary) -> String {
+    let mut lines = vec![format!("verdict: {}", summary.verdict.name())];
+    lines.extend(summary.effects.iter().flat_map(effect_in_words));
+    if !summary.equivalent.is_empty() {
+        lines.push(format!("  these tests cannot tell apart: {}", summary.equivalent.join(", ")));
     }
-    let equivalent = summary["equivalent"].as_array().into_iter().flatten().filter_map(Value::as_str);
-    let equivalent = equivalent.collect::<Vec<_>>();
-    if !equivalent.is_empty() {
-        lines.push(format!("  these tests cannot tell apart: {}", equivalent.join(", ")));
-    }
-    let error = |when: &str| summary["windowed_error"][when].as_f64();
-    lines.push(match ["before", "recalibrated", "after"].map(error) {
-        [Some(before), Some(recalibrated), Some(after)] => {
+    let error = &summary.windowed_error;
+    lines.push(match (error.before, error.recalibrated, error.after) {
+        (Some(before), Some(recalibrated), Some(after)) => {
             format!("windowed error, in noise: {before:.2} before, {recalibrated:.2} recalibrated, {after:.2} after")
         }
         _ => "windowed error: no window in which the wall moves".to_owned(),
     });
     lines.join("\n")
+}
+
+/// An effect and its place, and a line for each of its numbers.
+fn effect_in_words(effect: &FoundEffect) -> Vec<String> {
+    let name = effect.name.as_deref().unwrap_or("a law outside the catalogue");
+    let number = |((key, value), [low, high]): ((&String, &f64), &[f64; 2])| {
+        format!("    {key} = {value:.5} (90 %: {low:.5} to {high:.5})")
+    };
+    let mut lines = vec![format!("  {name} at {}", effect.place)];
+    // Both are maps over the same keys, so that they run in one order.
+    lines.extend(effect.parameters.iter().zip(effect.interval.values()).map(number));
+    lines
 }

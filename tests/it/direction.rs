@@ -21,17 +21,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
     ("starter", &["error", "store"]),
     (
         "report",
-        &[
-            "error",
-            "store",
-            "survey",
-            "study",
-            "aggregate",
-            "findings",
-            "fragility",
-            "classics",
-            "results",
-        ],
+        &["error", "store", "survey", "study", "aggregate", "findings", "fragility", "classics", "results"],
     ),
 ];
 

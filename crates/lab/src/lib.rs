@@ -15,7 +15,8 @@
 //! | --- | --- | --- |
 //! | [`experiment`] | an experiment file | tests in the record's time, with noise, contact patterns and starts |
 //! | [`calibrate`] | tests | one vector for all of them, with intervals ([`calibrate::Calibration`]) |
-//! | [`diagnose`] | tests | a verdict, and what it rests on ([`diagnose::Diagnosis`]) |
+//! | [`diagnose`] | tests | a verdict, and everything it rests on ([`diagnose::Diagnosis`]) |
+//! | [`limits`] | nothing | every number that decides a diagnosis |
 //!
 //! # A calibration from the file to the result
 //!
@@ -73,6 +74,7 @@ pub mod calibrate;
 pub mod diagnose;
 pub mod experiment;
 mod least_squares;
+pub mod limits;
 mod progress;
 
 pub use experiment::file as experiment_file;

@@ -4,10 +4,11 @@ use super::super::axis::Axis;
 use super::super::colours::{Mark, PALETTE};
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link, Section, Table};
-use super::stored::{Stored, StoredRival};
 use super::words::{at, parameters};
 use super::{MEASURED, key};
 use crate::error::Result;
+use mrbd_lab::diagnose::answer::{Rival, Summary};
+use mrbd_lab::limits::EQUIVALENT;
 
 /// Most rows of a figure, and of a table.
 const DRAWN: usize = 12;
@@ -17,7 +18,7 @@ const FIT: usize = 0;
 const HELD_OUT: usize = 4;
 
 /// Whether a hypothesis is an answer: an effect, neither a number of the wall nor the placebo.
-fn is_effect(rival: &StoredRival) -> bool {
+fn is_effect(rival: &Rival) -> bool {
     rival.name.split(" + ").all(|part| {
         let number = ["wall.", "diaphragm.", "corners."].iter().any(|table| part.starts_with(table));
         !number && part != "placebo"
@@ -28,27 +29,29 @@ fn is_effect(rival: &StoredRival) -> bool {
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(stored: &Stored) -> Result<Section> {
-    let rivals = stored.rivals.iter().filter(|r| is_effect(r)).collect::<Vec<_>>();
-    let text = "Every effect of the catalogue, fitted to the tests; the first explains them best. What speaks against a hypothesis is half its squared error beyond noise, bounded window by window, on all tests, with a price for every number: natural logarithms of likelihood. 15 less than every other is a name. WME is the error of whole runs (Eq. 8), in brackets its range over numbers that fit as well: where that is wide, it says little.";
-    made(stored, ["candidates", "The candidates, ranked", text], &rivals)
+pub fn section(summary: &Summary) -> Result<Section> {
+    let rivals = summary.rivals.iter().filter(|r| is_effect(r)).collect::<Vec<_>>();
+    let text = format!(
+        "Every effect of the catalogue, fitted to the tests; the first explains them best. What speaks against a hypothesis is half its squared error beyond noise, bounded window by window, on all tests, with a price for every number: natural logarithms of likelihood. {EQUIVALENT} less than every other is a name. WME is the error of whole runs (Eq. 8), in brackets its range over numbers that fit as well: where that is wide, it says little."
+    );
+    made(summary, ["candidates", "The candidates, ranked", &text], &rivals)
 }
 
 /// What else was tried.
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn rivals_section(stored: &Stored) -> Result<Section> {
-    let best = stored.rivals.iter().find(|r| is_effect(r));
-    let others = stored.rivals.iter().filter(|r| !is_effect(r));
+pub fn rivals_section(summary: &Summary) -> Result<Section> {
+    let best = summary.rivals.iter().find(|r| is_effect(r));
+    let others = summary.rivals.iter().filter(|r| !is_effect(r));
     let mut rivals = best.into_iter().chain(others).collect::<Vec<_>>();
     rivals.sort_by(|a, b| a.against.all.total_cmp(&b.against.all));
     let text = "Beside the best effect: numbers of the wall outside what was known of them, which a wrong drawing or weight would make, and a placebo, a vertical motion made of the record backwards, which shows what a term without meaning gains.";
-    made(stored, ["rivals", "Rivals and placebo", text], &rivals)
+    made(summary, ["rivals", "Rivals and placebo", text], &rivals)
 }
 
-fn made(stored: &Stored, [id, title, text]: [&str; 3], rivals: &[&StoredRival]) -> Result<Section> {
-    let drawn = drawn(&answer(stored, rivals), rivals);
+fn made(summary: &Summary, [id, title, text]: [&str; 3], rivals: &[&Rival]) -> Result<Section> {
+    let drawn = drawn(&answer(summary, rivals), rivals);
     Ok(Section {
         id: id.to_owned(),
         title: title.to_owned(),
@@ -60,23 +63,27 @@ fn made(stored: &Stored, [id, title, text]: [&str; 3], rivals: &[&StoredRival]) 
 }
 
 /// The effects of the answer, or of the best where there is no answer.
-fn answer<'s>(stored: &'s Stored, rivals: &[&'s StoredRival]) -> Vec<&'s str> {
-    if stored.is_answered() {
-        return stored.effects.iter().filter_map(|e| e.written_as.as_deref().or(e.name.as_deref())).collect();
+fn answer<'s>(summary: &'s Summary, rivals: &[&'s Rival]) -> Vec<&'s str> {
+    if summary.has_names() {
+        return summary
+            .effects
+            .iter()
+            .filter_map(|e| e.written_as.as_deref().or(e.name.as_deref()))
+            .collect();
     }
     rivals.first().map_or_else(Vec::new, |best| best.name.split(" + ").collect())
 }
 
 /// The answer, and what stands against it: that with something added to it is the answer again, and stays in the table.
-fn drawn<'r>(answer: &[&str], rivals: &[&'r StoredRival]) -> Vec<&'r StoredRival> {
-    let more_than_answer = |r: &&&StoredRival| {
+fn drawn<'r>(answer: &[&str], rivals: &[&'r Rival]) -> Vec<&'r Rival> {
+    let more_than_answer = |r: &&&Rival| {
         let parts = r.name.split(" + ").collect::<Vec<_>>();
         parts.len() > answer.len() && answer.iter().all(|part| parts.contains(part))
     };
     rivals.iter().filter(|r| !more_than_answer(r)).take(DRAWN).copied().collect()
 }
 
-fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
+fn figure(id: &str, rivals: &[&Rival]) -> Result<Figure> {
     let errors = rivals.iter().flat_map(|r| [r.windowed_error.fit, r.windowed_error.held_out]).flatten();
     let rows = rivals.len() as f64 - 0.5;
     let noise = Layer::Line {
@@ -87,13 +94,13 @@ fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
         points: vec![(1.0, -0.5), (1.0, rows)],
     };
     let mut layers = vec![noise];
-    type Of = fn(&StoredRival) -> Option<f64>;
+    type Of = fn(&Rival) -> Option<f64>;
     let kinds: [(&str, usize, Mark, Of); 2] = [
         ("tests to fit", FIT, Mark::Circle, |r| r.windowed_error.fit),
         ("tests held out", HELD_OUT, Mark::Square, |r| r.windowed_error.held_out),
     ];
     for (what, colour, mark, of) in kinds {
-        let dot = |(row, r): (f64, &&StoredRival)| {
+        let dot = |(row, r): (f64, &&Rival)| {
             let x = of(r)?;
             Some(Dot {
                 x,
@@ -113,7 +120,7 @@ fn figure(id: &str, rivals: &[&StoredRival]) -> Result<Figure> {
         layers,
     };
     let least = 1.0;
-    let tall = |(row, r): (f64, &&StoredRival)| Dot {
+    let tall = |(row, r): (f64, &&Rival)| Dot {
         x: r.against.all.max(least),
         y: row,
         tip: format!("{}\n{:.1} against it", r.name, r.against.all),
@@ -148,8 +155,8 @@ fn spread(value: Option<f64>, range: Option<[f64; 2]>) -> String {
     value.map_or("–".to_owned(), |x| format!("{x:.3}{range}"))
 }
 
-fn table(rivals: &[&StoredRival]) -> Table {
-    let row = |r: &&StoredRival| {
+fn table(rivals: &[&Rival]) -> Table {
+    let row = |r: &&Rival| {
         let text = |x: Option<f64>, digits: usize| x.map_or("–".to_owned(), |x| format!("{x:.digits$}"));
         vec![
             r.name.clone(),

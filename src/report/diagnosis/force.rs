@@ -1,8 +1,8 @@
-//! The missing force, and the laws of the candidates, as they are stored.
+//! The missing force, and the laws of the candidates, as they are summary.
 
 use std::path::Path;
 
-use super::stored::Columns;
+use super::columns::Columns;
 use crate::error::Result;
 
 /// What of the top's motion the force is drawn against: column and label.

@@ -6,10 +6,12 @@ use super::super::axis::Axis;
 use super::super::colours::{Colour, Mark};
 use super::super::graph::{Format, Graph, Layer};
 use super::super::page::{Figure, Link, Section, Table};
-use super::stored::{BeforeAfter, Columns, Stored, StoredTest};
+use super::columns::Columns;
 use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
 use mrbd_kernel::model::PATTERN_NAMES;
+use mrbd_lab::diagnose::answer::{BeforeAfter, Summary, TestErrors};
+use mrbd_lab::experiment_file::Purpose;
 
 /// Most tests drawn in one section.
 const MOST: usize = 3;
@@ -112,14 +114,14 @@ impl Histories {
         line
     }
 
-    fn figure(&self, test: &StoredTest, with_after: bool) -> Result<Figure> {
+    fn figure(&self, test: &TestErrors, with_after: bool) -> Result<Figure> {
         let panels = [0, 1].map(|body| self.panel(&test.name, body, with_after));
         let mut legend =
             vec![key("measured", MEASURED, Mark::None), key("simulated, wall as given", BEFORE, Mark::None)];
         if with_after {
             legend.push(key("simulated, updated wall", AFTER, Mark::None));
         }
-        let held = if test.purpose == "fit" { "to fit" } else { "held out" };
+        let held = if test.purpose == Purpose::Fit { "to fit" } else { "held out" };
         Ok(Figure {
             id: format!("{}-{}", if with_after { "after" } else { "before" }, anchor(&test.name)),
             title: format!("{}, {held}", test.name),
@@ -166,7 +168,7 @@ impl Histories {
     }
 }
 
-fn told(of: &BeforeAfter, with_after: bool, digits: usize) -> String {
+fn told(of: &BeforeAfter<Option<f64>>, with_after: bool, digits: usize) -> String {
     let text = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.digits$}"));
     match with_after {
         true => format!("{} before, {} after", text(of.before), text(of.after)),
@@ -180,9 +182,9 @@ fn anchor(name: &str) -> String {
 }
 
 /// Tests of a purpose, those followed worst first.
-fn worst<'s>(stored: &'s Stored, purpose: &str) -> Vec<&'s StoredTest> {
-    let mut tests = stored.tests.iter().filter(|test| test.purpose == purpose).collect::<Vec<_>>();
-    let error = |test: &StoredTest| test.windowed_error.before.unwrap_or(0.0);
+fn worst(summary: &Summary, purpose: Purpose) -> Vec<&TestErrors> {
+    let mut tests = summary.tests.iter().filter(|test| test.purpose == purpose).collect::<Vec<_>>();
+    let error = |test: &TestErrors| test.windowed_error.before.unwrap_or(0.0);
     tests.sort_by(|a, b| error(b).total_cmp(&error(a)));
     tests
 }
@@ -191,8 +193,8 @@ fn worst<'s>(stored: &'s Stored, purpose: &str) -> Vec<&'s StoredTest> {
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn measured_section(histories: &Histories, stored: &Stored) -> Result<Section> {
-    let tests = worst(stored, "fit");
+pub fn measured_section(histories: &Histories, summary: &Summary) -> Result<Section> {
+    let tests = worst(summary, Purpose::Fit);
     let text = match tests.len() > MOST {
         true => format!("The wall as given, in the {MOST} tests it follows worst; all are in the table."),
         false => "The wall as given, in the tests it is fitted to.".to_owned(),
@@ -202,18 +204,18 @@ pub fn measured_section(histories: &Histories, stored: &Stored) -> Result<Sectio
         title: "Measured against simulated".into(),
         text: vec![text],
         figures: tests.into_iter().take(MOST).map(|t| histories.figure(t, false)).collect::<Result<_>>()?,
-        tables: vec![table(stored)],
+        tables: vec![table(summary)],
         ..Section::default()
     })
 }
 
-fn table(stored: &Stored) -> Table {
-    let row = |test: &StoredTest| {
+fn table(summary: &Summary) -> Table {
+    let row = |test: &TestErrors| {
         let text = |x: Option<f64>, digits: usize| x.map_or("–".to_owned(), |x| format!("{x:.digits$}"));
         let [lower, upper] = test.noise_rad.map(|sd| format!("{:.1}", 1e6 * sd));
         vec![
             test.name.clone(),
-            if test.purpose == "fit" { "to fit" } else { "held out" }.to_owned(),
+            if test.purpose == Purpose::Fit { "to fit" } else { "held out" }.to_owned(),
             text(test.windowed_error.before, 2),
             text(test.windowed_error.after, 2),
             text(test.wme.before, 3),
@@ -225,7 +227,7 @@ fn table(stored: &Stored) -> Table {
     Table::of(
         "The tests: windowed error in units of the noise, and WME (Eq. 8)",
         &head,
-        stored.tests.iter().map(row),
+        summary.tests.iter().map(row),
     )
 }
 
@@ -233,17 +235,17 @@ fn table(stored: &Stored) -> Table {
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn held_out_section(histories: &Histories, stored: &Stored) -> Result<Section> {
-    let mut tests = worst(stored, "hold-out");
+pub fn held_out_section(histories: &Histories, summary: &Summary) -> Result<Section> {
+    let mut tests = worst(summary, Purpose::HoldOut);
     let mut text = "The updated wall in tests that no fit has seen.".to_owned();
     if tests.is_empty() {
-        tests = worst(stored, "fit");
+        tests = worst(summary, Purpose::Fit);
         text = "No test was held out; these are tests that were fitted.".into();
     }
-    if !stored.is_answered() && stored.verdict != "recalibrated" {
+    if !summary.has_updated_wall() {
         text = "The wall stays as it is: what follows is the wall as given.".into();
     }
-    let with_after = stored.is_answered() || stored.verdict == "recalibrated";
+    let with_after = summary.has_updated_wall();
     let figures = tests.into_iter().take(MOST).map(|t| histories.figure(t, with_after));
     Ok(Section {
         id: "held-out".into(),

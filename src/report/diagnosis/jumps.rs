@@ -6,10 +6,11 @@ use super::super::axis::Axis;
 use super::super::colours::Mark;
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link};
-use super::parting::{CHANGES, shows_after};
-use super::stored::{Columns, Stored};
+use super::columns::Columns;
+use super::window_errors::CHANGES;
 use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
+use mrbd_lab::diagnose::answer::Summary;
 
 /// Ratios farther from 1 are drawn at the ends of the axis, and ratios nearer do not fill it.
 const FARTHEST: f64 = 0.6;
@@ -50,7 +51,7 @@ fn read(path: &Path) -> Result<Vec<Jump>> {
 ///
 /// # Errors
 /// Input errors for a file that is no such table; [`crate::Error::Picture`] if plotters refuses.
-pub fn figure(path: &Path, stored: &Stored) -> Result<Option<Figure>> {
+pub fn figure(path: &Path, summary: &Summary) -> Result<Option<Figure>> {
     let jumps = read(path)?;
     let mut kinds = jumps.iter().map(|j| j.kind.clone()).collect::<Vec<_>>();
     kinds.sort();
@@ -68,7 +69,7 @@ pub fn figure(path: &Path, stored: &Stored) -> Result<Option<Figure>> {
     };
     let mut layers = vec![one];
     let walls = [("given", BEFORE, Mark::Circle, -0.15), ("updated", AFTER, Mark::Square, 0.15)];
-    for (wall, colour, mark, aside) in walls.into_iter().take(1 + usize::from(shows_after(stored))) {
+    for (wall, colour, mark, aside) in walls.into_iter().take(1 + usize::from(summary.has_updated_wall())) {
         let own = jumps.iter().filter(|j| j.wall == wall);
         let row = |j: &Jump| kinds.iter().position(|kind| *kind == j.kind).unwrap_or(0) as f64 + aside;
         let dot = |j: &Jump| Dot {
@@ -82,7 +83,7 @@ pub fn figure(path: &Path, stored: &Stored) -> Result<Option<Figure>> {
         layers.push(Layer::Dots { colour, mark, size: 4, hollow: false, dots });
     }
     let mut legend = vec![key("over the wall as given", BEFORE, Mark::Circle)];
-    if shows_after(stored) {
+    if summary.has_updated_wall() {
         legend.push(key("over the updated wall", AFTER, Mark::Square));
     }
     let farthest = jumps.iter().map(|j| (j.ratio - 1.0).abs() + j.sd).fold(NEAREST, f64::max).min(FARTHEST);

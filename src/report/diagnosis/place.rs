@@ -6,31 +6,28 @@ use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link, Section, Table};
 use super::force::Points;
 use super::histories::Histories;
-use super::parting::shows_after;
-use super::stored::{Stored, StoredRival};
 use super::words::at;
 use super::{AFTER, BEFORE, MEASURED, key};
 use crate::error::Result;
 use mrbd_kernel::model::PATTERN_NAMES;
-use mrbd_lab::diagnose::force::ALONG;
+use mrbd_lab::diagnose::answer::{Rival, Summary};
+use mrbd_lab::limits::{ALONG_TOP, LEAST_DIRECTIONS};
 
 /// Share off the direction of the top from which a force there alone does not explain the residual: twins of a late record
 /// have 0.1 and more.
 const OFF: f64 = 0.1;
-/// Fewest points with a direction to speak of one.
-const LEAST_POINTS: u64 = 3;
 
 /// Where the missing force acts.
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn place_section(points: &Points, histories: &Histories, stored: &Stored) -> Result<Section> {
+pub fn place_section(points: &Points, histories: &Histories, summary: &Summary) -> Result<Section> {
     let mut figures = Vec::new();
     if !points.force_n.is_empty() {
         let mut tests: Vec<&String> = points.test.iter().collect();
         tests.dedup();
         let mut legend = vec![key("missing in the wall as given", BEFORE, Mark::Circle)];
-        if shows_after(stored) {
+        if summary.has_updated_wall() {
             legend.push(key("left by the updated wall", AFTER, Mark::Square));
         }
         let spans = tests.iter().flat_map(|test| histories.patterns(test)).collect::<Vec<_>>();
@@ -40,26 +37,26 @@ pub fn place_section(points: &Points, histories: &Histories, stored: &Stored) ->
             id: "force-in-time".into(),
             title: "The missing force, in time".into(),
             legend,
-            panels: tests.into_iter().map(|test| points.in_time(test, histories, stored)).collect::<Result<_>>()?,
+            panels: tests.into_iter().map(|test| points.in_time(test, histories, summary)).collect::<Result<_>>()?,
             caption: "Measured rotations between impacts, put into the equations of motion (in their weak form, so that no noise is differentiated), leave this horizontal force at the top; bars are standard deviations by the noise. Along the upper edge the measured pattern; where it changes, an impact or an opening lies in the gap.".into(),
             links: vec![Link::to("force.parquet")],
             ..Figure::default()
         });
-        figures.extend(points.direction(stored)?);
+        figures.extend(points.direction(summary)?);
     }
     Ok(Section {
         id: "place".into(),
         title: "Where the missing force acts".into(),
-        text: vec![direction_in_words(stored), size_in_words(stored)],
+        text: vec![direction_in_words(summary), size_in_words(summary)],
         figures,
-        tables: vec![places(stored)],
+        tables: vec![places(summary)],
         ..Section::default()
     })
 }
 
 impl Points {
     /// Force in time in one test, with its standard deviations.
-    fn in_time(&self, test: &str, histories: &Histories, stored: &Stored) -> Result<String> {
+    fn in_time(&self, test: &str, histories: &Histories, summary: &Summary) -> Result<String> {
         let own = self.rows().filter(|&k| self.test[k] == test).collect::<Vec<_>>();
         let [from_s, to_s] = histories.motion_s(test);
         let y = Axis::holding("missing force at the top N", self.force_n.iter().copied());
@@ -88,7 +85,7 @@ impl Points {
                 .collect(),
         };
         layers.push(dots(BEFORE, Mark::Circle, &self.force_n));
-        if shows_after(stored) {
+        if summary.has_updated_wall() {
             layers.push(dots(AFTER, Mark::Square, &self.after_n));
         }
         Graph {
@@ -102,14 +99,14 @@ impl Points {
     }
 
     /// The moment pairs of patterns 1 and 2, and the direction of a force at the top.
-    fn direction(&self, stored: &Stored) -> Result<Option<Figure>> {
+    fn direction(&self, summary: &Summary) -> Result<Option<Figure>> {
         let pairs = self.rows().filter(|&k| self.share[k].is_finite()).collect::<Vec<_>>();
         if pairs.is_empty() {
             return Ok(None);
         }
         let kn_m = |body: usize, k: usize| 1e-3 * self.moment[body][k];
         let largest = pairs.iter().flat_map(|&k| [kn_m(0, k).abs(), kn_m(1, k).abs()]).fold(0.0, f64::max);
-        let [y_q, y_c] = stored.missing_force.arms_of_top_m;
+        let [y_q, y_c] = summary.missing_force.arms_of_top_m;
         let reach = largest / y_q.max(y_c);
         let top = Layer::Line {
             colour: MEASURED,
@@ -149,13 +146,13 @@ impl Points {
     }
 }
 
-fn direction_in_words(stored: &Stored) -> String {
-    let force = &stored.missing_force;
+fn direction_in_words(summary: &Summary) -> String {
+    let force = &summary.missing_force;
     match force.median_share_off_top {
-        Some(share) if force.points_with_direction >= LEAST_POINTS => format!(
+        Some(share) if force.points_with_direction >= LEAST_DIRECTIONS => format!(
             "Off the direction of a horizontal force at the top lies {share:.3} of the squared moments (median of {} stretches clear of the noise): {}.",
             force.points_with_direction,
-            if share < ALONG {
+            if share < ALONG_TOP {
                 "what is missing acts at the top, as far as smooth motion tells"
             } else if share < OFF {
                 "it may act at the top, or shake the whole wall"
@@ -170,13 +167,13 @@ fn direction_in_words(stored: &Stored) -> String {
     }
 }
 
-fn size_in_words(stored: &Stored) -> String {
-    let force = &stored.missing_force;
+fn size_in_words(summary: &Summary) -> String {
+    let force = &summary.missing_force;
     let mut text = format!(
         "Over {} stretches the missing force is {:.0} N (root mean square) where noise alone would make {:.0} N",
         force.points, force.before.rms_n, force.before.noise_rms_n
     );
-    if shows_after(stored) {
+    if summary.has_updated_wall() {
         text += &format!(
             "; the updated wall leaves {:.0} N of {:.0} N",
             force.after.rms_n, force.after.noise_rms_n
@@ -186,17 +183,17 @@ fn size_in_words(stored: &Stored) -> String {
 }
 
 /// The best hypothesis of each place.
-fn places(stored: &Stored) -> Table {
-    let mut best: Vec<&StoredRival> = Vec::new();
-    for rival in stored.rivals.iter().filter(|r| r.name != "placebo" && !r.name.contains(" + ")) {
+fn places(summary: &Summary) -> Table {
+    let mut best: Vec<&Rival> = Vec::new();
+    for rival in summary.rivals.iter().filter(|r| r.name != "placebo" && !r.name.contains(" + ")) {
         if !best.iter().any(|known| known.place == rival.place) {
             best.push(rival);
         }
     }
-    let whole = stored.against.as_ref().and_then(|a| a.recalibrated);
-    let row = |rival: &&StoredRival| {
+    let whole = summary.against.recalibrated;
+    let row = |rival: &&Rival| {
         let error = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.2}"));
-        let share = whole.filter(|w| *w > 0.0).map(|w| (w - rival.against.all) / w);
+        let share = (whole > 0.0).then(|| (whole - rival.against.all) / whole);
         vec![
             rival.place.as_deref().map_or("–".to_owned(), at),
             rival.name.clone(),

@@ -5,10 +5,9 @@ use super::super::colours::{Colour, Mark, PALETTE};
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link, Section};
 use super::force::{AGAINST, Law, Points};
-use super::parting::shows_after;
-use super::stored::Stored;
 use super::{AFTER, BEFORE, key};
 use crate::error::Result;
+use mrbd_lab::diagnose::answer::{ExplainedBy, Summary};
 
 /// Colours of laws, none of them that of points.
 const LAWS: [Colour; 4] = [PALETTE[2], PALETTE[3], PALETTE[4], PALETTE[5]];
@@ -17,7 +16,7 @@ const LAWS: [Colour; 4] = [PALETTE[2], PALETTE[3], PALETTE[4], PALETTE[5]];
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn shape_section(points: &Points, stored: &Stored) -> Result<Section> {
+pub fn shape_section(points: &Points, summary: &Summary) -> Result<Section> {
     let mut section = Section {
         id: "shape".into(),
         title: "What shape it has".into(),
@@ -30,10 +29,10 @@ pub fn shape_section(points: &Points, stored: &Stored) -> Result<Section> {
         section.text = vec!["No stretch between impacts is long enough to tell the force.".into()];
         return Ok(section);
     }
-    section.text.push(explained(stored));
+    section.text.push(explained(summary));
     let names = points.law_names();
     let mut legend = vec![key("measured, wall as given", BEFORE, Mark::Circle)];
-    if shows_after(stored) {
+    if summary.has_updated_wall() {
         legend.push(key("left by the updated wall", AFTER, Mark::Square));
     }
     legend.extend(names.iter().take(LAWS.len()).map(|name| key(name, colour(&names, name), Mark::None)));
@@ -41,7 +40,7 @@ pub fn shape_section(points: &Points, stored: &Stored) -> Result<Section> {
         id: "force-state".into(),
         title: "Force and motion of the top".into(),
         legend,
-        panels: (0..AGAINST.len()).map(|which| points.shape(which, stored)).collect::<Result<_>>()?,
+        panels: (0..AGAINST.len()).map(|which| points.shape(which, summary)).collect::<Result<_>>()?,
         caption: "Force, displacement, velocity and acceleration are means over the same short stretches. Laws are those of single additions as they were fitted, without what the wall’s own numbers do beside them; a yielding spring is drawn as it is first loaded.".into(),
         links: vec![Link::to("force.parquet"), Link::to("laws.parquet")],
         ..Figure::default()
@@ -50,7 +49,7 @@ pub fn shape_section(points: &Points, stored: &Stored) -> Result<Section> {
 }
 
 impl Points {
-    fn shape(&self, which: usize, stored: &Stored) -> Result<String> {
+    fn shape(&self, which: usize, summary: &Summary) -> Result<String> {
         let x = &self.against[which];
         let dots = |colour, mark, size, y: &[f64]| Layer::Dots {
             colour,
@@ -64,7 +63,7 @@ impl Points {
                 .collect(),
         };
         let mut layers = Vec::new();
-        if shows_after(stored) {
+        if summary.has_updated_wall() {
             layers.push(dots(AFTER, Mark::Square, 3, &self.after_n));
         }
         layers.push(dots(BEFORE, Mark::Circle, 3, &self.force_n));
@@ -94,13 +93,15 @@ impl Points {
 }
 
 /// Which quantity the force is a curve of.
-fn explained(stored: &Stored) -> String {
-    let by = |(name, label): &(&str, &str)| {
-        let share = stored.missing_force.explained_by.get(*name).copied().flatten()?;
+fn explained(summary: &Summary) -> String {
+    let ExplainedBy { displacement_m, velocity_m_s, acceleration_m_s2 } = summary.missing_force.explained_by;
+    let by = |((_, label), share): (&(&str, &str), Option<f64>)| {
+        let share = share?;
         let label = label.rsplit_once(' ').map_or(*label, |(label, _)| label);
         Some(format!("{:.0} % against the {label}", 100.0 * share.max(0.0)))
     };
-    let shares = AGAINST.iter().map(by).collect::<Option<Vec<_>>>();
+    let shares = AGAINST.iter().zip([displacement_m, velocity_m_s, acceleration_m_s2]);
+    let shares = shares.map(by).collect::<Option<Vec<_>>>();
     match shares {
         Some(shares) => format!(
             "Whatever its form, a curve through neighbouring points explains of the squared force {} (each point told by the others; more than one of them where two quantities go together, as displacement and acceleration do).",

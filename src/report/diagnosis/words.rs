@@ -1,6 +1,8 @@
 //! Verdicts, numbers and names as people read them.
 
-use super::stored::{Stored, StoredEffect, StoredOtherLaw, StoredParameter};
+use mrbd_lab::diagnose::Verdict;
+use mrbd_lab::diagnose::answer::{FittedNumber, FoundEffect, Summary};
+use mrbd_lab::diagnose::verdict::OtherLaw;
 
 /// Standard deviations over the value itself beyond which the tests do not tell it.
 const NOT_TOLD: f64 = 100.0;
@@ -28,16 +30,16 @@ pub fn with_sd(value: f64, sd: Option<f64>) -> String {
 }
 
 /// The numbers of a hypothesis.
-pub fn parameters(all: &[StoredParameter]) -> String {
-    let one = |p: &StoredParameter| {
+pub fn parameters(all: &[FittedNumber]) -> String {
+    let one = |p: &FittedNumber| {
         let unit = if p.unit.is_empty() { String::new() } else { format!(" {}", p.unit) };
         format!("{} = {}{unit}", p.key, with_sd(p.value, p.sd))
     };
     all.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
-fn effect(e: &StoredEffect) -> String {
-    let at = e.place.as_deref().map_or(String::new(), |place| format!(", {}", at(place)));
+fn effect(e: &FoundEffect) -> String {
+    let at = at(&e.place);
     let value = |(key, value): (&String, &f64)| {
         let interval = e.interval.get(key);
         let range = interval
@@ -51,7 +53,7 @@ fn effect(e: &StoredEffect) -> String {
             number(1e3 * m)
         )
     });
-    format!("{}{at}: {values}{onset}", e.name.as_deref().unwrap_or("a law outside the catalogue"))
+    format!("{}, {at}: {values}{onset}", e.name.as_deref().unwrap_or("a law outside the catalogue"))
 }
 
 /// A place in a sentence.
@@ -67,44 +69,43 @@ pub fn at(place: &str) -> String {
 }
 
 /// The verdict as a sentence or two.
-pub fn lead(stored: &Stored) -> String {
-    let effects = stored.effects.iter().map(effect).collect::<Vec<_>>().join("; ");
-    match stored.verdict.as_str() {
-        "none" => "None: the simulation follows the tests within their noise.".to_owned(),
-        "recalibrated" => {
+pub fn lead(summary: &Summary) -> String {
+    let effects = summary.effects.iter().map(effect).collect::<Vec<_>>().join("; ");
+    match summary.verdict {
+        Verdict::None => "None: the simulation follows the tests within their noise.".to_owned(),
+        Verdict::Recalibrated => {
             "Recalibrated: the gap closes within what was known of the wall’s own numbers.".to_owned()
         }
-        "named" => format!("Named: {effects}. Nothing else in the catalogue explains these tests."),
-        "class" => format!(
+        Verdict::Named => format!("Named: {effects}. Nothing else in the catalogue explains these tests."),
+        Verdict::Class => format!(
             "A class: {} explain these tests alike. The first of them: {effects}.",
-            stored.equivalent.join(", ")
+            summary.equivalent.join(", ")
         ),
-        "place_only" => {
-            let place = stored.place.as_deref().map_or("somewhere".to_owned(), at);
-            let like = imitation(stored);
+        Verdict::PlaceOnly => {
+            let place = summary.place.as_deref().map_or("somewhere".to_owned(), at);
+            let like = imitation(summary);
             format!("A place only: a force is missing {place}, by a law that is not in the catalogue.{like}")
         }
-        "unknown" => {
-            let like = imitation(stored);
+        Verdict::Unknown => {
+            let like = imitation(summary);
             format!("Unknown: model and tests part, and nothing in the catalogue explains it.{like}")
         }
-        "no_power" => {
+        Verdict::NoPower => {
             "No power: the wall moves too little beside the noise, or is sampled too coarsely, for most effects of a size that matters to show."
                 .to_owned()
         }
-        other => other.to_owned(),
     }
 }
 
 /// What an unnamed law looks like, where something in the catalogue nearly explains the tests.
-fn imitation(stored: &Stored) -> String {
-    let told = |law: &StoredOtherLaw| {
+fn imitation(summary: &Summary) -> String {
+    let told = |law: &OtherLaw| {
         format!(
             " It looks like {}, but what that leaves still depends on how far or how fast the wall moves.",
             law.looks_like.join(" with ")
         )
     };
-    stored.other_law.as_ref().map_or(String::new(), told)
+    summary.other_law.as_ref().map_or(String::new(), told)
 }
 
 #[cfg(test)]

@@ -1,14 +1,15 @@
-//! Reading `diagnosis.json` and `answer.json`.
+//! Reading `diagnosis.json`, which has a type, and `answer.json`, which cases write for this scorer alone.
 
 use std::path::Path;
 
+use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 /// A JSON file.
 ///
 /// # Errors
-/// Text for people if it cannot be read.
-pub fn json(path: &Path) -> Result<Value, String> {
+/// Text for people if it cannot be read, or is none of its type.
+pub fn json<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
     let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
     serde_json::from_str(&text).map_err(|e| format!("{}: {e}", path.display()))
 }

@@ -7,6 +7,8 @@ use serde_json::Value;
 
 use super::super::diagnose::Outcome;
 use super::reading::{json, list, median, number, text, texts};
+use mrbd_lab::diagnose::answer::{BeforeAfter, FoundEffect, Summary};
+use mrbd_lab::experiment_file::Purpose;
 
 /// A diagnosed case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,16 +54,17 @@ impl Row {
     pub fn load(case: &Path) -> Result<Option<Self>, String> {
         let Some(outcome) = Outcome::load(case) else { return Ok(None) };
         let answer = json(&case.join("answer.json"))?;
-        let said = case.join("diagnosis").join("diagnosis.json");
+        let path = case.join("diagnosis").join("diagnosis.json");
         let diagnosis = match outcome.exit_code {
-            Some(0) => json(&said)?,
-            _ => Value::Null,
+            Some(0) => Some(json(&path)?),
+            _ => None,
         };
-        Ok(Some(Self::new(&answer, &diagnosis, &outcome)))
+        Ok(Some(Self::new(&answer, diagnosis.as_ref(), &outcome)))
     }
 
-    fn new(answer: &Value, diagnosis: &Value, outcome: &Outcome) -> Self {
-        let verdict = text(diagnosis, "/verdict");
+    /// The row of a case with this answer; without a diagnosis where that failed.
+    fn new(answer: &Value, diagnosis: Option<&Summary>, outcome: &Outcome) -> Self {
+        let effects = diagnosis.map_or(&[][..], |d| &d.effects);
         let mut row = Self {
             set: text(answer, "/case/set"),
             number: answer.pointer("/case/number").and_then(Value::as_u64).unwrap_or_default(),
@@ -73,40 +76,37 @@ impl Row {
             tests: number(answer, "/case/fit_tests").unwrap_or(0.0) as u64,
             hidden: texts(answer, "/effects", "kind"),
             hidden_places: texts(answer, "/effects", "place"),
-            verdict: if verdict.is_empty() { "failed".into() } else { verdict },
-            named: texts(diagnosis, "/effects", "kind"),
-            equivalent: texts(diagnosis, "/equivalent", "kind"),
-            place: place(diagnosis),
+            verdict: diagnosis.map_or("failed", |d| d.verdict.name()).into(),
+            named: effects.iter().map(|effect| effect.kind.clone().unwrap_or_default()).collect(),
+            equivalent: diagnosis.map_or_else(Vec::new, |d| d.equivalent.clone()),
+            place: diagnosis.and_then(|d| d.place.clone()).unwrap_or_default(),
             over_detectable: (0..list(answer, "/effects").len())
-                .map(|index| over_detectable(answer, index, diagnosis))
+                .map(|index| over_detectable(answer, index, diagnosis?))
                 .collect(),
             parameter_error: None,
             covered: None,
-            before: held_out(diagnosis, "before"),
-            after: held_out(diagnosis, "after"),
+            before: diagnosis.and_then(|d| held_out(d, |error| error.before)),
+            after: diagnosis.and_then(|d| held_out(d, |error| error.after)),
             seconds: outcome.seconds,
             recorded_as: None,
         };
         if row.exact() {
-            row.compare_parameter(answer, diagnosis);
+            row.compare_parameter(answer, effects);
         }
         row
     }
 
     /// Compares the number of the first hidden effect, if it is one number.
-    fn compare_parameter(&mut self, answer: &Value, diagnosis: &Value) {
+    fn compare_parameter(&mut self, answer: &Value, effects: &[FoundEffect]) {
         let Some(value) = number(answer, "/effects/0/value") else { return };
         let Some(deviation) = number(answer, "/effects/0/deviation") else { return };
         let parameter = text(answer, "/effects/0/parameter");
         let kind = &self.hidden[0];
-        let Some(found) = list(diagnosis, "/effects").iter().find(|effect| text(effect, "/kind") == *kind)
-        else {
-            return;
-        };
-        let said = number(found, &format!("/parameters/{parameter}"));
-        self.parameter_error = said.map(|said| (said - value).abs() / deviation);
-        let end = |k: usize| number(found, &format!("/interval/{parameter}/{k}"));
-        self.covered = end(0).zip(end(1)).map(|(low, high)| low <= value && value <= high);
+        let Some(effect) = effects.iter().find(|effect| effect.kind.as_ref() == Some(kind)) else { return };
+        let found = effect.parameters.get(&parameter);
+        self.parameter_error = found.map(|found| (found - value).abs() / deviation);
+        let interval = effect.interval.get(&parameter);
+        self.covered = interval.map(|[low, high]| *low <= value && value <= *high);
     }
 
     /// Whether the first effect is at least twice the smallest detectable; by its size where that is not told.
@@ -183,28 +183,17 @@ impl Row {
     }
 }
 
-/// Where it acts, as the diagnosis tells it: of the first effect, or of the verdict itself.
-fn place(diagnosis: &Value) -> String {
-    let own = text(diagnosis, "/place");
-    if own.is_empty() { text(diagnosis, "/effects/0/place") } else { own }
-}
-
 /// How far above the smallest detectable size an effect is, as the diagnosis itself sees that size.
-fn over_detectable(answer: &Value, index: usize, diagnosis: &Value) -> Option<f64> {
+fn over_detectable(answer: &Value, index: usize, diagnosis: &Summary) -> Option<f64> {
     let of = |key: &str| format!("/effects/{index}/{key}");
     let name = text(answer, &of("name"));
-    let row = list(diagnosis, "/could_hide").iter().find(|row| text(row, "/name") == name)?;
-    let parameter = text(answer, &of("parameter"));
+    let row = diagnosis.could_hide.iter().find(|row| row.name == name)?;
     let deviation = number(answer, &of("deviation"))?;
-    let smallest = number(row, "/smallest_detectable").filter(|_| text(row, "/parameter") == parameter)?;
-    Some(deviation / smallest)
+    (row.parameter == text(answer, &of("parameter"))).then(|| deviation / row.smallest_detectable)
 }
 
 /// The median over held-out tests of the windowed error over the noise floor.
-fn held_out(diagnosis: &Value, when: &str) -> Option<f64> {
-    let tests = list(diagnosis, "/tests").iter().filter(|test| text(test, "/use") == "hold-out");
-    median(tests.filter_map(|test| {
-        let error = number(test, &format!("/windowed_error/{when}"))?;
-        Some(error / number(test, "/noise_floor")?)
-    }))
+fn held_out(diagnosis: &Summary, when: fn(BeforeAfter<Option<f64>>) -> Option<f64>) -> Option<f64> {
+    let tests = diagnosis.tests.iter().filter(|test| test.purpose == Purpose::HoldOut);
+    median(tests.filter_map(|test| Some(when(test.windowed_error)? / test.noise_floor)))
 }

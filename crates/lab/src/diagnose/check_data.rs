@@ -8,18 +8,8 @@ use crate::diagnose::fit::{Problem, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::diagnose::trials::{Data, untouched};
 use crate::experiment::{TestData, rest_offset_rad, windows};
+use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER};
 use mrbd_files::error::{InputError, Result};
-
-/// Share of a test's windowed error that another reading of its file leaves, below which it is told. In 599 tests of walls with
-/// and without hidden effects, read as they should be, the least was 0.75 for channels swapped, 1.03 for both signs and 2.4 for
-/// the others. Of the same files made wrong it finds one sign in all, both signs in 88 and a swap in 16 of 100: the channels of a
-/// wall whose crack hardly opens are alike. One file of an experiment in degrees was found in 40 of 40.
-const ALONE: f64 = 0.5;
-/// The same for the geometric mean over all tests. In 130 experiments of three to six tests the least was 0.90; all of them made
-/// wrong, both signs are found in 99 and a swap in 37 of 100.
-const TOGETHER: f64 = 0.75;
-/// Fewest tests that are looked at together.
-const LEAST_TESTS: usize = 3;
 
 type Misreading = (&'static str, fn(&mut TestData));
 
@@ -87,7 +77,7 @@ pub fn check_data(experiment: &Experiment) -> Result<()> {
         Err(InputError::key(&experiment.path, key, found, allowed).into())
     };
     for (index, own) in errors.iter().enumerate() {
-        if let Some(likeliest) = likeliest(|misreading| own.as_ref()?.share(misreading), ALONE) {
+        if let Some(likeliest) = likeliest(|misreading| own.as_ref()?.share(misreading), MISREAD_TEST) {
             let name = &experiment.tests[index].name;
             return refuse(format!("tests[{index}].measured"), format!("test {name:?}"), likeliest);
         }
@@ -95,9 +85,9 @@ pub fn check_data(experiment: &Experiment) -> Result<()> {
     let together = |misreading: usize| {
         let shares = errors.iter().flatten().filter_map(|own| own.share(misreading)).collect::<Vec<_>>();
         let mean = shares.iter().map(|share| share.ln()).sum::<f64>() / shares.len() as f64;
-        (shares.len() >= LEAST_TESTS).then(|| mean.exp())
+        (shares.len() >= MISREAD_LEAST_TESTS).then(|| mean.exp())
     };
-    match likeliest(together, TOGETHER) {
+    match likeliest(together, MISREAD_TOGETHER) {
         Some(likeliest) => refuse("tests".to_owned(), "all tests".to_owned(), likeliest),
         None => Ok(()),
     }

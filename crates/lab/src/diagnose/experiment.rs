@@ -7,7 +7,7 @@ use crate::experiment::file::{ExperimentFile, TestTable};
 use crate::experiment::{Test, TestData, load_tests};
 use mrbd_files::FileNote;
 use mrbd_files::error::{InputError, Result};
-use mrbd_files::load_wall;
+use mrbd_files::{load_wall, toml_file};
 use mrbd_kernel::model::{Wall, WallParameters};
 use mrbd_kernel::simulate::Accuracy;
 
@@ -20,6 +20,8 @@ pub struct Experiment {
     pub wall_path: PathBuf,
     /// The wall before the diagnosis.
     pub wall: Wall,
+    /// The wall file as written, to be written again with what is found.
+    pub wall_table: toml::Table,
     /// What was uncertain of it.
     pub nuisances: Vec<Nuisance>,
     /// What was measured.
@@ -42,6 +44,7 @@ impl Experiment {
         let folder = path.parent().unwrap_or(Path::new(""));
         let wall_path = folder.join(&file.wall);
         let wall = load_wall(&wall_path)?;
+        let wall_table = toml_file::load(&wall_path)?;
         if !wall.is_cracked() {
             let allowed = "a wall of two bodies: wall.crack_height_m given";
             return Err(InputError::key(&wall_path, "wall.crack_height_m", "no crack", allowed).into());
@@ -56,7 +59,17 @@ impl Experiment {
         let note = |(role, file): (String, PathBuf)| FileNote::of(&role, &file);
         let read = file.files(path).into_iter().filter(|(role, _)| role != "coefficients");
         let inputs = read.map(note).collect::<Result<_>>()?;
-        Ok(Self { path: path.to_path_buf(), wall_path, wall, nuisances, tests, whole, scales, inputs })
+        Ok(Self {
+            path: path.to_path_buf(),
+            wall_path,
+            wall,
+            wall_table,
+            nuisances,
+            tests,
+            whole,
+            scales,
+            inputs,
+        })
     }
 }
 

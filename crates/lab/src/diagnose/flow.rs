@@ -1,84 +1,87 @@
 //! The flow of a diagnosis: windows, what effects do to them one by one, patterns read again, the verdict.
 
 use crate::Progress;
+use crate::diagnose::answer::{Diagnosis, Findings};
 use crate::diagnose::experiment::Experiment;
-use crate::diagnose::measured::{Window, is_readable, windows};
+use crate::diagnose::measured::{TestData, Window, is_readable, windows};
 use crate::diagnose::trials::{
     Alone, Data, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain,
 };
-use crate::diagnose::verdict::{Found, judge};
+use crate::diagnose::verdict::judge;
 use crate::experiment_file::Purpose;
+use crate::limits::READ_AGAIN;
 use mrbd_files::error::{InputError, Result};
 
-/// Times that patterns are read again without a sensor's gain.
-const READ_AGAIN: usize = 3;
-
-/// A diagnosis: what was found, and in which windows.
-#[derive(Debug)]
-pub struct Diagnosis {
-    /// The answer, and what it rests on.
-    pub found: Found,
-    /// Windows to fit and held out.
-    pub windows: [Vec<Window>; 2],
-}
-
-impl Diagnosis {
-    /// The windows as data of fits.
-    pub fn data<'a>(&'a self, experiment: &'a Experiment) -> Data<'a> {
-        Data::new(experiment, &self.windows)
-    }
-}
-
-/// Diagnoses an experiment; a sensor's gain that shows is left in its tests, so that their patterns are read without it.
+/// Diagnoses an experiment: the verdict, everything it rests on, and the updated wall.
 ///
 /// # Errors
 /// An input error if no window of a test to fit starts in a pattern beyond doubt.
-pub fn diagnose(experiment: &mut Experiment, progress: &impl Progress) -> Result<Diagnosis> {
-    let (mut windows, mut alone) = try_alone(experiment, progress)?;
+pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Diagnosis> {
+    Diagnosis::new(&findings(experiment, progress)?)
+}
+
+/// The hypotheses fitted, and the verdict; a sensor's gain that shows is kept with the tests, so that patterns are read
+/// without it.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Result<Findings<'e>> {
+    let mut flow = Flow { experiment, progress, tests: experiment.tests.clone() };
+    let (mut windows, mut alone) = flow.try_alone()?;
     for _ in 0..READ_AGAIN {
-        let Some(gain) = alone.singles.first().and_then(|best| gain_misread(&experiment.tests, best)) else {
+        let Some(gain) = alone.singles.first().and_then(|best| gain_misread(&flow.tests, best)) else {
             break;
         };
-        let before = set_gain(&mut experiment.tests, gain);
-        let (new_windows, new) = try_alone(experiment, progress)?;
+        let before = set_gain(&mut flow.tests, gain);
+        let (new_windows, new) = flow.try_alone()?;
         if !reads_better(&alone.singles, &new.singles) {
-            set_gain(&mut experiment.tests, before);
+            set_gain(&mut flow.tests, before);
             break;
         }
         (windows, alone) = (new_windows, new);
     }
-    if let Some(new_windows) = opened_windows(experiment, &windows, &alone) {
-        alone = alone_in(experiment, &new_windows, Some(&alone.recalibrated.fit.values), progress)?;
+    if let Some(new_windows) = opened_windows(&Data::new(&flow.tests, &windows), &alone) {
+        alone = flow.alone_in(&new_windows, Some(&alone.recalibrated.fit.values))?;
         windows = new_windows;
     }
-    let trials = Trials { experiment, data: Data::new(experiment, &windows), progress };
-    let found = judge(&trials, alone);
-    Ok(Diagnosis { found, windows })
+    let found = judge(&flow.trials(&windows), alone);
+    Ok(Findings { experiment, tests: flow.tests, windows, found })
 }
 
-/// Windows of the tests, and what effects do to them one by one.
-fn try_alone(experiment: &Experiment, progress: &impl Progress) -> Result<([Vec<Window>; 2], Alone)> {
-    let (fit, held_out) = windows(&experiment.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
-    let windows: [Vec<Window>; 2] = [fit, held_out];
-    let windows = opened_as_given(experiment, &windows).unwrap_or(windows);
-    let alone = alone_in(experiment, &windows, None, progress)?;
-    Ok((windows, alone))
+/// An experiment, with its tests as they are read so far.
+struct Flow<'e, P> {
+    experiment: &'e Experiment,
+    progress: &'e P,
+    tests: Vec<TestData>,
 }
 
-/// What effects do to windows one by one, where values of the wall's uncertain numbers may be known from other windows.
-fn alone_in(
-    experiment: &Experiment,
-    windows: &[Vec<Window>; 2],
-    known: Option<&[f64]>,
-    progress: &impl Progress,
-) -> Result<Alone> {
-    let no_window = || {
-        let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
-        InputError::file(&experiment.path, "no window that starts in a pattern beyond doubt", allowed)
-    };
-    if !experiment.tests.iter().any(|test| test.purpose == Purpose::Fit && is_readable(test)) {
-        return Err(no_window().into());
+impl<P: Progress> Flow<'_, P> {
+    /// Windows of the tests, and what effects do to them one by one.
+    fn try_alone(&self) -> Result<([Vec<Window>; 2], Alone)> {
+        let (fit, held_out) = windows(&self.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
+        let windows: [Vec<Window>; 2] = [fit, held_out];
+        let opened = opened_as_given(self.experiment, &Data::new(&self.tests, &windows));
+        let windows = opened.unwrap_or(windows);
+        let alone = self.alone_in(&windows, None)?;
+        Ok((windows, alone))
     }
-    let trials = Trials { experiment, data: Data::new(experiment, windows), progress };
-    Ok(trials.alone(known).ok_or_else(no_window)?)
+
+    /// What effects do to windows one by one, where values of the wall's uncertain numbers may be known from other windows.
+    fn alone_in(&self, windows: &[Vec<Window>; 2], known: Option<&[f64]>) -> Result<Alone> {
+        let no_window = || {
+            let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
+            let found = "no window that starts in a pattern beyond doubt";
+            InputError::file(&self.experiment.path, found, allowed)
+        };
+        if !self.tests.iter().any(|test| test.purpose == Purpose::Fit && is_readable(test)) {
+            return Err(no_window().into());
+        }
+        Ok(self.trials(windows).alone(known).ok_or_else(no_window)?)
+    }
+
+    /// Where hypotheses are tried.
+    fn trials<'a>(&'a self, windows: &'a [Vec<Window>; 2]) -> Trials<'a, P> {
+        let Self { experiment, progress, tests } = self;
+        Trials { experiment, data: Data::new(tests, windows), progress }
+    }
 }

@@ -12,8 +12,10 @@
 //! | [`verdict`] | nothing missing, the wall's own numbers, one effect or two by name, or a place |
 //! | [`certainty`] | how well its numbers are known, what could not be told from it, which test would tell |
 //! | [`force`] | the missing force, measured: no hypothesis enters |
-//! | [`tables`], [`output`] | what is written |
+//! | [`mod@crate::limits`] | every number that decides |
+//! | [`answer`] | all of it worked out: what `diagnosis.json` and the tables hold |
 
+pub mod answer;
 pub mod certainty;
 pub mod check_data;
 pub mod experiment;
@@ -25,7 +27,8 @@ pub mod measured;
 pub mod trials;
 pub mod verdict;
 
+pub use answer::Diagnosis;
 pub use check_data::check_data;
 pub use experiment::Experiment;
-pub use flow::{Diagnosis, diagnose};
+pub use flow::diagnose;
 pub use verdict::Verdict;

@@ -1,5 +1,6 @@
 //! What a channel reads beside the motion, from the channel alone: white noise, and an offset at rest.
 
+use crate::limits::{OFFSET_CLEAR, REST_DRIFT, REST_SCATTER};
 use mrbd_kernel::model::Pair;
 use mrbd_statistics::median;
 
@@ -30,11 +31,6 @@ pub fn noise_rad(time_s: &[f64], theta_rad: &[Pair], gap_s: f64) -> [Option<f64>
 const BLOCK: usize = 40;
 /// Fewest blocks of standing still.
 const LEAST_BLOCKS: usize = 2;
-/// A block whose scatter is this many times the noise, or whose two halves differ by as many standard deviations, moves.
-const SCATTER: f64 = 1.4;
-const DRIFT: f64 = 5.0;
-/// Standard deviations of the mean that are an offset: below, it is taken for zero.
-const CLEAR: f64 = 6.0;
 
 /// What each channel reads at rest, rad, from the quiet beginning of a test; zero where that is not clear of zero or the
 /// test does not begin at rest.
@@ -47,7 +43,7 @@ pub fn rest_offset_rad(theta_rad: &[Pair], noise_rad: Pair) -> Pair {
     let n = quiet.len() as f64;
     [0, 1].map(|i| {
         let mean = mean(quiet, i);
-        if mean.abs() > CLEAR * noise_rad[i] / n.sqrt() { mean } else { 0.0 }
+        if mean.abs() > OFFSET_CLEAR * noise_rad[i] / n.sqrt() { mean } else { 0.0 }
     })
 }
 
@@ -58,7 +54,8 @@ fn is_still(block: &[Pair], noise_rad: Pair) -> bool {
         let variance = block.iter().map(|theta| (theta[i] - about).powi(2)).sum::<f64>() / BLOCK as f64;
         let drift = (mean(first, i) - mean(second, i)).abs();
         // A missing sample is no sign of rest: comparisons with NaN fail.
-        variance.sqrt() < SCATTER * noise_rad[i] && drift < DRIFT * noise_rad[i] * (4.0 / BLOCK as f64).sqrt()
+        variance.sqrt() < REST_SCATTER * noise_rad[i]
+            && drift < REST_DRIFT * noise_rad[i] * (4.0 / BLOCK as f64).sqrt()
     })
 }
 

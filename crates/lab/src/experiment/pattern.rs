@@ -1,6 +1,7 @@
 //! Which pattern a measured wall is in where that is beyond doubt, and its state there: cubics through the samples around.
 
 use super::test_data::TestData;
+use crate::limits::{BEYOND_NOISE, OPEN_CLEAR, UNEVEN};
 use mrbd_kernel::model::{Contact, Pair, Pivot, State};
 
 /// Samples to either side of the middle.
@@ -9,13 +10,8 @@ pub const HALF: usize = 8;
 const COUNT: usize = 2 * HALF + 1;
 /// Free numbers of a cubic.
 const CUBIC: f64 = 4.0;
-/// Standard deviations beyond which a sum of squares is not noise alone.
-const BEYOND_NOISE: f64 = 3.0;
-/// Share of a step by which times may be off: twice what rounding to milliseconds does at 256 Hz.
-const UNEVEN: f64 = 0.25;
-/// Samples averaged where the sign of an opening is asked for, and standard deviations it must stand off zero.
+/// Samples averaged where the sign of an opening is read.
 const AVERAGED: usize = 5;
-const CLEAR: f64 = 4.0;
 
 /// What is free in a contact state that the measurement leaves no doubt about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -139,7 +135,7 @@ fn is_smooth(fit: &Local, noise: f64) -> bool {
 fn is_clear(y: &[f64; COUNT], noise: f64) -> bool {
     let sign = y[HALF].signum();
     let n = AVERAGED as f64;
-    y.windows(AVERAGED).all(|some| some.iter().sum::<f64>() / n * sign > CLEAR * noise / n.sqrt())
+    y.windows(AVERAGED).all(|some| some.iter().sum::<f64>() / n * sign > OPEN_CLEAR * noise / n.sqrt())
 }
 
 /// A channel about the middle of 2 [`HALF`] + 1 samples.

@@ -6,16 +6,11 @@ use super::file::{Purpose, TestTable};
 use super::measured::median_step;
 use super::noise::{noise_rad, rest_offset_rad};
 use super::test::Test;
+use crate::limits::{LEAST_SAMPLES, TOO_LARGE_RAD};
 use mrbd_files::error::InputError;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Pair, Wall};
 use mrbd_kernel::simulate::Shaking;
-
-/// Fewest samples of both rotations that can be diagnosed: some windows of tens of samples.
-const LEAST_SAMPLES: usize = 200;
-
-/// No wall that still stands has turned by this much, rad; read in degrees one has at once.
-const TOO_LARGE_RAD: f64 = 0.7;
 
 /// One test: measured rotations of both bodies and the shaking that caused them.
 #[derive(Debug, Clone)]
@@ -62,10 +57,10 @@ impl TestData {
         let largest_rad = rotations.filter(|theta| theta.is_finite()).fold(0.0, f64::max);
         if largest_rad > TOO_LARGE_RAD {
             let found = format!("a rotation of {largest_rad:.3} in test {:?}", test.name);
-            return refuse(
-                found,
-                "radians, below 0.7 while the wall stands; are these degrees? A wall that fell: collapse_s",
+            let allowed = format!(
+                "radians, below {TOO_LARGE_RAD} while the wall stands; are these degrees? A wall that fell: collapse_s"
             );
+            return refuse(found, &allowed);
         }
         let (time_s, theta_rad) = measured.counted(&table.windows_s);
         let record_s = test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);

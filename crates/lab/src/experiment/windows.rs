@@ -8,12 +8,8 @@ use std::ops::Range;
 use super::file::Purpose;
 use super::pattern::{Freedom, MeasuredState, measured_state};
 use super::test_data::TestData;
+use crate::limits::{LEAST_WINDOW_SAMPLES, MOVES, WINDOW_S};
 
-/// Length aimed at, s: windows are half to one and a half times as long, and up to four times where no pattern is beyond doubt
-/// for so long. About half a period of a rocking wall, so that most hold one impact at the ground.
-pub const WINDOW_S: f64 = 0.5;
-/// Fewest samples of a window, several times what its own state takes.
-const LEAST_SAMPLES: usize = 20;
 /// Samples to the next doubt beyond which a start is as good as any.
 const FAR_FROM_DOUBT: usize = 40;
 /// Preference for starting in pattern 3, in samples: two numbers to fit and no crack that opens by less than the noise.
@@ -21,8 +17,6 @@ const MONOLITHIC: i64 = 10;
 /// Aversion to starting in rest soon after motion, in samples, and how soon: a wall about to stop may not stand quite.
 const JUST_STOPPED: i64 = -20;
 const SOON: usize = 60;
-/// A sample this many standard deviations off zero moves.
-const MOVES: f64 = 6.0;
 
 /// A stretch of a test and the state at its start.
 #[derive(Debug, Clone)]
@@ -121,7 +115,7 @@ fn moves(test: &TestData, k: usize) -> bool {
 fn window(index: usize, test: &TestData, samples: Range<usize>, start: &MeasuredState) -> Option<Window> {
     let in_motion = samples.clone().filter(|&k| moves(test, k)).count() > 2;
     let readings = test.theta_rad[samples.clone()].iter().flatten().filter(|t| t.is_finite()).count();
-    if readings < 2 * LEAST_SAMPLES || (start.freedom == Freedom::Rest && !in_motion) {
+    if readings < 2 * LEAST_WINDOW_SAMPLES || (start.freedom == Freedom::Rest && !in_motion) {
         return None;
     }
     let noise = test.noise_rad[0].max(test.noise_rad[1]);

@@ -2,24 +2,14 @@
 
 use std::path::Path;
 
-use super::Tables;
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
-use mrbd_lab::diagnose::force::ForcePoint;
+use mrbd_lab::diagnose::answer::rows::ForceRow;
 
-/// One stretch.
-#[derive(Debug, Clone)]
-struct Row {
-    test: String,
-    purpose: &'static str,
-    point: ForcePoint,
-    after_n: Option<f64>,
-}
-
-static COLUMNS: [Column<Row>; 13] = [
+static COLUMNS: [Column<ForceRow>; 13] = [
     Column::input("test", "", "test", Read::Text(|r| Some(r.test.as_str().into()))),
-    Column::input("use", "", "fit or hold-out", Read::Text(|r| Some(r.purpose.into()))),
-    Column::input("time_s", "s", "middle of the stretch", Read::Number(|r: &Row| Some(r.point.time_s)))
+    Column::input("use", "", "fit or hold-out", Read::Text(|r| Some(r.purpose.name().into()))),
+    Column::input("time_s", "s", "middle of the stretch", Read::Number(|r: &ForceRow| Some(r.point.time_s)))
         .distinct(),
     Column::input("pattern", "", "pattern", Read::Text(|r| Some(r.point.contact.name().into()))),
     Column::result(
@@ -68,20 +58,10 @@ static COLUMNS: [Column<Row>; 13] = [
     ),
 ];
 
-impl Tables<'_> {
-    pub(super) fn write_force(&self, path: &Path) -> Result<()> {
-        let [before, after] = &self.force;
-        let row = |point: &ForcePoint| {
-            let test = &self.experiment.tests[point.test];
-            // Sensors of the updated wall may move the stretches.
-            let same = |p: &&ForcePoint| p.test == point.test && p.time_s == point.time_s;
-            Row {
-                test: test.name.clone(),
-                purpose: test.purpose.name(),
-                point: point.clone(),
-                after_n: after.iter().find(same).map(|p| p.force_n),
-            }
-        };
-        write_table(path, &COLUMNS, &[], &before.iter().map(row).collect::<Vec<_>>())
-    }
+/// Writes the table.
+///
+/// # Errors
+/// [`crate::Error::Table`] or [`crate::Error::Io`] if the disk refuses.
+pub(super) fn write(path: &Path, rows: &[ForceRow]) -> Result<()> {
+    write_table(path, &COLUMNS, &[], rows)
 }

@@ -2,27 +2,18 @@
 
 use std::path::Path;
 
-use super::Tables;
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
-use mrbd_lab::diagnose::force::Jump;
+use mrbd_lab::diagnose::answer::rows::JumpRow;
 
-/// One change of pattern, under the wall as given or updated.
-#[derive(Debug, Clone)]
-struct Row {
-    test: String,
-    wall: &'static str,
-    jump: Jump,
-}
-
-static COLUMNS: [Column<Row>; 9] = [
+static COLUMNS: [Column<JumpRow>; 9] = [
     Column::input("test", "", "test", Read::Text(|r| Some(r.test.as_str().into()))),
     Column::input("wall", "", "given or updated", Read::Text(|r| Some(r.wall.into()))),
     Column::input(
         "time_s",
         "s",
         "when the pattern was clear again",
-        Read::Number(|r: &Row| Some(r.jump.time_s)),
+        Read::Number(|r: &JumpRow| Some(r.jump.time_s)),
     )
     .distinct(),
     Column::input(
@@ -63,12 +54,10 @@ static COLUMNS: [Column<Row>; 9] = [
     ),
 ];
 
-impl Tables<'_> {
-    pub(super) fn write_jumps(&self, path: &Path) -> Result<()> {
-        let rows = ["given", "updated"].into_iter().enumerate().flat_map(|(which, wall)| {
-            let row = move |jump: Jump| Row { test: self.test_name(jump.test).to_owned(), wall, jump };
-            self.jumps_of(which).into_iter().map(row)
-        });
-        write_table(path, &COLUMNS, &[], &rows.collect::<Vec<_>>())
-    }
+/// Writes the table.
+///
+/// # Errors
+/// [`crate::Error::Table`] or [`crate::Error::Io`] if the disk refuses.
+pub(super) fn write(path: &Path, rows: &[JumpRow]) -> Result<()> {
+    write_table(path, &COLUMNS, &[], rows)
 }

@@ -2,27 +2,11 @@
 
 use std::path::Path;
 
-use super::Tables;
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
-use mrbd_lab::diagnose::trials::{Tried, against, kinds};
+use mrbd_lab::diagnose::answer::rows::RivalRow;
 
-/// One number of one hypothesis.
-#[derive(Debug, Clone)]
-struct Row {
-    rank: u64,
-    name: String,
-    place: &'static str,
-    is_answer: bool,
-    parameter: String,
-    unit: &'static str,
-    value: f64,
-    sd: Option<f64>,
-    error: [Option<f64>; 2],
-    against: f64,
-}
-
-static COLUMNS: [Column<Row>; 11] = [
+static COLUMNS: [Column<RivalRow>; 11] = [
     Column::input("rank", "", "1: what least speaks against", Read::Count(|r| Some(r.rank))),
     Column::input("name", "", "what is added to the wall", Read::Text(|r| Some(r.name.as_str().into()))),
     Column::input("place", "", "where it acts", Read::Text(|r| Some(r.place.into()))),
@@ -51,28 +35,10 @@ static COLUMNS: [Column<Row>; 11] = [
     ),
 ];
 
-impl Tables<'_> {
-    pub(super) fn write_rivals(&self, path: &Path) -> Result<()> {
-        let rows =
-            self.diagnosis.found.tried.iter().zip(1..).flat_map(|(tried, rank)| self.rival(tried, rank));
-        write_table(path, &COLUMNS, &[], &rows.collect::<Vec<_>>())
-    }
-
-    fn rival(&self, tried: &Tried, rank: u64) -> Vec<Row> {
-        let data = self.diagnosis.data(self.experiment);
-        let h = &tried.hypothesis;
-        let row = |i: usize| Row {
-            rank,
-            name: h.additions.iter().map(|a| a.name()).collect::<Vec<_>>().join(" + "),
-            place: h.additions.first().map_or("none", |a| a.place()),
-            is_answer: kinds(tried).is_some(),
-            parameter: h.unknowns[i].key.clone(),
-            unit: h.unknowns[i].unit,
-            value: tried.fit.values[i],
-            sd: tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt()),
-            error: tried.errors(),
-            against: against(&data, tried),
-        };
-        (h.nuisances..h.unknowns.len()).map(row).collect()
-    }
+/// Writes the table.
+///
+/// # Errors
+/// [`crate::Error::Table`] or [`crate::Error::Io`] if the disk refuses.
+pub(super) fn write(path: &Path, rows: &[RivalRow]) -> Result<()> {
+    write_table(path, &COLUMNS, &[], rows)
 }

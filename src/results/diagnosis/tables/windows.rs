@@ -2,25 +2,9 @@
 
 use std::path::Path;
 
-use super::Tables;
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
-use mrbd_kernel::simulate::Impacts;
-use mrbd_lab::diagnose::fit::{Replay, WindowFit};
-use mrbd_lab::diagnose::trials::Tried;
-
-/// One window.
-#[derive(Debug, Clone)]
-struct Row {
-    test: String,
-    purpose: &'static str,
-    from_s: f64,
-    to_s: f64,
-    pattern: &'static str,
-    impacts: Impacts,
-    /// Root of the squared error over the squared noise: before, recalibrated, after.
-    error: [Option<f64>; 3],
-}
+use mrbd_lab::diagnose::answer::rows::WindowRow;
 
 macro_rules! impacts {
     ($name:literal, $meaning:literal, $l:literal) => {
@@ -28,12 +12,12 @@ macro_rules! impacts {
     };
 }
 
-static COLUMNS: [Column<Row>; 17] = [
+static COLUMNS: [Column<WindowRow>; 17] = [
     Column::input("test", "", "test", Read::Text(|r| Some(r.test.as_str().into()))),
-    Column::input("use", "", "fit or hold-out", Read::Text(|r| Some(r.purpose.into()))),
-    Column::input("from_s", "s", "first sample", Read::Number(|r: &Row| Some(r.from_s))).distinct(),
-    Column::input("to_s", "s", "last sample", Read::Number(|r: &Row| Some(r.to_s))).distinct(),
-    Column::input("pattern", "", "pattern at its start", Read::Text(|r| Some(r.pattern.into()))),
+    Column::input("use", "", "fit or hold-out", Read::Text(|r| Some(r.purpose.name().into()))),
+    Column::input("from_s", "s", "first sample", Read::Number(|r: &WindowRow| Some(r.from_s))).distinct(),
+    Column::input("to_s", "s", "last sample", Read::Number(|r: &WindowRow| Some(r.to_s))).distinct(),
+    Column::input("pattern", "", "pattern at its start", Read::Text(|r| Some(r.contact.name().into()))),
     Column::result(
         "error_before",
         "",
@@ -58,33 +42,10 @@ static COLUMNS: [Column<Row>; 17] = [
     Column::result("impacts_other", "", "impacts not in Table 2", Read::Count(|r| Some(r.impacts.other))),
 ];
 
-impl Tables<'_> {
-    pub(super) fn write_windows(&self, path: &Path) -> Result<()> {
-        let replay = Replay::new(&self.experiment.tests, &self.physics[1]);
-        let after = self.diagnosis.found.kept();
-        let fits = [&self.diagnosis.found.before, &self.diagnosis.found.recalibrated, after].map(fits_of);
-        let row = |(i, (window, x)): (usize, (&mrbd_lab::diagnose::measured::Window, &[f64]))| {
-            let test = &self.experiment.tests[window.test];
-            Row {
-                test: test.name.clone(),
-                purpose: test.purpose.name(),
-                from_s: test.time_s[window.samples.start],
-                to_s: test.time_s[window.samples.end - 1],
-                pattern: window.freedom.state(x).1.name(),
-                impacts: replay.run(window, x, &mut ()).impacts,
-                error: fits.each_ref().map(|fits| Some(fits[i].reduced().sqrt()).filter(|e| e.is_finite())),
-            }
-        };
-        let mut rows = self.windows_of(after).enumerate().map(row).collect::<Vec<_>>();
-        let order = |r: &Row| self.experiment.tests.iter().position(|t| t.name == r.test);
-        rows.sort_by(|a, b| {
-            (order(a), a.from_s).partial_cmp(&(order(b), b.from_s)).unwrap_or(std::cmp::Ordering::Equal)
-        });
-        write_table(path, &COLUMNS, &[], &rows)
-    }
-}
-
-/// Windows to fit, then those held out.
-fn fits_of(tried: &Tried) -> Vec<&WindowFit> {
-    tried.fit.windows.iter().chain(&tried.held_out.windows).collect()
+/// Writes the table.
+///
+/// # Errors
+/// [`crate::Error::Table`] or [`crate::Error::Io`] if the disk refuses.
+pub(super) fn write(path: &Path, rows: &[WindowRow]) -> Result<()> {
+    write_table(path, &COLUMNS, &[], rows)
 }

@@ -6,15 +6,13 @@
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::diagnose::fit::{Fit, WindowSlopes};
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{Data, EQUIVALENT, Tried};
-use crate::diagnose::verdict::DETECTED;
+use crate::diagnose::trials::{Data, Tried};
+use crate::limits::{DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
 
-/// Share of an effect's trace that another must imitate to be told of.
-const IMITATED: f64 = 0.9;
 /// Changes over which slopes are taken, in standard deviations of a number: well inside what the tests can tell.
 const CHANGE_SD: f64 = 1.0;
 /// A window whose change over half of that differs from half its change by more than this share is not linear there: an impact
@@ -22,7 +20,7 @@ const CHANGE_SD: f64 = 1.0;
 const BENT: f64 = 0.25;
 
 /// An effect that another imitates in these tests.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Confused {
     /// The effect.
     pub effect: String,
@@ -33,7 +31,7 @@ pub struct Confused {
     /// Its number, with unit.
     pub parameter: String,
     /// Unit.
-    pub unit: &'static str,
+    pub unit: String,
     /// Smallest size told from nothing ...
     pub told_from_nothing: f64,
     /// ... and from the other.
@@ -41,13 +39,13 @@ pub struct Confused {
     /// A size that matters.
     pub matters: f64,
     /// The measurement that tells the effect by itself.
-    pub told_by: &'static str,
+    pub told_by: String,
 }
 
 /// How the windows change with the numbers of one addition.
 struct Trace<'t> {
     tried: &'t Tried,
-    /// Of every window; none where it is not linear.
+    /// Of every window; `None` where it is not linear.
     slopes: Vec<Option<WindowSlopes>>,
 }
 
@@ -100,7 +98,7 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
         Some((1.0 - left / information(effect, other, 0)?, left, other))
     });
     let (share, left, other) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    if share < IMITATED {
+    if share < IMITATED_SHARE {
         return None;
     }
     let h = &effect.tried.hypothesis;
@@ -111,17 +109,17 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
         imitated_by: other.tried.hypothesis.additions[0].name(),
         share,
         parameter: unknown.key.clone(),
-        unit: unknown.unit,
-        told_from_nothing: DETECTED / alone.sqrt(),
+        unit: unknown.unit.to_owned(),
+        told_from_nothing: DETECTED_SD / alone.sqrt(),
         // Half the square of the size over its standard deviation is what speaks for one and against the other.
         told_apart: (2.0 * EQUIVALENT / left).sqrt(),
         matters: unknown.scale,
-        told_by: variant.entry().told_by,
+        told_by: variant.entry().told_by.to_owned(),
     })
 }
 
 /// Inverse variance of an effect's number beside the wall's own uncertain numbers and the first few of another addition, in
-/// the windows in which both are linear; none where it leaves no trace.
+/// the windows in which both are linear; `None` where it leaves no trace.
 fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
     let h = &effect.tried.hypothesis;
     let (own, at) = (h.nuisances, h.nuisances);

@@ -14,7 +14,7 @@ const DRAWS: usize = 8;
 const SEED: u64 = 11;
 
 /// The wall as fitted, and walls drawn from the covariance of the fit, within bounds; the fitted one alone where the fit
-/// leaves no covariance. None if the fitted numbers are no wall.
+/// leaves no covariance. `None` if the fitted numbers are no wall.
 ///
 /// An impact system is nearly chaotic: the error of one whole run says little without those of its neighbours.
 pub fn ensemble(tried: &Tried) -> Option<Vec<Wall>> {

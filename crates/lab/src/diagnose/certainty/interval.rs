@@ -22,7 +22,7 @@ pub fn intervals(data: &Data, tried: &Tried) -> Vec<[f64; 2]> {
     tried.fit.values.iter().enumerate().map(interval).collect()
 }
 
-/// None where the curvature cannot be told; infinite where a number leaves no trace.
+/// `None` where the curvature cannot be told; infinite where a number leaves no trace.
 fn variances(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
     let count = tried.fit.values.len();
     if count == 0 {
@@ -49,7 +49,7 @@ fn variances(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
     Some((0..count).map(|i| covariance[(i, i)] + scatter[i]).collect())
 }
 
-/// The covariance that a curvature means, infinite for numbers without a trace; none where two leave the same.
+/// The covariance that a curvature means, infinite for numbers without a trace; `None` where two leave the same.
 fn covariance_of(curvature: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let traced = (0..curvature.nrows()).filter(|i| curvature[(*i, *i)] > 0.0).collect::<Vec<_>>();
     // Numbers of different units: each by its own trace.

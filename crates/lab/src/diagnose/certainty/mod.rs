@@ -6,7 +6,7 @@ mod ensemble;
 mod interval;
 mod next_tests;
 
-pub use confused::confused;
+pub use confused::{Confused, confused};
 pub use ensemble::ensemble;
 pub use interval::intervals;
-pub use next_tests::next_tests;
+pub use next_tests::{NextPull, NextShaking, NextTests, next_tests};

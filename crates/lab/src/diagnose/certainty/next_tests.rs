@@ -7,32 +7,25 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::diagnose::experiment::Experiment;
+use crate::diagnose::answer::Findings;
 use crate::diagnose::fit::{Fit, Problem, nats, shaken, windowed_error};
-use crate::diagnose::flow::Diagnosis;
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::measured::{TestData, Window, windows};
-use crate::diagnose::trials::{EQUIVALENT, Tried, against, kinds};
+use crate::diagnose::trials::{Tried, against, kinds};
 use crate::diagnose::verdict::Verdict;
 use crate::experiment::Sampled;
+use crate::limits::{EQUIVALENT, NEXT_FACTORS, NEXT_FITTED, NEXT_PULLS};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Contact, RockingWall};
 use mrbd_kernel::simulate::{Accuracy, Shaking, Simulator};
 
-/// Factors on the records of the tests.
-const FACTORS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
-/// Candidates the second hypothesis is fitted to; the others are told by its values as they are.
-const FITTED: usize = 3;
 /// Seed of the noise.
 const SEED: u64 = 7;
-/// Displacements of the top that a slow pull might reach, as shares of the wall's thickness: far from where it would tip,
-/// and no farther than the tests went.
-const PULLS: [f64; 2] = [0.05, 0.1];
 
 /// What would part two hypotheses.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NextTests {
     /// Their names: the one taken for the truth, the other.
     pub rivals: [String; 2],
@@ -43,14 +36,14 @@ pub struct NextTests {
 }
 
 /// A record of a test, scaled.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NextShaking {
     /// The test whose record it is.
     pub test: String,
     /// Factor on the record as it shook the wall there.
     pub scale: f64,
     /// What the wall of the first hypothesis does: `stood`, `collapsed` or `failed`.
-    pub outcome: &'static str,
+    pub outcome: String,
     /// Windowed error of the second there, in units of the noise.
     pub error: Option<f64>,
     /// What speaks more against the second than against the first, natural logarithms of likelihood.
@@ -60,7 +53,7 @@ pub struct NextShaking {
 }
 
 /// A slow pull.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NextPull {
     /// Displacement of the top, m.
     pub displacement_m: f64,
@@ -68,17 +61,17 @@ pub struct NextPull {
     pub force_n: [f64; 2],
 }
 
-/// What would part the answer from its nearest rival; none where the verdict is no class.
-pub fn next_tests(experiment: &Experiment, diagnosis: &Diagnosis) -> Option<NextTests> {
-    if diagnosis.found.verdict != Verdict::Class {
+/// What would part the answer from its nearest rival; `None` where the verdict is no class.
+pub fn next_tests(findings: &Findings) -> Option<NextTests> {
+    if findings.found.verdict != Verdict::Class {
         return None;
     }
-    let first = &diagnosis.found.after;
-    let second = nearest_rival(experiment, diagnosis);
-    let pair = Pair { experiment, diagnosis, first, second };
+    let first = &findings.found.after;
+    let second = nearest_rival(findings);
+    let pair = Pair { findings, first, second };
     let mut shaking = pair.candidates();
     shaking.sort_by(|a, b| b.0.nats.unwrap_or(0.0).total_cmp(&a.0.nats.unwrap_or(0.0)));
-    for (row, data) in shaking.iter_mut().take(FITTED) {
+    for (row, data) in shaking.iter_mut().take(NEXT_FITTED) {
         if let Some(better) = data.as_ref().and_then(|data| pair.fitted(row, data)) {
             *row = better;
         }
@@ -97,19 +90,17 @@ fn name(tried: &Tried) -> String {
 }
 
 /// The best of what explains the tests as well; the wall's own numbers where no addition does.
-fn nearest_rival<'d>(experiment: &Experiment, diagnosis: &'d Diagnosis) -> &'d Tried {
-    let data = diagnosis.data(experiment);
-    let limit = against(&data, &diagnosis.found.after) + EQUIVALENT;
-    let other = |t: &&Tried| {
-        !t.hypothesis.additions.contains(&Addition::Placebo) && kinds(t) != kinds(&diagnosis.found.after)
-    };
-    let rival = diagnosis.found.tried.iter().filter(other).find(|t| against(&data, t) < limit);
-    rival.unwrap_or(&diagnosis.found.recalibrated)
+fn nearest_rival<'f>(findings: &'f Findings) -> &'f Tried {
+    let (data, found) = (findings.data(), &findings.found);
+    let limit = against(&data, &found.after) + EQUIVALENT;
+    let other =
+        |t: &&Tried| !t.hypothesis.additions.contains(&Addition::Placebo) && kinds(t) != kinds(&found.after);
+    let rival = found.tried.iter().filter(other).find(|t| against(&data, t) < limit);
+    rival.unwrap_or(&found.recalibrated)
 }
 
 struct Pair<'a> {
-    experiment: &'a Experiment,
-    diagnosis: &'a Diagnosis,
+    findings: &'a Findings<'a>,
     first: &'a Tried,
     second: &'a Tried,
 }
@@ -124,8 +115,8 @@ struct Made {
 
 impl Pair<'_> {
     fn candidates(&self) -> Vec<(NextShaking, Option<Made>)> {
-        let tests = self.experiment.tests.iter();
-        let each = tests.flat_map(|test| FACTORS.map(|factor| (test, factor)));
+        let tests = self.findings.tests.iter();
+        let each = tests.flat_map(|test| NEXT_FACTORS.map(|factor| (test, factor)));
         // The tests there are have told what they can.
         let scaled = each.filter(|(_, factor)| *factor != 1.0);
         scaled.map(|(test, factor)| self.candidate(test, factor)).collect()
@@ -136,7 +127,7 @@ impl Pair<'_> {
         let mut row = NextShaking {
             test: test.name.clone(),
             scale: factor,
-            outcome: "failed",
+            outcome: "failed".to_owned(),
             error: None,
             nats: None,
             fitted: false,
@@ -152,7 +143,7 @@ impl Pair<'_> {
     }
 
     /// The first hypothesis under a scaled record, as it would be measured.
-    fn made(&self, test: &TestData, factor: f64, outcome: &mut &'static str) -> Option<Made> {
+    fn made(&self, test: &TestData, factor: f64, outcome: &mut String) -> Option<Made> {
         let physics = self.first.hypothesis.physics(&self.first.fit.values)?;
         let scaled = |record: &Accelerogram| record.scaled(factor);
         let shaking = Shaking {
@@ -163,7 +154,7 @@ impl Pair<'_> {
         let simulator =
             Simulator::new(&physics.wall, &shaken(&shaking, physics.reversed_ratio), Accuracy::default());
         let mut sampled = Sampled::at(&test.time_s);
-        *outcome = simulator.run(&mut sampled).outcome.name();
+        *outcome = simulator.run(&mut sampled).outcome.name().to_owned();
         let normal = test.noise_rad.map(|sd| Normal::new(0.0, sd));
         let [Ok(lower), Ok(upper)] = normal else { return None };
         let mut random = ChaCha8Rng::seed_from_u64(SEED);
@@ -176,8 +167,8 @@ impl Pair<'_> {
         let time_s = test.time_s[..theta_rad.len()].to_vec();
         let made = TestData { shaking, theta_rad, time_s, ..test.clone() };
         let mut windows = windows(std::slice::from_ref(&made));
-        windows.iter_mut().for_each(|w| w.test = self.experiment.tests.len());
-        let mut tests = self.experiment.tests.clone();
+        windows.iter_mut().for_each(|w| w.test = self.findings.tests.len());
+        let mut tests = self.findings.tests.clone();
         tests.push(made);
         let mut made = Made { tests, windows, first_nats: 0.0 };
         let own = states(&made, self.first, &self.first.fit.values)?;
@@ -187,7 +178,7 @@ impl Pair<'_> {
 
     /// The second hypothesis fitted to the tests to fit and to a simulated one.
     fn fitted(&self, row: &NextShaking, made: &Made) -> Option<NextShaking> {
-        let old = &self.diagnosis.windows[0];
+        let old = &self.findings.windows[0];
         let windows = [&old[..], &made.windows].concat();
         let problem = Problem { tests: &made.tests, windows: &windows };
         let second = self.second;
@@ -209,13 +200,13 @@ impl Pair<'_> {
     fn pulls(&self) -> Option<Vec<NextPull>> {
         let wall = |tried: &Tried| Some(RockingWall::new(&tried.hypothesis.physics(&tried.fit.values)?.wall));
         let walls = [wall(self.first)?, wall(self.second)?];
-        let thickness_m = self.experiment.wall.parameters().thickness_m;
+        let thickness_m = self.findings.experiment.wall.parameters().thickness_m;
         let pull = |share: f64| {
-            let displacement_m = (share * thickness_m).min(self.experiment.scales.displacement_m);
+            let displacement_m = (share * thickness_m).min(self.findings.experiment.scales.displacement_m);
             let force_n = walls.each_ref().map(|wall| -wall.top_force_n(displacement_m, 0.0, 0.0));
             NextPull { displacement_m, force_n }
         };
-        Some(PULLS.map(pull).to_vec())
+        Some(NEXT_PULLS.map(pull).to_vec())
     }
 }
 

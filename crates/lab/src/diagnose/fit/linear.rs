@@ -94,7 +94,7 @@ impl Neighbour<'_> {
 
 impl Problem<'_> {
     /// How each window of a fit changes with the values, and the changes of the values over which that was taken: the
-    /// given ones, or fitting ones. None if a neighbour is no wall.
+    /// given ones, or fitting ones. `None` if a neighbour is no wall.
     pub fn slopes(
         &self,
         h: &Hypothesis,
@@ -110,7 +110,7 @@ impl Problem<'_> {
         Some((linear.into_iter().map(of).collect(), changes))
     }
 
-    /// Every window, linear about the fit; none if a neighbour is no wall.
+    /// Every window, linear about the fit; `None` if a neighbour is no wall.
     pub(super) fn linear(&self, h: &Hypothesis, fit: &Fit, changes: &[f64]) -> Option<Vec<Linear>> {
         let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
         let sides = |(i, change): (usize, &f64)| self.sides(h, fit, i, *change);

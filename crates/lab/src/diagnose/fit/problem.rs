@@ -9,9 +9,7 @@ use super::window_fit::{
 use super::{Loss, Replay, WindowFit, fit_windows, poor_share};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::diagnose::measured::{TestData, Window};
-
-/// Share of poor windows above which no other valleys are looked for.
-const MOST_POOR: f64 = 0.3;
+use crate::limits::MOST_MISSED;
 
 /// A fitted hypothesis.
 #[derive(Debug, Clone)]
@@ -22,7 +20,7 @@ pub struct Fit {
     pub windows: Vec<WindowFit>,
     /// Loss and prior together.
     pub cost: f64,
-    /// Covariance of the numbers from the curvature; none where they leave no trace.
+    /// Covariance of the numbers from the curvature; `None` where they leave no trace.
     pub covariance: Option<DMatrix<f64>>,
 }
 
@@ -39,7 +37,7 @@ impl Fit {
 
     /// Whether the model, and not the states it was given, is what misses the windows.
     pub fn misses_many(&self) -> bool {
-        poor_share(&self.windows) > MOST_POOR
+        poor_share(&self.windows) > MOST_MISSED
     }
 }
 
@@ -58,7 +56,7 @@ impl Problem<'_> {
         self.windows.iter().map(|w| w.measured.clone()).collect()
     }
 
-    /// How the residuals of each window change with its state, for the values and states of a fit; none if there is no
+    /// How the residuals of each window change with its state, for the values and states of a fit; `None` if there is no
     /// such wall.
     pub fn chords(&self, h: &Hypothesis, fit: &Fit) -> Option<Vec<DMatrix<f64>>> {
         let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
@@ -75,7 +73,7 @@ impl Problem<'_> {
     }
 
     /// The states of a fit moved by one step with the chords of another hypothesis nearby, where that helps: a cheap look
-    /// at what values would do; none if there is no such wall.
+    /// at what values would do; `None` if there is no such wall.
     pub fn glance(&self, h: &Hypothesis, values: &[f64], from: &Fit, chords: &[DMatrix<f64>]) -> Option<Fit> {
         let replay = Replay::new(self.tests, &h.physics(values)?);
         let look = |these: &[(InState, &DMatrix<f64>)]| {
@@ -95,7 +93,7 @@ impl Problem<'_> {
         Some(found)
     }
 
-    /// Fits the states alone, from given ones; none if there is no such wall. `thorough` looks for other valleys of windows
+    /// Fits the states alone, from given ones; `None` if there is no such wall. `thorough` looks for other valleys of windows
     /// that stay poor.
     pub fn states(
         &self,

@@ -6,13 +6,13 @@
 //! likelihood, so that no window that is lost for good outweighs what the others say.
 
 use super::window_fit::WindowFit;
+use crate::limits::{MIDDLE_BOUND, MOST_NATS};
 
 /// Bounds in squared noise, but for the first.
 const FIRST_BOUND: f64 = 20.0;
-const MIDDLE_BOUND: f64 = 8.0;
 const NEAR_BOUND: f64 = 3.0;
-/// Bound of the last loss, in squared error above that of noise: twice forty natural logarithms of likelihood.
-const LAST_EXCESS: f64 = 80.0;
+/// Bound of the last loss, in squared error above that of noise: twice what a window can say at most.
+const LAST_EXCESS: f64 = 2.0 * MOST_NATS;
 
 /// What a window costs.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,15 +1,10 @@
 //! How well a hypothesis follows the measurement over windows.
 
 use super::window_fit::WindowFit;
-
-/// Share of the windows, those worst followed, left out of the windowed error: an impact decided by less than the noise
-/// parts even a perfect simulation from the measurement.
-const LEFT_OUT: f64 = 0.1;
-/// What one window can say against a hypothesis at most, in natural logarithms of likelihood.
-const MOST_NATS: f64 = 40.0;
+use crate::limits::{LEFT_OUT, MOST_NATS};
 
 /// Root mean square error over windows, in standard deviations of the noise; 1 is perfect.
-/// None where there are none.
+/// `None` without windows.
 pub fn windowed_error(fits: &[WindowFit]) -> Option<f64> {
     let mut reduced = fits.iter().map(WindowFit::reduced).collect::<Vec<_>>();
     if reduced.is_empty() {
@@ -26,9 +21,10 @@ pub fn poor_share(fits: &[WindowFit]) -> f64 {
     if fits.is_empty() { 0.0 } else { poor as f64 / fits.len() as f64 }
 }
 
-/// Standard deviations by which more of the windows held out have more error than noise leaves than of those that were fitted:
-/// two shares of one population, with one window more of either sort, for none of few is no certainty. Nothing is more where
-/// there are none.
+/// Excess of the share of missed windows among those held out over that among those fitted, in standard deviations.
+///
+/// Both are taken for samples of one population. Its share is estimated with one missed and one followed window more than
+/// there are: a few windows of which none is missed do not make it zero. 0 without windows of either kind.
 pub fn more_poor_held_out_sd(fitted: &[WindowFit], held_out: &[WindowFit]) -> f64 {
     if fitted.is_empty() || held_out.is_empty() {
         return 0.0;

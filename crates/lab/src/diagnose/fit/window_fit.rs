@@ -8,14 +8,12 @@ use rayon::prelude::*;
 use super::replay::Replay;
 use crate::diagnose::measured::Window;
 pub(super) use crate::least_squares::newton_step;
+use crate::limits::MISSED_SD;
 
 /// Steps of Gauss and Newton tried at shrinking lengths before giving up.
 const SHORTER: [f64; 4] = [1.0, 0.4, 0.16, 0.06];
 /// Gain in the sum of squares, in squared noise, that is not worth another step.
 const LITTLE: f64 = 0.5;
-/// Standard deviations of what noise leaves by which a window is followed badly: other starts are tried, for an impact just
-/// missed or just met has valleys of its own.
-const POOR_SD: f64 = 5.0;
 /// Share of the spread of a smoothed state over which sensitivities to it are taken.
 const CHANGE_SHARE: f64 = 0.1;
 /// Other starts drawn about the smoothed state, and how many of the best are refined.
@@ -52,7 +50,7 @@ impl WindowFit {
 
     /// Whether noise alone does not leave so much: the squared error of noise has twice its freedom as variance.
     pub fn is_poor(&self) -> bool {
-        self.reduced() > 1.0 + POOR_SD * (2.0 / self.freedom).sqrt()
+        self.reduced() > 1.0 + MISSED_SD * (2.0 / self.freedom).sqrt()
     }
 }
 

@@ -16,7 +16,7 @@ const ROUNDS: usize = 6;
 ///
 /// Lines against displacement, velocity and acceleration are taken off first: the fit of windows weighs other instants, and
 /// may put a little of one for another. Laws of displacement alone are not asked: near x = 0, where impacts are, smoothing
-/// makes a curve of its own at a large noise. None where there are too few points.
+/// makes a curve of its own at a large noise. `None` where there are too few points.
 pub fn curve_left(points: &[ForcePoint]) -> Option<f64> {
     let of = |law: fn(&ForcePoint) -> f64| points.iter().map(law).collect::<Vec<_>>();
     let lines = [of(|p| p.displacement_m), of(|p| p.velocity_m_s), of(|p| p.acceleration_m_s2)];
@@ -37,7 +37,7 @@ pub fn curve_left(points: &[ForcePoint]) -> Option<f64> {
 }
 
 /// Squared error, in standard deviations, that a sum of such columns leaves of the force in least squares; far points count
-/// by their distance, not its square. None where the columns are no independent ones.
+/// by their distance, not its square. `None` where the columns are no independent ones.
 fn left_by(points: &[ForcePoint], columns: &[Vec<f64>]) -> Option<f64> {
     let size = |column: &Vec<f64>| column.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let sizes = columns.iter().map(size).collect::<Vec<_>>();

@@ -2,16 +2,14 @@
 
 use super::law_curves::Against;
 use super::points::ForcePoint;
+use crate::limits::FORCE_CLEAR;
 
-/// Squared force over squared noise below which there is nothing to explain: seven standard deviations of a hundred points
-/// of noise alone.
-const CLEAR: f64 = 2.0;
 /// A point says nothing if its noise is so many times the usual and such a share of its force.
 const NOISY: f64 = 2.0;
 const NOISY_SHARE: f64 = 0.2;
 
 /// Share of the squared missing force, noise taken off, that a line from neighbour to neighbour explains at each point
-/// without the point itself; none where the force is hardly more than noise.
+/// without the point itself; `None` where the force is hardly more than noise.
 ///
 /// 1: the force is a function of this quantity alone, sampled closely enough; 0 or less: it is none.
 pub fn explained_by(points: &[ForcePoint], against: Against) -> Option<f64> {
@@ -20,7 +18,7 @@ pub fn explained_by(points: &[ForcePoint], against: Against) -> Option<f64> {
     let inner = points.get(1..points.len().saturating_sub(1))?;
     let force = inner.iter().map(|p| p.force_n.powi(2)).sum::<f64>();
     let noise = inner.iter().map(|p| p.force_sd_n.powi(2)).sum::<f64>();
-    if inner.is_empty() || force < CLEAR * noise {
+    if inner.is_empty() || force < FORCE_CLEAR * noise {
         return None;
     }
     let mut left = 0.0;

@@ -32,7 +32,7 @@ pub struct Jump {
     pub contacts: [Contact; 2],
     /// Impacts of the model on the way.
     pub impacts: Impacts,
-    /// Velocities right after it over those of the model, as the kinetic energy weighs them; none where the model is
+    /// Velocities right after it over those of the model, as the kinetic energy weighs them; `None` where the model is
     /// then in another pattern, or too slow.
     pub ratio: Option<f64>,
     /// Standard deviation of the ratio by the noise of the velocities after it.
@@ -40,7 +40,7 @@ pub struct Jump {
 }
 
 impl Jump {
-    /// Position of the coefficient C_l the model's only impact has; none for a burst, or an impact not in Table 2.
+    /// Position of the coefficient C_l the model's only impact has; `None` for a burst, or an impact not in Table 2.
     pub fn coefficient(&self) -> Option<usize> {
         let single = self.impacts.total() == 1;
         self.impacts.table2.iter().position(|&count| single && count == 1)
@@ -96,7 +96,7 @@ fn of_test(index: usize, test: &TestData, physics: &Physics) -> Vec<Jump> {
     all.windows(2).filter_map(between).collect()
 }
 
-/// 1 + (ω_m - ω) · M ω⁺ / (ω⁺ · M ω⁺), and its standard deviation; none where ω⁺ is slow.
+/// 1 + (ω_m - ω) · M ω⁺ / (ω⁺ · M ω⁺), and its standard deviation; `None` where ω⁺ is slow.
 ///
 /// ω⁺ are the model's velocities right after its last impact, ω those a little later, when the measured ω_m are known;
 /// meanwhile both change by nearly the same.

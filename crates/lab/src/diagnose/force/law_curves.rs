@@ -75,7 +75,7 @@ pub fn law_curves(given: &Wall, tried: &[Tried], points: &[ForcePoint]) -> Vec<L
         let reach = points.iter().map(|p| against.of(p).abs()).fold(0.0, f64::max);
         let at = |k: u32| reach * (2.0 * f64::from(k) / f64::from(POINTS) - 1.0);
         let curve = |t: &Tried| {
-            let after = RockingWall::new(&alone(t)?);
+            let after = RockingWall::new(&with_additions_alone(t)?);
             let added = |x: f64| against.force_n(&after, x) - against.force_n(&before, x);
             let points = (0..=POINTS).map(|k| (at(k), added(at(k)))).collect::<Vec<_>>();
             let name = t.hypothesis.additions.iter().map(|a| a.name()).collect::<Vec<_>>().join(" + ");
@@ -92,7 +92,7 @@ pub fn law_curves(given: &Wall, tried: &[Tried], points: &[ForcePoint]) -> Vec<L
 }
 
 /// The wall as given with the additions of a hypothesis, its own numbers where they were.
-fn alone(tried: &Tried) -> Option<Wall> {
+fn with_additions_alone(tried: &Tried) -> Option<Wall> {
     let h = &tried.hypothesis;
     let own = h.unknowns.iter().take(h.nuisances).map(|u| u.start);
     let values = own.chain(tried.fit.values.iter().skip(h.nuisances).copied()).collect::<Vec<_>>();

@@ -15,7 +15,7 @@ mod law_curves;
 mod points;
 mod stretch;
 
-pub use at_top::{ALONG, acts_at_top};
+pub use at_top::acts_at_top;
 pub use curved::curve_left;
 pub use explained::explained_by;
 pub use jumps::{Jump, jumps};

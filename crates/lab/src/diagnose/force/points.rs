@@ -7,6 +7,7 @@ use super::stretch::{Stretch, stretches};
 use crate::diagnose::fit::{SpringMemory, shaken};
 use crate::diagnose::hypothesis::Physics;
 use crate::diagnose::measured::{Freedom, TestData, rest_offset_rad};
+use crate::limits::DIRECTION_CLEAR;
 use mrbd_kernel::model::{Contact, Pair, RockingWall, State, Vector};
 use mrbd_kernel::simulate::{Accuracy, Simulator};
 
@@ -19,8 +20,6 @@ const KNOWN_TO: f64 = 0.1;
 const LEAST_HALF: usize = 4;
 /// Shorter stretches than this share of the full reach know the force too badly.
 const LEAST_REACH: f64 = 0.5;
-/// Squared standard deviations of noise beyond which a residual has a direction.
-const CLEAR: f64 = 16.0;
 /// Parts in which the ground motion about a sample is summed.
 const PARTS: i32 = 8;
 
@@ -45,7 +44,7 @@ pub struct ForcePoint {
     pub force_n: f64,
     /// Standard deviation of that force by the noise of the rotations, N.
     pub force_sd_n: f64,
-    /// Share of the squared residual moment off the direction of a force at the top; none where a single moment, or noise,
+    /// Share of the squared residual moment off the direction of a force at the top; `None` where a single moment, or noise,
     /// has no direction.
     pub share_off_top: Option<f64>,
 }
@@ -192,7 +191,7 @@ impl Residual {
         missing: &Missing,
     ) -> Option<f64> {
         let size = (0..2).map(|i| missing.theta_dd[i].powi(2) / missing.variance[i]).sum::<f64>();
-        if freedom != Freedom::Both || size < CLEAR {
+        if freedom != Freedom::Both || size < DIRECTION_CLEAR {
             return None;
         }
         let m = self.wall.moments_n_m(contact, theta, missing.theta_dd);

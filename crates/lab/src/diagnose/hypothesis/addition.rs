@@ -2,16 +2,13 @@
 
 use super::unknown::Slot;
 use super::{Scales, Unknown, WallNumber};
+use crate::limits::{FACTOR_SD, STRONGEST_DAMPER};
 use mrbd_kernel::model::{
     EffectKind, EffectParameter, EffectVariant, Joint, Place, Quantity, Role, WallParameters,
 };
 
 /// Coefficients that impacts under the law `contact` can act with; C_7 and C_8 belong to impacts that end in sticking.
 pub const ACTING: usize = 6;
-/// Largest damper, in sizes that matter: it holds what it is on, and a stronger one does the same in ever shorter steps.
-const STRONGEST_DAMPER: f64 = 100.0;
-/// Standard deviation of a factor on C_l about 1: wide, but a factor that never acts stays at 1.
-const FACTOR_SD: f64 = 0.3;
 
 /// Something added to the wall.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -11,7 +11,7 @@ mod wall_number;
 
 pub use addition::{ACTING, Addition};
 pub use candidates::candidates;
-pub use nuisance::{Nuisance, PRIOR_REACH};
+pub use nuisance::Nuisance;
 pub use scale::Scales;
 pub use unknown::Unknown;
 pub use wall_number::{WALL_NUMBERS, WallNumber, wall_number};
@@ -99,7 +99,7 @@ impl Hypothesis {
         }
     }
 
-    /// The effects that the additions with these values are, for the wall file; none if one is outside its bounds.
+    /// The effects that the additions with these values are, for the wall file; `None` if one is outside its bounds.
     pub fn effects(&self, values: &[f64]) -> Option<Vec<Effect>> {
         let mut effects = Vec::new();
         for (index, addition) in self.additions.iter().enumerate() {
@@ -118,7 +118,7 @@ impl Hypothesis {
         Some(effects)
     }
 
-    /// The wall these values make; none if there is no such wall.
+    /// The wall these values make; `None` if there is no such wall.
     pub fn physics(&self, values: &[f64]) -> Option<Physics> {
         let parameters = self.parameters_of_wall(values)?;
         let placebo = self.additions.iter().position(|a| *a == Addition::Placebo);
@@ -126,7 +126,7 @@ impl Hypothesis {
         Some(Physics { wall: Wall::new(parameters).ok()?, reversed_ratio })
     }
 
-    /// The parameters of the wall these values make; none if an effect is outside its bounds.
+    /// The parameters of the wall these values make; `None` if an effect is outside its bounds.
     pub fn parameters_of_wall(&self, values: &[f64]) -> Option<WallParameters> {
         let mut p = self.base.clone();
         for (unknown, &value) in self.unknowns.iter().zip(values) {

@@ -2,12 +2,8 @@
 
 use super::unknown::Slot;
 use super::{Unknown, WallNumber};
+use crate::limits::{PRIOR_REACH, WIDE_PRIOR};
 use mrbd_kernel::model::WallParameters;
-
-/// Standard deviations of its prior within which a number of the wall is taken to lie.
-pub const PRIOR_REACH: f64 = 3.0;
-/// A relative prior wider than this says that a number was not known.
-const WIDE_PRIOR: f64 = 0.1;
 
 /// What was known of a number of the wall before the tests.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,17 +1,10 @@
 //! What effects do to the windows one by one.
 
 use super::search::{refit, shared_states, try_hypothesis};
-use super::{Trials, Tried, WORTH_POLISH, against, untouched};
+use super::{Trials, Tried, against, untouched};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Nuisance, candidates};
-
-/// Best single effects from whose values the wall without effects is fitted again. Chosen: from the best alone, a wall with
-/// nothing hidden was once left 3 % off its stiffness, and an effect named for it.
-const PARTS: usize = 6;
-/// Best rivals whose states the wall without effects tries too.
-const SHARING: usize = 8;
-/// Windows in motion below which no effect could be told.
-const LEAST_MOVING: usize = 6;
+use crate::limits::{LEAST_MOVING, REFITTED_FROM, STATES_FOR_WALL, WORTH_POLISH};
 
 /// The wall as given, its numbers fitted, and single effects, best first; none of these where too little moves.
 pub struct Alone {
@@ -24,7 +17,7 @@ pub struct Alone {
 }
 
 impl<P: Progress> Trials<'_, P> {
-    /// Everything that is tried alone; none if there is no window to start in. The wall's uncertain numbers are fitted from
+    /// Everything that is tried alone; `None` if there is no window to start in. The wall's uncertain numbers are fitted from
     /// values `known` from elsewhere too.
     pub fn alone(&self, known: Option<&[f64]>) -> Option<Alone> {
         let nuisances = &self.experiment.nuisances;
@@ -41,7 +34,7 @@ impl<P: Progress> Trials<'_, P> {
         let recalibrated = better.unwrap_or(recalibrated);
         self.progress.advance(1);
         let (recalibrated, singles) = self.singles(&before, recalibrated);
-        let best = singles.iter().take(SHARING).collect::<Vec<_>>();
+        let best = singles.iter().take(STATES_FOR_WALL).collect::<Vec<_>>();
         let [before, recalibrated] =
             [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
         Some(Alone { before, recalibrated, singles })
@@ -53,7 +46,7 @@ impl<P: Progress> Trials<'_, P> {
         let additions = candidates(self.experiment.wall.parameters());
         let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
         let singles = self.try_all("single effects", nuisances, &self.starts(before, &recalibrated), &sets);
-        let nearest = singles.iter().take(PARTS);
+        let nearest = singles.iter().take(REFITTED_FROM);
         let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, whole));
         if against(&self.data, &recalibrated) - against(&self.data, &better) < WORTH_POLISH {
             let singles = self.polished(nuisances, before, singles, &better);

@@ -1,12 +1,6 @@
 //! Which coarse fits are worth fitting to the end.
 
-/// Coarse fits that are always finished, and at most; between them those near the best.
-const FINISHED: [usize; 2] = [6, 12];
-/// What is near the best, in natural logarithms of likelihood.
-pub const NEAR_BEST: f64 = 100.0;
-/// Coarse fits that are finished because they follow the windows best by their error, which a window far off still tells when
-/// its likelihood is at its bound. Chosen.
-const FOLLOWING: usize = 2;
+use crate::limits::{FOLLOWING, LEAST_FINISHED, MOST_FINISHED, NEAR_BEST};
 
 /// A hypothesis fitted coarsely.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +16,7 @@ pub struct Coarse {
 pub fn worth_finishing(coarse: &[Coarse]) -> Vec<usize> {
     let Some(best) = coarse.first() else { return Vec::new() };
     let near = coarse.iter().filter(|c| c.against < best.against + NEAR_BEST).count();
-    let near = near.clamp(FINISHED[0], FINISHED[1]).min(coarse.len());
+    let near = near.clamp(LEAST_FINISHED, MOST_FINISHED).min(coarse.len());
     let mut errors = coarse.iter().map(|c| c.error).collect::<Vec<_>>();
     errors.sort_by(f64::total_cmp);
     let limit = errors[FOLLOWING.min(errors.len()) - 1];

@@ -14,16 +14,14 @@ use super::search::refit;
 use super::{Trials, is_noise, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, candidates};
+use crate::limits::FRICTION_WITHIN;
 use mrbd_kernel::model::EffectKind;
 
 /// The spring that yields.
 const SPRING: EffectKind = EffectKind::YieldingSpring;
 /// Friction.
 pub const FRICTION: EffectKind = EffectKind::CoulombFriction;
-/// Share of the largest displacement of the top within which a spring yields that is friction. Chosen: a tie or a nail that
-/// yields gives by tens of percent of it, friction by hundredths of one.
-const AT_ONCE: f64 = 0.01;
-/// Shares of it over which friction may set in, from which a spring in its place is fitted.
+/// Shares of the largest displacement of the top over which friction may set in, from which a spring in its place is fitted.
 const ONSETS: [f64; 4] = [3e-4, 1e-3, 3e-3, 1e-2];
 
 /// Friction that is an addition by the name of a spring.
@@ -44,7 +42,7 @@ pub fn giving_friction(h: &Hypothesis, values: &[f64], index: usize) -> Option<G
     let onset_m = values[force] / values[stiffness];
     // The size of a force that matters over that of a stiffness is the largest displacement.
     let largest_m = h.unknowns[force].scale / h.unknowns[stiffness].scale;
-    (onset_m > 0.0 && onset_m < AT_ONCE * largest_m).then_some(GivingFriction { force, onset_m })
+    (onset_m > 0.0 && onset_m < FRICTION_WITHIN * largest_m).then_some(GivingFriction { force, onset_m })
 }
 
 /// Which of the numbers of a hypothesis an addition has by this key.
@@ -71,7 +69,7 @@ impl<P: Progress> Trials<'_, P> {
         let Some((h, from)) = best.and_then(|best| Some((self.giving_instead(best)?, best))) else {
             return tried;
         };
-        self.progress.begin("friction that gives first", ONSETS.len());
+        self.progress.begin("friction with a soft onset", ONSETS.len());
         let fit = |onset: &f64| {
             let found = giving_values(&h, from, *onset)
                 .and_then(|values| refit(&self.data, h.clone(), from, &values));
@@ -82,7 +80,7 @@ impl<P: Progress> Trials<'_, P> {
         self.best_of_each([tried, found].concat())
     }
 
-    /// The hypothesis with a spring that yields in the place of friction; none if it has no friction, or a spring already.
+    /// The hypothesis with a spring that yields in the place of friction; `None` if it has no friction, or a spring already.
     fn giving_instead(&self, tried: &Tried) -> Option<Hypothesis> {
         let mut additions = tried.hypothesis.additions.clone();
         let (friction, None) = (position(&additions, FRICTION)?, position(&additions, SPRING)) else {
@@ -95,7 +93,7 @@ impl<P: Progress> Trials<'_, P> {
 }
 
 /// The values of a hypothesis with friction for the one with a spring in its place, which yields at the same force, after a
-/// share of the largest displacement; none if either is missing.
+/// share of the largest displacement; `None` if either is missing.
 fn giving_values(h: &Hypothesis, from: &Tried, onset: f64) -> Option<Vec<f64>> {
     let number_of = |h: &Hypothesis, kind, key| number(h, position(&h.additions, kind)?, key);
     let stiffness = number_of(h, SPRING, "stiffness_n_per_m")?;

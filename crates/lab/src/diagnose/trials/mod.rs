@@ -6,30 +6,27 @@
 //! | `criteria` | when it follows the tests within noise, closes a gap, does something |
 //! | `alone` | the wall as given, its own numbers, and effects one by one |
 //! | `pairs` | two effects together |
-//! | `imitate`, `rivals` | what may stand for the best, from where it would |
+//! | `imitation`, `rivals` | candidates that could imitate the best |
 //! | `friction` | friction that gives a little first |
-//! | `settle` | an answer from about itself, until it is the best of its kind |
+//! | `refine` | an answer fitted again from starts about it, until that gains nothing |
 //! | `misread_gain`, `opened_joints` | patterns read again, without a sensor's gain and with joints open by less than the noise |
 
 mod alone;
 mod criteria;
 mod finishing;
 mod friction;
-mod imitate;
+mod imitation;
 mod misread_gain;
 mod opened_joints;
 mod pairs;
+mod refine;
 mod rivals;
 mod search;
-mod settle;
 mod starts;
 mod tried;
 
 pub use alone::Alone;
-pub use criteria::{
-    EQUIVALENT, FLOOR, HELD_OUT, against, all_windows, best_answer, closes, does_something, is_noise,
-    joint_error, kinds,
-};
+pub use criteria::{against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds};
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub use misread_gain::{gain_misread, reads_better, set_gain};
 pub use opened_joints::{opened_as_given, opened_windows};
@@ -41,13 +38,9 @@ use rayon::prelude::*;
 use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
+use crate::limits::{POLISHED, WORTH_POLISH};
 use finishing::{Coarse, worth_finishing};
 use search::{finish, refit, try_coarsely};
-
-/// Rivals fitted once more from other starts.
-const POLISHED: usize = 3;
-/// Gain above which that is worth its time.
-const WORTH_POLISH: f64 = 10.0;
 
 /// Where hypotheses are tried.
 pub struct Trials<'a, P> {
@@ -87,7 +80,7 @@ impl<P: Progress> Trials<'_, P> {
         let judge = |tried: &Tried| Coarse { against: against(tried), error: tried.fit_error() };
         let judged = coarse.iter().map(judge).collect::<Vec<_>>();
         let chosen = worth_finishing(&judged);
-        self.progress.begin("the best in full", chosen.len());
+        self.progress.begin("the best candidates, in full", chosen.len());
         let finish_one = |i: &usize| {
             let finished = finish(&self.data, &coarse[*i]);
             self.progress.advance(1);
@@ -133,7 +126,7 @@ impl<P: Progress> Trials<'_, P> {
             return tried;
         }
         let count = tried.len().min(POLISHED);
-        self.progress.begin("the best again", count);
+        self.progress.begin("the best candidates, again", count);
         let again = |old: &Tried| {
             let h = self.hypothesis(nuisances, &old.hypothesis.additions);
             let about = |factor: f64| {

@@ -7,51 +7,36 @@ use rayon::prelude::*;
 
 use super::{Alone, Data, Tried, best_answer, untouched};
 use crate::diagnose::experiment::Experiment;
-use crate::diagnose::fit::{Fit, Replay, WindowFit, fit_windows};
+use crate::diagnose::fit::{Fit, Problem, Replay, WindowFit, fit_windows};
 use crate::diagnose::hypothesis::{Hypothesis, Physics};
 use crate::diagnose::measured::{Freedom, TestData, Window};
+use crate::limits::{GAINED_BY_OPENING, READS_CLOSED, WORTH_OPENING};
 
-/// Windows that start with a joint open by less than the noise, for which everything is fitted again.
-const WORTH_OPENING: usize = 2;
 /// Steps by which the state of a window with its bodies free is fitted.
 const STEPS: usize = 6;
-/// What the free bodies must take away of the squared error of a window, in squared noise, for its joints to count as open.
-/// Chosen: two numbers that say nothing take away two, from the best of forty starts some ten.
-const GAINED_BY_OPENING: f64 = 60.0;
-/// A joint open by more than this, in the noise of a channel, does not read as closed: 17 samples know each rotation to 0.37 of
-/// the noise, and their difference to half of it; three times that.
-const READS_CLOSED: f64 = 1.5;
 
 /// The windows with joints open that read as closed, where the wall as given follows them so: a small gap does not show
 /// beside windows that no wall follows.
-pub fn opened_as_given(experiment: &Experiment, windows: &[Vec<Window>; 2]) -> Option<[Vec<Window>; 2]> {
+pub fn opened_as_given(experiment: &Experiment, data: &Data) -> Option<[Vec<Window>; 2]> {
     let wall = Hypothesis::new(experiment.wall.parameters(), &experiment.scales, &[], &[]);
-    let as_given = untouched(&Data::new(experiment, windows), wall)?;
+    let as_given = untouched(data, wall)?;
     if as_given.fit.misses_many() {
         return None;
     }
-    opened_under(experiment, windows, &as_given).map(|(windows, _)| windows)
+    opened_under(data, &as_given).map(|(windows, _)| windows)
 }
 
 /// The same for the best single effect, where it opens enough of them for everything to be fitted again.
-pub fn opened_windows(
-    experiment: &Experiment,
-    windows: &[Vec<Window>; 2],
-    alone: &Alone,
-) -> Option<[Vec<Window>; 2]> {
-    let (windows, count) = opened_under(experiment, windows, best_answer(&alone.singles)?)?;
+pub fn opened_windows(data: &Data, alone: &Alone) -> Option<[Vec<Window>; 2]> {
+    let (windows, count) = opened_under(data, best_answer(&alone.singles)?)?;
     (count >= WORTH_OPENING).then_some(windows)
 }
 
 /// The windows with those that a hypothesis follows once their joints are open, and how many these are.
-fn opened_under(
-    experiment: &Experiment,
-    [fit, held_out]: &[Vec<Window>; 2],
-    tried: &Tried,
-) -> Option<([Vec<Window>; 2], usize)> {
+fn opened_under(data: &Data, tried: &Tried) -> Option<([Vec<Window>; 2], usize)> {
     let physics = tried.hypothesis.physics(&tried.fit.values)?;
-    let of = |own: &Fit, windows: &[Window]| opened(&experiment.tests, &physics, &own.windows, windows);
-    let found = [of(&tried.fit, fit), of(&tried.held_out, held_out)];
+    let of = |own: &Fit, side: &Problem| opened(side.tests, &physics, &own.windows, side.windows);
+    let found = [of(&tried.fit, &data.fit), of(&tried.held_out, &data.held_out)];
     let count = found.iter().map(|(_, count)| count).sum();
     Some((found.map(|(windows, _)| windows), count))
 }

@@ -2,20 +2,13 @@
 
 use rayon::prelude::*;
 
-use super::imitate::seconds;
+use super::imitation::seconds;
 use super::search::{promise, try_second};
 use super::{Trials, Tried, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
+use crate::limits::{BESIDE_THE_BEST, PAIRED, PAIRS_BESIDE_A_NAME, PAIRS_WITHOUT_A_NAME};
 use mrbd_kernel::model::Role;
-
-/// Effects fitted beside the best single one because a linear look says that they take away most.
-const BESIDE: usize = 4;
-/// Best single effects that are paired with all others where none closes the gap alone.
-const BASES: usize = 2;
-/// Pairs fitted of each single effect that is paired: where one closes the gap but may not be alone, and where none does.
-const BESIDE_A_NAME: usize = 4;
-const WITHOUT_A_NAME: usize = 7;
 
 impl<P: Progress> Trials<'_, P> {
     /// Pairs with the best single effects, where one of them closes a gap by its `name` or where none does.
@@ -28,7 +21,7 @@ impl<P: Progress> Trials<'_, P> {
         name: bool,
     ) -> Vec<Tried> {
         let answers = singles.iter().filter(|t| kinds(t).is_some()).collect::<Vec<_>>();
-        let count = if name { BESIDE_A_NAME } else { WITHOUT_A_NAME };
+        let count = if name { PAIRS_BESIDE_A_NAME } else { PAIRS_WITHOUT_A_NAME };
         let pairs = self.promising(&bases(&answers, name), &answers, count);
         self.progress.begin("pairs of effects", pairs.len());
         let try_one = |(h, first): &(Hypothesis, &Tried)| {
@@ -53,8 +46,8 @@ impl<P: Progress> Trials<'_, P> {
         let effect = |a: &Addition| a.role().is_some_and(|role| !known || role != Role::Impact);
         let effects = effects.into_iter().filter(effect).collect::<Vec<_>>();
         let Some(found) = seconds(&self.data, first, &effects, hypothesis) else { return Vec::new() };
-        let found = found.into_iter().take(BESIDE).collect::<Vec<_>>();
-        self.progress.begin("what helps most beside the best", found.len());
+        let found = found.into_iter().take(BESIDE_THE_BEST).collect::<Vec<_>>();
+        self.progress.begin("second effects beside the best", found.len());
         found.par_iter().filter_map(|imitation| self.fit_from(imitation, first)).collect()
     }
 
@@ -67,7 +60,7 @@ impl<P: Progress> Trials<'_, P> {
         count: usize,
     ) -> Vec<(Hypothesis, &'t Tried)> {
         let sets = sets(bases, answers);
-        self.progress.begin("a glance at pairs", sets.iter().map(Vec::len).sum());
+        self.progress.begin("pairs of effects, a first look", sets.iter().map(Vec::len).sum());
         let look = |first: &'t Tried, set: &[Addition; 2]| {
             let h = self.hypothesis(&self.experiment.nuisances, set);
             let cost = promise(&self.data, &h, first).unwrap_or(f64::NEG_INFINITY);
@@ -86,7 +79,7 @@ impl<P: Progress> Trials<'_, P> {
 /// Single effects that are paired with all others: the best; where none closes the gap, the second best too, and that which
 /// follows the windows with the least error, for of a gap far above the noise likelihood tells little.
 fn bases<'t>(answers: &[&'t Tried], name: bool) -> Vec<&'t Tried> {
-    let mut bases = answers.iter().copied().take(if name { 1 } else { BASES }).collect::<Vec<_>>();
+    let mut bases = answers.iter().copied().take(if name { 1 } else { PAIRED }).collect::<Vec<_>>();
     let follows = answers.iter().copied().min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
     bases.extend(follows.filter(|t| !name && !bases.iter().any(|b| std::ptr::eq(*b, *t))));
     bases

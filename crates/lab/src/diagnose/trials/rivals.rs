@@ -1,24 +1,17 @@
-//! What may stand for the best, fitted from where it would, and on the same terms.
+//! Candidates that could imitate the best, fitted from where a linear look puts them.
 
 use rayon::prelude::*;
 
-use super::finishing::NEAR_BEST;
-use super::imitate::{Imitation, imitations};
+use super::imitation::{Imitation, imitations};
 use super::search::{refit, shared_states};
 use super::{Trials, Tried, against, closes, kinds};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, candidates};
+use crate::limits::{IMITATING_PAIRS, IMITATING_SINGLES, NEAR_BEST, SHARING_STATES};
 use mrbd_kernel::model::Role;
 
-/// Pairs, and single effects, that are fitted because they may stand for the best. Chosen: a pair that was the truth once
-/// came eighth.
-const IMITATIONS: usize = 8;
-const SINGLE_IMITATIONS: usize = 4;
-/// Most hypotheses that share their states with each other.
-const SHARED: usize = 6;
-
 impl<P: Progress> Trials<'_, P> {
-    /// Single effects or pairs, and where the best closes the gap, what may stand for it, from where it would.
+    /// Single effects or pairs; where the best closes the gap, with the candidates that could imitate it.
     pub fn with_imitations(&self, tried: Vec<Tried>, gap: f64) -> Vec<Tried> {
         let Some(best) = tried.first().filter(|t| closes(t, gap) && kinds(t).is_some()) else { return tried };
         let nuisances = &self.experiment.nuisances;
@@ -34,8 +27,8 @@ impl<P: Progress> Trials<'_, P> {
             tried.iter().any(|t| i.additions.iter().all(|a| t.hypothesis.additions.contains(a)))
         };
         let new = imitations.into_iter().filter(|i| one || !fitted_before(i));
-        let new = new.take(if one { SINGLE_IMITATIONS } else { IMITATIONS }).collect::<Vec<_>>();
-        self.progress.begin("what may stand for the best", new.len());
+        let new = new.take(if one { IMITATING_SINGLES } else { IMITATING_PAIRS }).collect::<Vec<_>>();
+        self.progress.begin("candidates that could imitate the best", new.len());
         let fitted = new.par_iter().filter_map(|i| self.fit_from(i, best)).collect::<Vec<_>>();
         self.sharing(self.best_of_each([tried, fitted].concat()))
     }
@@ -55,7 +48,7 @@ impl<P: Progress> Trials<'_, P> {
     fn sharing(&self, mut tried: Vec<Tried>) -> Vec<Tried> {
         let Some(best) = tried.first() else { return tried };
         let limit = against(&self.data, best) + NEAR_BEST;
-        let near = tried.iter().take(SHARED).filter(|t| against(&self.data, t) < limit).count();
+        let near = tried.iter().take(SHARING_STATES).filter(|t| against(&self.data, t) < limit).count();
         let others = tried[..near].iter().collect::<Vec<_>>();
         let shared = others.par_iter().map(|t| shared_states(&self.data, t, &others)).collect::<Vec<_>>();
         tried.splice(..near, shared);

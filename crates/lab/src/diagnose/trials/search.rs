@@ -11,7 +11,7 @@ const MOST_AT_A_GLANCE: usize = 2;
 /// Fits a hypothesis coarsely from several starts about the values of each of `from`, where it has them, and its own; `from`
 /// gives the states of the windows too.
 ///
-/// None if no start makes a wall.
+/// `None` if no start makes a wall.
 pub fn try_coarsely(data: &Data, hypothesis: Hypothesis, from: &[&Tried]) -> Option<Tried> {
     let one = |from: &&Tried| {
         let base = hypothesis.values_from(&from.hypothesis, &from.fit.values);
@@ -87,7 +87,7 @@ pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, values: &[f64]) 
     judged(data, hypothesis, fit, from, true)
 }
 
-/// What a second addition beside one that was fitted promises at a glance, in the loss of starts; none where only a fit
+/// What a second addition beside one that was fitted promises at a glance, in the loss of starts; `None` where only a fit
 /// would tell.
 pub fn promise(data: &Data, hypothesis: &Hypothesis, first: &Tried) -> Option<f64> {
     let (base, second) = beside(hypothesis, first);

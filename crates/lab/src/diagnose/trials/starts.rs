@@ -2,6 +2,7 @@
 
 use crate::diagnose::fit::Fit;
 use crate::diagnose::hypothesis::Hypothesis;
+use crate::limits::{BEGUN, STARTS_FROM};
 
 /// Sizes tried for one added number, and for each of two, as shares of the size that matters.
 pub struct Sizes {
@@ -14,10 +15,6 @@ pub const SIZES: Sizes =
     Sizes { one: &[0.01, 0.03, 0.08, 0.2, 0.4, 0.8, 1.6], each_of_two: &[0.05, 0.1, 0.2, 0.4, 0.8, 1.6] };
 /// Enough to see whether an addition would help.
 pub const FEW_SIZES: Sizes = Sizes { one: &[0.05, 0.3], each_of_two: &[0.15, 0.6] };
-/// Most starts of two or more added numbers that are fitted coarsely.
-const BEGUN: usize = 3;
-/// Share of the size that matters from which a start of one number does something.
-const DOES_SOMETHING: f64 = 0.05;
 
 /// Starts about `start`: itself, and the numbers from the `first` on, one, two, or more moved together, at several sizes; one,
 /// or all together, of either sign.
@@ -74,7 +71,7 @@ pub fn with_a_size(h: &Hypothesis, base: &[f64], number: usize, glances: Vec<Fit
     let does = |glance: &Fit| {
         let size =
             glance.values.get(number).zip(base.get(number)).map_or(0.0, |(own, base)| (own - base).abs());
-        h.unknowns.get(number).is_some_and(|unknown| size >= DOES_SOMETHING * unknown.scale)
+        h.unknowns.get(number).is_some_and(|unknown| size >= STARTS_FROM * unknown.scale)
     };
     let (doing, others): (Vec<_>, Vec<_>) = glances.into_iter().partition(does);
     let mut begun = others.into_iter().take(1).chain(doing.into_iter().take(1)).collect::<Vec<_>>();

@@ -1,9 +1,8 @@
 //! A hypothesis, fitted, and judged on tests that the fit has not seen.
 
-use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Fit, Problem, nats, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::measured::Window;
+use crate::diagnose::measured::{TestData, Window};
 
 /// A hypothesis, fitted, and judged on tests that the fit has not seen.
 #[derive(Debug, Clone)]
@@ -26,9 +25,9 @@ pub struct Data<'a> {
 }
 
 impl<'a> Data<'a> {
-    /// Windows to fit and held out, of an experiment.
-    pub fn new(experiment: &'a Experiment, windows: &'a [Vec<Window>; 2]) -> Self {
-        let problem = |windows: &'a Vec<Window>| Problem { tests: &experiment.tests, windows };
+    /// Windows to fit and held out, of tests.
+    pub fn new(tests: &'a [TestData], windows: &'a [Vec<Window>; 2]) -> Self {
+        let problem = |windows: &'a Vec<Window>| Problem { tests, windows };
         Self { fit: problem(&windows[0]), held_out: problem(&windows[1]) }
     }
 }

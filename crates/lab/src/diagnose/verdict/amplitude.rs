@@ -1,14 +1,14 @@
 //! Whether an effect has one size in small and in large motion; a law that imitates another has not.
 
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::diagnose::fit::{Fit, Loss, Problem, WindowSlopes};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::diagnose::trials::{Data, Tried};
 
 /// What an added number would be, were it free to grow or shrink steadily with the largest rotation of a window.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Trend {
     /// Gain in natural logarithms of likelihood, over the windows fitted and held out.
     pub nats: f64,
@@ -18,7 +18,7 @@ pub struct Trend {
 
 /// The trends of the added numbers of a fitted hypothesis.
 ///
-/// Linear about the fit. Factors of impacts are not asked: they come in sixes. None where the slopes cannot be told.
+/// Linear about the fit. Factors of impacts are not asked: they come in sixes. `None` where the slopes cannot be told.
 pub fn trends_with_amplitude(data: &Data, tried: &Tried) -> Option<Vec<Trend>> {
     let h = &tried.hypothesis;
     let sides = [(data.fit, &tried.fit), (data.held_out, &tried.held_out)];

@@ -10,20 +10,10 @@ use crate::diagnose::experiment::Experiment;
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
 use crate::diagnose::trials::{
-    Alone, EQUIVALENT, HELD_OUT, Trials, Tried, against, best_answer, closes, does_something, is_noise,
-    joint_error, kinds,
+    Alone, Trials, Tried, against, best_answer, closes, does_something, is_noise, joint_error, kinds,
 };
+use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
-
-/// Gain in natural logarithms of likelihood, over the windows fitted and held out together, below which an effect is not
-/// worth its name. Chosen: the effects of the development set gain hundreds.
-pub const WORTH_A_NAME: f64 = 30.0;
-/// Gain of the best single addition below which pairs are not tried.
-const WORTH_PAIRS: f64 = 60.0;
-/// How well a number of the wall is known once it is measured, where an effect is asked for instead of it.
-const KNOWN: f64 = 0.02;
-/// Share by which a number of the wall moves that was not known.
-const MOVED: f64 = 0.1;
 
 /// What was found in given windows.
 #[derive(Debug)]
@@ -114,16 +104,16 @@ impl<P: Progress> Gap<'_, P> {
 
     /// One effect or two by name, or the place of what is missing.
     fn with_effects(self, singles: Vec<Tried>, gain: f64) -> Found {
-        let singles = self.trials.with_imitations(self.trials.with_far_settled(singles), self.error);
+        let singles = self.trials.with_imitations(self.trials.with_far_refined(singles), self.error);
         let one = self.named(&singles, &self.recalibrated);
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
-        let far = joint_error(&self.recalibrated).is_some_and(|error| error > HELD_OUT);
+        let far = joint_error(&self.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
         if one.is_none() && !far && gain <= WORTH_PAIRS {
             return self.placed(None, singles);
         }
         let (answer, tried) = self.with_pairs(one, singles);
         let Some(answer) = answer else { return self.placed(None, tried) };
-        let answer = Answer { after: self.trials.settled(answer.after), ..answer };
+        let answer = Answer { after: self.trials.refined(answer.after), ..answer };
         let other_law = OtherLaw::beside(&self.trials.data, &answer.after);
         if other_law.speaks() {
             return self.placed(Some(other_law), tried);
@@ -138,7 +128,7 @@ impl<P: Progress> Gap<'_, P> {
         let best_single = |tried: &[Tried]| best_answer(tried).unwrap_or(&self.recalibrated).clone();
         let pairs = trials.pairs(&tried, &best_single(&tried), &self.before, self.error, one.is_some());
         let mut one = one;
-        // A pair of which one effect does nothing is the other alone, fitted better.
+        // Where one effect of the best pair does nothing, its fit is a better one of the other effect alone.
         if let Some(pair) = pairs.first().filter(|pair| !does_something(pair)) {
             tried = trials.ordered(tried.into_iter().map(|t| trials.better_part(t, pair)).collect());
             one = self.named(&tried, &self.recalibrated);
@@ -167,7 +157,7 @@ impl<P: Progress> Gap<'_, P> {
         Some(Answer { verdict, after: best.clone(), equivalent })
     }
 
-    /// Names of the best and of what cannot be told from it; none if that is nothing.
+    /// Names of the best and of what cannot be told from it; empty if that is nothing.
     fn equivalent(&self, best: &Tried, closing: &[&Tried]) -> Vec<String> {
         let own = kinds(best);
         let limit = against(&self.trials.data, best) + EQUIVALENT;
@@ -209,7 +199,7 @@ impl<P: Progress> Gap<'_, P> {
             };
             let found = hypothesis.unknowns.iter().zip(&fit.values).find(|(u, _)| u.key == key);
             let change = found.map_or(0.0, |(u, value)| (value / u.start - 1.0).abs());
-            nuisance.is_wide() && change > MOVED
+            nuisance.is_wide() && change > MOVED_SHARE
         };
         self.trials.experiment.nuisances.iter().filter(moved).copied().collect()
     }
@@ -217,15 +207,15 @@ impl<P: Progress> Gap<'_, P> {
     /// Effects in place of numbers of the wall, as if these were known.
     fn effects_instead(&self) -> Vec<Tried> {
         let known = |n: &Nuisance| match *n {
-            Nuisance::Number(number, sd) => Nuisance::Number(number, sd.min(KNOWN)),
-            Nuisance::Coefficient(l, sd) => Nuisance::Coefficient(l, sd.min(KNOWN)),
+            Nuisance::Number(number, sd) => Nuisance::Number(number, sd.min(MEASURED_PRIOR)),
+            Nuisance::Coefficient(l, sd) => Nuisance::Coefficient(l, sd.min(MEASURED_PRIOR)),
         };
         let Experiment { nuisances, wall, .. } = self.trials.experiment;
         let nuisances = nuisances.iter().map(known).collect::<Vec<_>>();
         // A second spring that hardly yields is the floor's own, by another name.
         let other_law = |a: &Addition| a.role().is_some_and(|role| role != Role::Memory);
         let sets = candidates(wall.parameters()).into_iter().filter(other_law).map(|a| vec![a]);
-        let what = "effects in place of what was not known";
+        let what = "effects in place of unknown numbers of the wall";
         self.trials.try_all(what, &nuisances, &[&self.before], &sets.collect::<Vec<_>>())
     }
 
@@ -253,7 +243,7 @@ impl<P: Progress> Gap<'_, P> {
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
         let measured = || {
             let physics = self.before.hypothesis.physics(&self.before.fit.values)?;
-            acts_at_top(&force_points(&self.trials.experiment.tests, &physics)).then_some("top")
+            acts_at_top(&force_points(self.trials.data.fit.tests, &physics)).then_some("top")
         };
         let place = measured().or_else(|| place(&self.trials.data, &self.recalibrated, &tried));
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };

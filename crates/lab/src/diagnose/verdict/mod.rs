@@ -8,15 +8,16 @@ mod place;
 mod power;
 mod second;
 
+pub use amplitude::Trend;
 pub use judge::{Found, judge};
 pub use names::names;
 pub use other_law::OtherLaw;
-pub use power::{DETECTED, power};
+pub use power::power;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The answer of a diagnosis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// No gap between model and measurement beyond the noise.
@@ -33,4 +34,19 @@ pub enum Verdict {
     Unknown,
     /// The tests could not show an effect of a size that matters.
     NoPower,
+}
+
+impl Verdict {
+    /// Its name in `diagnosis.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Recalibrated => "recalibrated",
+            Self::Named => "named",
+            Self::Class => "class",
+            Self::PlaceOnly => "place_only",
+            Self::Unknown => "unknown",
+            Self::NoPower => "no_power",
+        }
+    }
 }

@@ -1,26 +1,15 @@
 //! What speaks for another law than the one that is about to be named, though it closes the gap.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::amplitude::{Trend, trends_with_amplitude};
 use super::names;
 use crate::diagnose::force::{curve_left, force_points};
 use crate::diagnose::trials::{Data, Tried};
-
-/// Squared standard deviations of the force left at the top that a bend with velocity may explain beside a named effect.
-/// Right names leave 6 and less, once 28; friction under stiff corners left 63 and 73, and is not named; a quadratic drag called
-/// a damper leaves 101 and 400, a loose mass 169.
-const BENT: f64 = 50.0;
-/// Gain in natural logarithms of likelihood that a trend of a named size with the amplitude may have. Right names have 9 and
-/// less, but at a noise of 1e-5 rad 27, 51 and 57; damping that grows with displacement called
-/// a damper, or a damper with other impacts, 37, 55 and 313; a spring that saturates called a cubic one 274.
-const TREND: f64 = 25.0;
-/// Share of its size by which a named size may differ in large motion: right names that gain so much have 0.4 to 2 % (the finer
-/// points of a contact), a spring that saturates called a cubic one 8 %, a quadratic drag called a damper 56 %.
-const TREND_SHARE: f64 = 0.04;
+use crate::limits::{BENT_FORCE, TREND_NATS, TREND_SHARE};
 
 /// Signs of a law outside the catalogue.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OtherLaw {
     /// The effects it would be taken for.
     pub looks_like: Vec<String>,
@@ -45,8 +34,10 @@ impl OtherLaw {
 
     /// Whether the law cannot be the named one.
     pub fn speaks(&self) -> bool {
-        let bent = self.curve_left.is_some_and(|found| found > BENT);
-        bent || self.trend_with_amplitude.is_some_and(|trend| trend.nats > TREND && trend.share > TREND_SHARE)
+        let bent = self.curve_left.is_some_and(|found| found > BENT_FORCE);
+        bent || self
+            .trend_with_amplitude
+            .is_some_and(|trend| trend.nats > TREND_NATS && trend.share > TREND_SHARE)
     }
 }
 

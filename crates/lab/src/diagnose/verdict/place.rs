@@ -1,13 +1,7 @@
 //! Where a force is missing that no law of the catalogue follows.
 
 use crate::diagnose::trials::{Data, Tried, against, joint_error, kinds};
-
-/// Share of what speaks against the wall that the effects of a place must take away for it to be told.
-const OF_NATS: f64 = 0.3;
-/// Share of the squared error above noise that does as well: where the gap is far above the noise, what each window says is at
-/// its bound with and without them. Chosen: beside three laws outside, the best of the catalogue took away about 62 to 81 % of
-/// it, and 12 to 33 % of what spoke against the wall.
-const OF_SQUARED_ERROR: f64 = 0.5;
+use crate::limits::{PLACE_NATS, PLACE_SQUARED_ERROR};
 
 /// What a hypothesis leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +22,7 @@ impl Left {
         let of_nats = (self.nats - best.nats) / self.nats;
         let excess = |error: f64| error * error - 1.0;
         let of_squared_error = 1.0 - excess(best.error) / excess(self.error);
-        of_nats > OF_NATS || (self.error > 1.0 && of_squared_error > OF_SQUARED_ERROR)
+        of_nats > PLACE_NATS || (self.error > 1.0 && of_squared_error > PLACE_SQUARED_ERROR)
     }
 }
 

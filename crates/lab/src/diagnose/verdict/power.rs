@@ -1,11 +1,7 @@
 //! How large an effect must be to show in these tests.
 
-use super::judge::WORTH_A_NAME;
-use crate::diagnose::trials::{Data, FLOOR, Tried, kinds};
-
-/// Standard deviations from doing nothing at which an effect is detected: it is then so large by chance once in a
-/// thousand times.
-pub const DETECTED: f64 = 3.3;
+use crate::diagnose::trials::{Data, Tried, kinds};
+use crate::limits::{DETECTED_SD, LEAST_SIZE, WORTH_A_NAME};
 
 /// What the tests can tell of a single effect, by its first number and in its unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +22,7 @@ pub fn could_show(data: &Data, without: &Tried, singles: &[Tried]) -> bool {
     2 * powers.iter().filter(|power| power.named_from < power.matters).count() >= powers.len()
 }
 
-/// What the tests can tell of a single effect, beside the wall `without` it; none where its fit leaves no covariance, or it is
+/// What the tests can tell of a single effect, beside the wall `without` it; `None` where its fit leaves no covariance, or it is
 /// no effect.
 pub fn power(data: &Data, without: &Tried, tried: &Tried) -> Option<Power> {
     let h = &tried.hypothesis;
@@ -39,8 +35,8 @@ pub fn power(data: &Data, without: &Tried, tried: &Tried) -> Option<Power> {
     let sd = spread(variance.max(0.0).sqrt(), size, gain);
     // An effect gains half of its squared size in standard deviations.
     let named = (2.0 * (WORTH_A_NAME + tried.price(data))).sqrt();
-    let named_from = (named * sd).max(FLOOR * unknown.scale);
-    Some(Power { sd, detected_from: DETECTED * sd, named_from, matters: unknown.scale })
+    let named_from = (named * sd).max(LEAST_SIZE * unknown.scale);
+    Some(Power { sd, detected_from: DETECTED_SD * sd, named_from, matters: unknown.scale })
 }
 
 /// The standard deviation of a size from the curvature of likelihood at it, and from what it gains over nothing, where it is

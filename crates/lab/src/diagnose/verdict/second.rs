@@ -2,21 +2,9 @@
 
 use crate::diagnose::fit::{Fit, nats};
 use crate::diagnose::trials::{Data, Tried, all_windows};
+use crate::limits::{WORTH_A_SECOND, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE};
 
-/// Gain of a second effect over the best single one below which it is not told, in natural logarithms of likelihood over all
-/// windows. Chosen: a second effect that was there gained 1026; one that was not took up what another way of modelling a
-/// contact leaves, 79, or a law outside the catalogue, 240 and once 399.
-const WORTH_A_SECOND: f64 = 300.0;
-/// The same where both together leave no more than noise: what takes up another law or another contact leaves the rest of it.
-/// Chosen above the 79; one that was there gained 226.
-const WORTH_A_SECOND_TO_NOISE: f64 = 150.0;
-/// The same where the tests held out see it too. Chosen: of some 210 cases with one effect hidden, a second one that they saw
-/// gained 47 at most to noise, and one of which they saw 3 gained 89; one that was there gained 91.
-const WORTH_A_SECOND_SEEN: f64 = 70.0;
-/// Gain over the tests held out below which it is not told, where they could show it.
-const WORTH_A_SECOND_HELD_OUT: f64 = 30.0;
-
-/// Whether two effects are worth telling where one was.
+/// Whether a second effect is worth naming beside the first.
 pub fn worth_two(data: &Data, one: &Tried, two: &Tried) -> bool {
     let gain: [f64; 2] = std::array::from_fn(|i| one.against(data)[i] - two.against(data)[i]);
     // A damper in a crack that stays shut in the tests held out is neither seen nor refuted there.
@@ -49,7 +37,7 @@ fn shows_held_out(data: &Data, one: &Tried, two: &Tried) -> bool {
 }
 
 /// What each addition of a hypothesis does to the windows held out beyond what their states can do, half its squared size over
-/// the noise: about what taking it away would cost, in natural logarithms of likelihood. Linear; none where slopes cannot be
+/// the noise: about what taking it away would cost, in natural logarithms of likelihood. Linear; `None` where slopes cannot be
 /// told.
 fn traces_held_out(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
     let h = &tried.hypothesis;

@@ -2,20 +2,27 @@
 
 use toml::{Table, Value};
 
-use crate::error::{InputError, Result};
-use mrbd_files::toml_file;
+use super::findings::Findings;
+use crate::diagnose::experiment::Experiment;
+use crate::diagnose::hypothesis::{WALL_NUMBERS, WallNumber};
+use crate::diagnose::trials::Tried;
+use mrbd_files::error::InputError;
 use mrbd_kernel::model::WallParameters;
-use mrbd_lab::diagnose::experiment::Experiment;
-use mrbd_lab::diagnose::hypothesis::{WALL_NUMBERS, WallNumber};
-use mrbd_lab::diagnose::trials::Tried;
+
+impl Findings<'_> {
+    /// The text of the wall file with what was found.
+    ///
+    /// # Errors
+    /// Input errors of the wall file: values outside their bounds, or what TOML cannot hold.
+    pub(super) fn updated_wall_toml(&self) -> Result<String, InputError> {
+        updated_wall_toml(self.experiment, self.found.kept())
+    }
+}
 
 /// The text of the wall file with the numbers and effects of a fitted hypothesis.
-///
-/// # Errors
-/// Input errors of the wall file; a number that has no place in it.
-pub fn updated_wall(experiment: &Experiment, after: &Tried) -> Result<String> {
+fn updated_wall_toml(experiment: &Experiment, after: &Tried) -> Result<String, InputError> {
     let path = &experiment.wall_path;
-    let mut table: Table = toml_file::load(path)?;
+    let mut table = experiment.wall_table.clone();
     let (h, values) = (&after.hypothesis, &after.fit.values);
     let impossible =
         || InputError::file(path, format!("effects with {values:?}"), "values within their bounds");
@@ -39,7 +46,7 @@ pub fn updated_wall(experiment: &Experiment, after: &Tried) -> Result<String> {
         }
     }
     let text = toml::to_string_pretty(&table);
-    Ok(text.map_err(|e| InputError::file(path, e.to_string(), "a table that can be written"))?)
+    text.map_err(|e| InputError::file(path, e.to_string(), "a table that can be written"))
 }
 
 /// Sets the numbers in which a fitted wall differs from the one that the file gives.

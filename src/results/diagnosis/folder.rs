@@ -5,9 +5,8 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde_json::Value;
 
-use super::KIND;
+use super::{KIND, tables::TABLES};
 use crate::error::{Error, InputError, Result};
-use crate::results::diagnosis::tables::TABLES;
 
 /// Where things go in the output folder.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -23,7 +23,7 @@ pub struct Imitation {
     pub left: f64,
 }
 
-/// Every one of `candidates`, or every pair where the best is one, each with one number, the nearest to the best first; none
+/// Every one of `candidates`, or every pair where the best is one, each with one number, the nearest to the best first; `None`
 /// where its neighbourhood is no wall.
 ///
 /// `hypothesis` makes one of additions.
@@ -53,7 +53,7 @@ pub fn imitations(
 }
 
 /// Every one of `candidates` of one number beside the best, the one that takes away most first, with values of all added
-/// numbers; none where its neighbourhood is no wall.
+/// numbers; `None` where its neighbourhood is no wall.
 pub fn seconds(
     data: &Data,
     best: &Tried,
@@ -102,7 +102,7 @@ fn single_numbers(h: &Hypothesis) -> Vec<[usize; 2]> {
     (0..h.additions.len()).filter_map(number).collect()
 }
 
-/// What additions make of it; none for two of a kind, for values outside their bounds, and where they leave no trace.
+/// What additions make of it; `None` for two of a kind, for values outside their bounds, and where they leave no trace.
 fn imitation(h: &Hypothesis, sums: &Sums, undone: &[(usize, f64)], set: &[[usize; 2]]) -> Option<Imitation> {
     let additions = set.iter().map(|[index, _]| h.additions[*index]).collect::<Vec<_>>();
     let numbers = set.iter().map(|[_, number]| *number).collect::<Vec<_>>();
@@ -143,7 +143,7 @@ impl Sums {
     }
 
     /// What is left where some numbers are moved by given amounts and the first `own` numbers and some more are free, and
-    /// where the latter go; none where these leave no trace.
+    /// where the latter go; `None` where these leave no trace.
     fn left(&self, own: usize, moved: &[(usize, f64)], more: &[usize]) -> Option<(f64, Vec<f64>)> {
         let mut step = DVector::zeros(self.jr.len());
         moved.iter().for_each(|(i, by)| step[*i] = *by);

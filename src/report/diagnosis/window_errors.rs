@@ -6,9 +6,10 @@ use super::super::axis::Axis;
 use super::super::colours::{Colour, Mark};
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link, Section};
-use super::stored::{Columns, Stored};
+use super::columns::Columns;
 use super::{AFTER, BEFORE, key};
 use crate::error::Result;
+use mrbd_lab::diagnose::answer::Summary;
 
 const NAMES: [&str; 14] = [
     "test",
@@ -86,10 +87,10 @@ fn impacts(counts: &[f64]) -> String {
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(windows: &Windows, stored: &Stored) -> Result<Section> {
-    let panels = stored.tests.iter().map(|test| in_time(windows, &test.name, stored));
+pub fn section(windows: &Windows, summary: &Summary) -> Result<Section> {
+    let panels = summary.tests.iter().map(|test| in_time(windows, &test.name, summary));
     let mut legend = vec![key("wall as given", BEFORE, Mark::Circle)];
-    if shows_after(stored) {
+    if summary.has_updated_wall() {
         legend.push(key("updated wall", AFTER, Mark::Square));
     }
     let figures = vec![
@@ -107,8 +108,8 @@ pub fn section(windows: &Windows, stored: &Stored) -> Result<Section> {
             title: "Error by pattern and by impact".into(),
             legend,
             panels: vec![
-                by_kind(windows, stored, "pattern at the start of a window", |w| w.pattern.clone())?,
-                by_kind(windows, stored, "impacts in a window", |w| w.impacts.clone())?,
+                by_kind(windows, summary, "pattern at the start of a window", |w| w.pattern.clone())?,
+                by_kind(windows, summary, "impacts in a window", |w| w.impacts.clone())?,
             ],
             caption: "Medians, and from the lower to the upper tenth of the windows. Impacts are those of the updated wall.".into(),
             links: vec![Link::to("windows.parquet")],
@@ -116,11 +117,6 @@ pub fn section(windows: &Windows, stored: &Stored) -> Result<Section> {
         },
     ];
     Ok(Section { id: "parting".into(), title: "Where they part".into(), figures, ..Section::default() })
-}
-
-/// Whether the updated wall is another one than the wall as given.
-pub fn shows_after(stored: &Stored) -> bool {
-    stored.is_answered() || stored.verdict == "recalibrated"
 }
 
 fn shown(error: f64) -> f64 {
@@ -137,7 +133,7 @@ fn noise(from: f64, to: f64, across: bool) -> Layer {
     Layer::Line { colour: super::MEASURED, width: 1, dashed: true, name: String::new(), points }
 }
 
-fn in_time(windows: &Windows, test: &str, stored: &Stored) -> Result<String> {
+fn in_time(windows: &Windows, test: &str, summary: &Summary) -> Result<String> {
     let all = windows.0.iter().collect::<Vec<_>>();
     let own = windows.0.iter().filter(|w| w.test == test).collect::<Vec<_>>();
     let end_s = own.iter().map(|w| w.middle_s).fold(1.0, f64::max) + 0.5;
@@ -154,14 +150,14 @@ fn in_time(windows: &Windows, test: &str, stored: &Stored) -> Result<String> {
         Layer::Dots { colour, mark, size: 4, hollow: false, dots }
     };
     let mut layers = vec![noise(0.0, end_s, true), dots(0, BEFORE, Mark::Circle)];
-    if shows_after(stored) {
+    if summary.has_updated_wall() {
         layers.push(dots(1, AFTER, Mark::Square));
     }
     let x = Axis::linear("time s", 0.0, end_s);
     Graph { title: test.to_owned(), format: Format::Half, x, y: axis(&all), layers }.svg()
 }
 
-fn by_kind(windows: &Windows, stored: &Stored, title: &str, of: fn(&Window) -> String) -> Result<String> {
+fn by_kind(windows: &Windows, summary: &Summary, title: &str, of: fn(&Window) -> String) -> Result<String> {
     let mut kinds = windows.0.iter().map(of).collect::<Vec<_>>();
     kinds.sort();
     kinds.dedup();
@@ -174,7 +170,7 @@ fn by_kind(windows: &Windows, stored: &Stored, title: &str, of: fn(&Window) -> S
     let mut layers = vec![noise(-0.5, kinds.len() as f64 - 0.5, false)];
     let both = [(BEFORE, Mark::Circle, -0.13), (AFTER, Mark::Square, 0.13)];
     for (which, (colour, mark, aside)) in
-        both.into_iter().enumerate().take(1 + usize::from(shows_after(stored)))
+        both.into_iter().enumerate().take(1 + usize::from(summary.has_updated_wall()))
     {
         let (mut spans, mut dots) = (Vec::new(), Vec::new());
         for (row, kind) in (0..).map(f64::from).zip(&kinds) {

@@ -1,14 +1,17 @@
 //! Which test to do next.
 
 use super::super::page::{Section, Table};
-use super::stored::{Stored, StoredNext, StoredPull, StoredShaking};
 use super::words::number;
+use mrbd_lab::diagnose::Verdict;
+use mrbd_lab::diagnose::answer::Summary;
+use mrbd_lab::diagnose::certainty::{NextPull, NextShaking, NextTests};
+use mrbd_lab::limits::EQUIVALENT;
 
 /// The section.
-pub fn section(stored: &Stored) -> Section {
+pub fn section(summary: &Summary) -> Section {
     let mut section =
         Section { id: "next".into(), title: "Which test to do next".into(), ..Section::default() };
-    match &stored.next_tests {
+    match &summary.next_tests {
         Some(next) => {
             let [first, second] = &next.rivals;
             section.text.push(format!(
@@ -17,23 +20,23 @@ pub fn section(stored: &Stored) -> Section {
             section.tables.push(shaking(next));
             section.tables.push(pull(next));
         }
-        None => section.text.push(in_words(stored)),
+        None => section.text.push(in_words(summary)),
     }
     section
 }
 
-fn in_words(stored: &Stored) -> String {
-    match stored.verdict.as_str() {
-        "none" | "recalibrated" => "Nothing is open. A test that turns the wall further lowers what could still hide.",
-        "named" => "Nothing else explains these tests; the next one should confirm the effect where it is largest, or at another size.",
-        "no_power" => "A test in which the wall rocks: stronger shaking, or a release.",
-        _ => "No two hypotheses stand level, so none can be chosen to part them. The shape of the missing force says where to look: a test that visits the displacements or velocities where its points are few, or a slow pull of the top, measures it directly.",
+fn in_words(summary: &Summary) -> String {
+    match summary.verdict {
+        Verdict::None | Verdict::Recalibrated => "Nothing is open. A test that turns the wall further lowers what could still hide.",
+        Verdict::Named => "Nothing else explains these tests; the next one should confirm the effect where it is largest, or at another size.",
+        Verdict::NoPower => "A test in which the wall rocks: stronger shaking, or a release.",
+        Verdict::Class | Verdict::PlaceOnly | Verdict::Unknown => "No two hypotheses stand level, so none can be chosen to part them. The shape of the missing force says where to look: a test that visits the displacements or velocities where its points are few, or a slow pull of the top, measures it directly.",
     }
     .to_owned()
 }
 
-fn shaking(next: &StoredNext) -> Table {
-    let row = |s: &StoredShaking| {
+fn shaking(next: &NextTests) -> Table {
+    let row = |s: &NextShaking| {
         vec![
             s.test.clone(),
             format!("{:.2}", s.scale),
@@ -52,14 +55,14 @@ fn shaking(next: &StoredNext) -> Table {
         "natural logarithms of likelihood between them",
     ];
     Table::of(
-        "Records there are, scaled; 15 would be enough to part them",
+        &format!("Records there are, scaled; {EQUIVALENT} would be enough to part them"),
         &head,
         next.shaking.iter().map(row),
     )
 }
 
-fn pull(next: &StoredNext) -> Table {
-    let row = |p: &StoredPull| {
+fn pull(next: &NextTests) -> Table {
+    let row = |p: &NextPull| {
         let [first, second] = p.force_n;
         let apart = 100.0 * (first - second).abs() / first.abs().max(second.abs()).max(f64::MIN_POSITIVE);
         vec![

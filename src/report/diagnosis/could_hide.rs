@@ -4,10 +4,12 @@ use super::super::axis::Axis;
 use super::super::colours::{Mark, PALETTE};
 use super::super::graph::{Dot, Format, Graph, Layer};
 use super::super::page::{Figure, Link, Section, Table};
-use super::stored::{Stored, StoredConfused, StoredPower};
 use super::words::{number, with_sd};
 use super::{MEASURED, key};
 use crate::error::Result;
+use mrbd_lab::diagnose::answer::{CouldHide, Summary};
+use mrbd_lab::diagnose::certainty::Confused;
+use mrbd_lab::limits::{DETECTED_SD, WORTH_A_NAME};
 
 /// Shares of a size that matters below and above which nothing is drawn more exactly.
 const RANGE: [f64; 2] = [1e-4, 30.0];
@@ -19,19 +21,21 @@ const DRAWN: usize = 14;
 ///
 /// # Errors
 /// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(stored: &Stored) -> Result<Section> {
-    let mut powers = stored.could_hide.iter().filter(|p| p.sd.is_finite() && p.sd > 0.0).collect::<Vec<_>>();
-    let share = |p: &StoredPower| p.named_from / p.matters;
+pub fn section(summary: &Summary) -> Result<Section> {
+    let mut powers = summary.could_hide.iter().filter(|p| p.sd.is_finite() && p.sd > 0.0).collect::<Vec<_>>();
+    let share = |p: &CouldHide| p.named_from / p.matters;
     powers.sort_by(|a, b| share(b).total_cmp(&share(a)));
     let blind =
-        stored.could_hide.iter().filter(|p| !p.sd.is_finite() || p.sd <= 0.0 || share(p) > 1.0).count();
-    let mut text = vec![
-        "For every kind, the smallest size that would have been named in these tests, had it been alone: it gains 30 natural logarithms of likelihood, some 8 standard deviations. What is smaller may be there all the same, though from 3.3 standard deviations on it differs from nothing by more than chance.".to_owned(),
-    ];
+        summary.could_hide.iter().filter(|p| !p.sd.is_finite() || p.sd <= 0.0 || share(p) > 1.0).count();
+    let mut text = vec![format!(
+        "For every kind, the smallest size that would have been named in these tests, had it been alone: it gains {WORTH_A_NAME} natural logarithms of likelihood, some {:.0} standard deviations. What is smaller may be there all the same, though from {DETECTED_SD} standard deviations on it differs from nothing by more than chance.",
+        // An effect gains half of its squared size in standard deviations.
+        (2.0 * WORTH_A_NAME).sqrt()
+    )];
     if blind > 0 {
         text.push(format!("{blind} of them could hide at a size that matters."));
     }
-    let confused = stored.confused.iter().filter(|c| c.told_apart > c.told_from_nothing).collect::<Vec<_>>();
+    let confused = summary.confused.iter().filter(|c| c.told_apart > c.told_from_nothing).collect::<Vec<_>>();
     if !confused.is_empty() {
         text.push("Some are imitated by others, so that only a larger size is told from those; a measurement of another sort tells them by itself.".to_owned());
     }
@@ -51,8 +55,8 @@ pub fn section(stored: &Stored) -> Result<Section> {
     })
 }
 
-fn figure(powers: &[&StoredPower]) -> Result<Figure> {
-    let dot = |(row, p): (f64, &&StoredPower)| Dot {
+fn figure(powers: &[&CouldHide]) -> Result<Figure> {
+    let dot = |(row, p): (f64, &&CouldHide)| Dot {
         x: (p.named_from / p.matters).clamp(RANGE[0], RANGE[1]),
         y: row,
         tip: format!("{}\n{} from {} {}", p.name, p.parameter, number(p.named_from), p.unit),
@@ -87,8 +91,8 @@ fn figure(powers: &[&StoredPower]) -> Result<Figure> {
     })
 }
 
-fn pairs(confused: &[&StoredConfused]) -> Table {
-    let row = |c: &&StoredConfused| {
+fn pairs(confused: &[&Confused]) -> Table {
+    let row = |c: &&Confused| {
         vec![
             c.effect.clone(),
             c.imitated_by.clone(),
@@ -113,8 +117,8 @@ fn pairs(confused: &[&StoredConfused]) -> Table {
     Table::of("Effects these tests hardly tell apart", &head, confused.iter().map(row))
 }
 
-fn table(powers: &[&StoredPower]) -> Table {
-    let row = |p: &&StoredPower| {
+fn table(powers: &[&CouldHide]) -> Table {
+    let row = |p: &&CouldHide| {
         vec![
             p.name.clone(),
             format!("{} {}", p.parameter, p.unit),

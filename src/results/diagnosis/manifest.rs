@@ -8,7 +8,6 @@ use super::KIND;
 use crate::error::Result;
 use crate::store::write_durably;
 use mrbd_files::FileNote;
-use mrbd_lab::diagnose::experiment::Experiment;
 
 /// Version of the files' keys and columns.
 const SCHEMA_VERSION: u32 = 1;
@@ -25,14 +24,14 @@ struct Manifest {
 /// Writes the manifest of a diagnosis that began at a time, seconds since 1970.
 ///
 /// # Errors
-/// An input error for a file that cannot be read any more; [`crate::Error::Io`] if the disk refuses.
-pub(super) fn write_manifest(path: &Path, experiment: &Experiment, started_unix_s: u64) -> Result<()> {
+/// [`crate::Error::Io`] if the disk refuses.
+pub(super) fn write_manifest(path: &Path, inputs: &[FileNote], started_unix_s: u64) -> Result<()> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let manifest = Manifest {
         kind: KIND,
         tool_version: env!("CARGO_PKG_VERSION"),
         schema_version: SCHEMA_VERSION,
-        inputs: experiment.inputs.iter().map(|note| note.clone().seen_from(folder)).collect(),
+        inputs: inputs.iter().map(|note| note.clone().seen_from(folder)).collect(),
         started_unix_s,
     };
     let text = format!("{:#}\n", serde_json::json!(manifest));

@@ -10,28 +10,23 @@ use super::Tried;
 use super::search::{refit, shared_states};
 use super::{Trials, against, kinds};
 use crate::Progress;
-
-/// Shares of what an added number does from which the fits set out.
-const SHARES: [f64; 6] = [0.7, 0.87, 0.96, 1.04, 1.15, 1.4];
-/// Times that the best sets out again, and the gain that is worth it, in natural logarithms of likelihood.
-const ROUNDS: usize = 3;
-const WORTH_A_ROUND: f64 = 1.0;
+use crate::limits::{ANSWER_ROUNDS, ANSWER_SHARES, WORTH_A_ROUND};
 
 impl<P: Progress> Trials<'_, P> {
     /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one
-    /// settled: what such windows say is at its bound, and a fit ends before the numbers of the right law.
-    pub fn with_far_settled(&self, tried: Vec<Tried>) -> Vec<Tried> {
+    /// refined: what such windows say is at its bound, and a fit ends before the numbers of the right law.
+    pub fn with_far_refined(&self, tried: Vec<Tried>) -> Vec<Tried> {
         let answers = tried.iter().filter(|t| kinds(t).is_some());
         let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
         let Some(far) = follows.filter(|t| t.fit.is_far()).cloned() else { return tried };
-        let settled = self.settled(far);
-        self.best_of_each([tried, vec![settled]].concat())
+        let refined = self.refined(far);
+        self.best_of_each([tried, vec![refined]].concat())
     }
 
     /// The same additions with the numbers and states that speak least against them.
-    pub fn settled(&self, answer: Tried) -> Tried {
+    pub fn refined(&self, answer: Tried) -> Tried {
         let mut best = answer;
-        for _ in 0..ROUNDS {
+        for _ in 0..ANSWER_ROUNDS {
             let next = self.once_more(&best);
             let gain = against(&self.data, &best) - against(&self.data, &next);
             if gain > 0.0 {
@@ -47,7 +42,7 @@ impl<P: Progress> Trials<'_, P> {
     fn once_more(&self, best: &Tried) -> Tried {
         let against = |tried: &Tried| against(&self.data, tried);
         let starts = starts(best);
-        self.progress.begin("the answer from about itself", starts.len());
+        self.progress.begin("the answer, from starts about it", starts.len());
         let fit = |values: Vec<f64>| {
             let found = refit(&self.data, best.hypothesis.clone(), best, &values);
             self.progress.advance(1);
@@ -81,5 +76,5 @@ fn starts(best: &Tried) -> Vec<Vec<f64>> {
         values
     };
     let sets = (0..h.additions.len()).flat_map(|index| together(of(index)));
-    sets.flat_map(|numbers| SHARES.map(|share| moved(&numbers, share))).collect()
+    sets.flat_map(|numbers| ANSWER_SHARES.map(|share| moved(&numbers, share))).collect()
 }
