@@ -61,5 +61,6 @@ pub mod starter;
 pub mod store;
 pub mod study;
 pub mod survey;
+pub mod text;
 
 pub use error::{Error, InputError, Result};

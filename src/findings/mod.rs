@@ -12,7 +12,6 @@ mod needs;
 mod report;
 mod sensitivity;
 mod tables;
-mod text;
 mod variants;
 mod verdict;
 mod view;
@@ -22,7 +21,6 @@ use needs::Needs;
 
 pub use distributions::report_distributions;
 pub use report::{report, write_findings};
-pub use text::aligned;
 pub use verdict::{Answer, Verdict};
 pub use view::{Point, Slender, View};
 pub use vote::{FloorVotes, Vote, rules};

@@ -23,10 +23,10 @@ pub fn page(folder: &Path) -> Result<Page> {
     let note = Note::read(&folder.join("manifest.json"))?;
     let again = Again::of(folder, &note, &stored);
     let sections = vec![
-        histories::section(again.as_ref(), &stored)?,
-        parameters::section(&stored)?,
+        histories::section(again.as_ref(), &stored),
+        parameters::section(&stored),
         tests::section(&stored),
-        convergence::section(&stored)?,
+        convergence::section(&stored),
     ];
     Ok(Page {
         title: "Calibration".into(),
@@ -74,15 +74,14 @@ fn numbers(stored: &Calibration) -> Vec<Number> {
         let tests = stored.tests.iter().filter(|test| test.purpose == purpose);
         mean(tests.map(|test| if joint { test.wme_joint } else { test.wme_before }))
     };
-    let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
     let mut numbers = vec![
-        number(wme(of("fit", true)), "mean WME of the tests to fit"),
-        number(wme(of("fit", false)), "the same before calibration, C_l = 1"),
+        Number::new(wme(of("fit", true)), "mean WME of the tests to fit"),
+        Number::new(wme(of("fit", false)), "the same before calibration, C_l = 1"),
     ];
     if stored.tests.iter().any(|test| test.purpose != "fit") {
-        numbers.push(number(wme(of("hold-out", true)), "mean WME of the tests held out"));
+        numbers.push(Number::new(wme(of("hold-out", true)), "mean WME of the tests held out"));
     }
-    numbers.push(number(stored.simulations.to_string(), "simulations"));
+    numbers.push(Number::new(stored.simulations, "simulations"));
     numbers
 }
 

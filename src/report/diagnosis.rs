@@ -15,7 +15,7 @@ mod words;
 
 use std::path::Path;
 
-use super::colours::{Colour, Mark, PALETTE};
+use super::chart::{Colour, Mark, PALETTE};
 use super::page::{Key, Link, Number, Page, Section};
 use super::provenance::Note;
 use crate::error::Result;
@@ -112,5 +112,5 @@ fn notes(stored: &Stored) -> Vec<String> {
 }
 
 fn key(label: &str, colour: Colour, mark: Mark) -> Key {
-    Key { label: label.to_owned(), colour: colour.hex(), mark }
+    Key::new(label, colour, mark)
 }

@@ -29,9 +29,9 @@ pub fn page(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<P
     let links = provenance::run_links(folder)?;
     let sections = vec![
         fragility::section(folder, &study, base, &links)?,
-        quantiles::section(&study, base)?,
+        quantiles::section(&study, base),
         samples::section(folder, manifest, base, &links)?,
-        records(folder, manifest, site)?,
+        records(folder, manifest, site),
         assumptions(&study.variants),
     ];
     Ok(Page {
@@ -67,11 +67,10 @@ fn lead(manifest: &Manifest) -> String {
 
 fn numbers(study: &Distributions) -> Vec<Number> {
     let total = |of: fn(&VariantNote) -> u64| study.variants.iter().map(of).sum::<u64>();
-    let number = |value: u64, meaning: &str| Number { value: value.to_string(), meaning: meaning.to_owned() };
     vec![
-        number(total(|v| v.runs), "runs"),
-        number(total(|v| v.collapsed), "collapsed"),
-        number(total(|v| v.failed), "failed"),
+        Number::new(total(|v| v.runs), "runs"),
+        Number::new(total(|v| v.collapsed), "collapsed"),
+        Number::new(total(|v| v.failed), "failed"),
     ]
 }
 

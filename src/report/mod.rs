@@ -21,30 +21,23 @@
 //! | block | what |
 //! | --- | --- |
 //! | `page` | `Page`, `Section`, `Figure` (panels under a legend, caption, links), `Table`, `Number`, made into HTML |
-//! | `graph`, `axis` | `Graph`: bands, lines, bars, dots and intervals over linear, logarithmic or named axes |
-//! | `curves` | `Panel`: curves over slenderness with a band for collapses above all numbers |
-//! | `lines` | `LinePanel`: spectra |
+//! | `chart` | `Graph`, `Stack`: layers over linear, logarithmic or named axes, as SVG or PNG |
+//! | `rotations` | curves of largest rotations, collapses in a zone above the axis |
 //! | `provenance` | the manifest as names and values, files, sentences on what is generated or assumed |
-//! | `colours`, `words` | a palette that colour-blind people tell apart, numbers and names as people read them |
-//! | `svg`, `pixels` | a drawing of plotters as SVG with values for the script, or as PNG |
+//! | `words` | names as people read them |
 
-mod axis;
 mod calibration;
-mod colours;
+mod chart;
 mod comparison;
-mod curves;
 mod diagnosis;
 mod drawn;
 mod folder;
-mod graph;
 mod history;
-mod lines;
 mod overturning;
 mod page;
-mod pixels;
 mod provenance;
+mod rotations;
 mod run;
-mod svg;
 mod sweep;
 mod words;
 

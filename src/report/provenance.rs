@@ -9,6 +9,7 @@ use super::page::{Link, address};
 use crate::aggregate::VariantNote;
 use crate::error::{InputError, Result};
 use crate::study::runs::{Manifest, listed_run_files};
+use crate::text::utc;
 use mrbd_files::{FileNote, file_sha256};
 
 /// The manifest as names and values.
@@ -156,31 +157,4 @@ pub fn files(runs: Vec<Link>) -> Vec<Link> {
     let mut files = vec![named("manifest.json"), named("plan.toml"), named("medians.parquet")];
     files.extend(runs);
     files
-}
-
-/// A time as people write it, by the civil calendar (days to dates after Howard Hinnant, public domain).
-fn utc(unix_s: u64) -> String {
-    let (days, second) = (unix_s / 86_400, unix_s % 86_400);
-    let z = days + 719_468;
-    let era_day = z % 146_097;
-    let era_year = (era_day - era_day / 1_460 + era_day / 36_524 - era_day / 146_096) / 365;
-    let year_day = era_day - (365 * era_year + era_year / 4 - era_year / 100);
-    let shifted_month = (5 * year_day + 2) / 153;
-    let day = year_day - (153 * shifted_month + 2) / 5 + 1;
-    let month = if shifted_month < 10 { shifted_month + 3 } else { shifted_month - 9 };
-    let year = era_year + (z / 146_097) * 400 + u64::from(month <= 2);
-    format!("{year}-{month:02}-{day:02} {:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn published_times_of_the_civil_calendar() {
-        assert_eq!(utc(0), "1970-01-01 00:00:00");
-        assert_eq!(utc(951_782_400), "2000-02-29 00:00:00");
-        assert_eq!(utc(1_338_271_203), "2012-05-29 06:00:03");
-        assert_eq!(utc(4_102_444_799), "2099-12-31 23:59:59");
-    }
 }

@@ -27,11 +27,11 @@ pub fn page(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<P
     write_medians(&folder.join("medians.parquet"), &medians)?;
     let view = View::new(&medians, &base.name);
     let links = provenance::run_links(folder)?;
-    let mut sections = vec![medians::section(&view, manifest.suite.records.len())?];
+    let mut sections = vec![medians::section(&view, manifest.suite.records.len())];
     if manifest.suite.records.len() > 1 {
         sections.push(by_record::section(folder, &view, &links)?);
     }
-    sections.push(records(folder, manifest, site)?);
+    sections.push(records(folder, manifest, site));
     sections.extend([findings(&medians, &view), assumptions(&medians.variants)]);
     Ok(Page {
         title: format!("Sweep “{}”", manifest.plan),
@@ -63,12 +63,11 @@ fn numbers(medians: &Medians, view: &View) -> Vec<Number> {
         0 => "conclusions of the paper hold here".to_owned(),
         others => format!("conclusions of the paper hold here; {others} others are not in this study"),
     };
-    let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
     vec![
-        number(total(|v| v.runs).to_string(), "runs"),
-        number(total(|v| v.collapsed).to_string(), "collapsed"),
-        number(total(|v| v.failed).to_string(), "failed"),
-        number(format!("{} of {}", held.holds, held.asked), &hold),
+        Number::new(total(|v| v.runs), "runs"),
+        Number::new(total(|v| v.collapsed), "collapsed"),
+        Number::new(total(|v| v.failed), "failed"),
+        Number::new(format!("{} of {}", held.holds, held.asked), hold),
     ]
 }
 
@@ -90,10 +89,7 @@ fn findings(medians: &Medians, view: &View) -> Section {
 }
 
 /// The spectra of a study's records, against the code of a site where one is given.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub(super) fn records(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<Section> {
+pub(super) fn records(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Section {
     spectra::section(spectra::suite_of(folder, manifest).as_ref(), site)
 }
 

@@ -2,13 +2,10 @@
 
 use std::path::Path;
 
-use super::super::axis::Axis;
-use super::super::colours::{Colour, Mark, PALETTE};
-use super::super::graph::{Format, Graph, Layer};
+use super::super::chart::{Axis, Colour, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Link, Section};
 use super::super::provenance::{Note, found_again};
 use super::wme;
-use crate::error::Result;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::History;
 use mrbd_lab::calibrate::{Calibration, Experiment, TestResult};
@@ -39,28 +36,25 @@ impl Again {
 }
 
 /// The section; a sentence where the tests are no longer at hand.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(again: Option<&Again>, stored: &Calibration) -> Result<Section> {
+pub fn section(again: Option<&Again>, stored: &Calibration) -> Section {
     let mut section =
         Section { id: "histories".into(), title: "Measured against simulated".into(), ..Section::default() };
     let Some(again) = again else {
         section.text.push(
             "The experiment’s files are no longer where the calibration read them, or are other ones now: its histories cannot be drawn.".into(),
         );
-        return Ok(section);
+        return section;
     };
     section.text.push(
         "The calibrated wall in every test, from rest; tests held out were not seen by the search.".into(),
     );
     for (index, test) in stored.tests.iter().enumerate() {
-        section.figures.push(figure(again, index, test)?);
+        section.figures.push(figure(again, index, test));
     }
-    Ok(section)
+    section
 }
 
-fn figure(again: &Again, index: usize, test: &TestResult) -> Result<Figure> {
+fn figure(again: &Again, index: usize, test: &TestResult) -> Figure {
     let simulated = simulated(again, index);
     let alpha = again.wall.alpha_i_rad();
     let measured = &again.experiment.tests[index].measured;
@@ -69,10 +63,10 @@ fn figure(again: &Again, index: usize, test: &TestResult) -> Result<Figure> {
     for (body, &alpha) in alpha.iter().enumerate().take(bodies) {
         let measured = measured_line(measured, body, alpha);
         let line = simulated.rows.iter().map(|row| (row.time_s, row.theta_rad[body] / alpha)).collect();
-        panels.push(panel(body, measured, line)?);
+        panels.push(panel(body, measured, line));
     }
     let held = if test.purpose == "fit" { "to fit" } else { "held out" };
-    Ok(Figure {
+    Figure {
         id: format!("test-{}", index + 1),
         title: format!("{}, {held}", test.name),
         paper: Some("Figs. 7 and 8".into()),
@@ -89,11 +83,11 @@ fn figure(again: &Again, index: usize, test: &TestResult) -> Result<Figure> {
             wme(test.wme_before)
         ),
         links: vec![Link::to("calibration.json")],
-    })
+    }
 }
 
 fn key(label: &str, colour: Colour) -> Key {
-    Key { label: label.to_owned(), colour: colour.hex(), mark: Mark::None }
+    Key::new(label, colour, Mark::None)
 }
 
 fn simulated(again: &Again, index: usize) -> History {
@@ -113,7 +107,7 @@ fn measured_line(measured: &Measured, body: usize, alpha_rad: f64) -> Vec<(f64, 
     line
 }
 
-fn panel(body: usize, measured: Vec<(f64, f64)>, simulated: Vec<(f64, f64)>) -> Result<String> {
+fn panel(body: usize, measured: Vec<(f64, f64)>, simulated: Vec<(f64, f64)>) -> String {
     let end_s = simulated.iter().chain(&measured).map(|point| point.0).fold(0.0, f64::max);
     let label = ["θ₁/α₁", "θ₂/α₂"][body];
     let values = measured.iter().chain(&simulated).map(|point| point.1);

@@ -1,23 +1,17 @@
 //! Quantiles of the response over façades and records, along the intensity of stripes.
 
-use super::super::axis::Axis;
-use super::super::colours::{Mark, of_curve};
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, of_curve};
 use super::super::page::{Figure, Key};
 use super::medians;
 use super::quantiles::{HIGH, LOW, MIDDLE, quantities};
 use crate::aggregate::{Distribution, Distributions, VariantNote};
-use crate::error::Result;
 use crate::study::pipeline::Kind;
 
 /// Least rotation drawn, over α: below it is rest.
 const LEAST: f64 = 1e-3;
 
 /// A panel a floor.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn figure(study: &Distributions, base: &VariantNote) -> Result<Figure> {
+pub fn figure(study: &Distributions, base: &VariantNote) -> Figure {
     let own =
         |row: &&Distribution| row.variant == base.name && row.record.is_none() && row.intensity.is_some();
     let rows = study.rows.iter().filter(own).collect::<Vec<_>>();
@@ -44,17 +38,17 @@ pub fn figure(study: &Distributions, base: &VariantNote) -> Result<Figure> {
     };
     let key = |(index, (_, label)): (usize, &(&str, &str))| {
         let (colour, mark) = of_curve(index);
-        Key { label: (*label).to_owned(), colour: colour.hex(), mark }
+        Key::new(*label, colour, mark)
     };
-    Ok(Figure {
+    Figure {
         id: "quantiles-along".into(),
         title: "Along the intensity, all records together".into(),
         legend: quantities(Kind::Stripes).iter().enumerate().map(key).collect(),
-        panels: floors.into_iter().map(panel).collect::<Result<_>>()?,
+        panels: floors.into_iter().map(panel).collect(),
         caption: "Median over façades and records, and the band from the 16 % to the 84 % quantile. At the upper end: the quantile lies among walls that collapsed.".into(),
         links: medians(),
         ..Figure::default()
-    })
+    }
 }
 
 /// Band and median of one quantity; a quantile beyond all numbers stands at the end of the axis.

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use super::super::axis::Axis;
-use super::super::colours::of_curve;
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, of_curve};
 use super::super::page::{Figure, Key, Link, Section, Table};
 use super::titled;
 use crate::aggregate::{Distributions, VariantNote};
@@ -58,7 +56,7 @@ pub fn section(folder: &Path, study: &Distributions, base: &VariantNote, links: 
     };
     let legend = limits.iter().enumerate().map(|(index, limit)| {
         let (colour, mark) = of_curve(index);
-        Key { label: limit.clone(), colour: colour.hex(), mark }
+        Key::new(limit.clone(), colour, mark)
     });
     let mut section = titled("fragility", "Fragility");
     section.text.push(format!(
@@ -69,7 +67,7 @@ pub fn section(folder: &Path, study: &Distributions, base: &VariantNote, links: 
         id: "fragility-curves".into(),
         title: "Probability of reaching a limit".into(),
         legend: legend.collect(),
-        panels: floors.iter().map(panel).collect::<Result<_>>()?,
+        panels: floors.iter().map(panel).collect(),
         caption: "Points: shares of the runs in bins of intensity, of incremental analyses shares of the walls that reached the limit up to there.".into(),
         links: links.to_vec(),
         ..Figure::default()
@@ -129,7 +127,7 @@ fn axis(study: &Distributions, all: &[Fragility]) -> Axis {
     Axis::log_holding(label, all.iter().flat_map(|one| one.analysis.range).flatten())
 }
 
-fn panel(floor: &str, own: &[&Fragility], limits: &[String], x: &Axis) -> Result<String> {
+fn panel(floor: &str, own: &[&Fragility], limits: &[String], x: &Axis) -> String {
     let mut layers = Vec::new();
     for one in own {
         let index = limits.iter().position(|limit| *limit == one.limit).unwrap_or(0);

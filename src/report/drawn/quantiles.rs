@@ -1,13 +1,9 @@
 //! Quantiles of the response over façades, record by record; over records too, along the intensity of stripes.
 
-use super::super::axis::Axis;
-use super::super::colours::Mark;
-use super::super::colours::PALETTE;
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Section};
 use super::{along, medians, titled};
 use crate::aggregate::{CAPACITY, Distribution, Distributions, VariantNote};
-use crate::error::Result;
 use crate::study::pipeline::Kind;
 
 /// Places of the 16, 50 and 84 % quantiles among those that are told.
@@ -27,10 +23,7 @@ pub(super) fn quantities(kind: Kind) -> &'static [(&'static str, &'static str)] 
 }
 
 /// The section: a panel a floor (and limit, or stripe).
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
+pub fn section(study: &Distributions, base: &VariantNote) -> Section {
     let own: Vec<&Distribution> =
         study.rows.iter().filter(|row| row.variant == base.name && row.record.is_some()).collect();
     let mut groups: Vec<(String, String)> = Vec::new();
@@ -55,14 +48,10 @@ pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
             .collect();
         panel(study.kind, &format!("{configuration} floor {stratum}"), &own, &x)
     };
-    let key = |(index, (_, label)): (usize, &(&str, &str))| Key {
-        label: (*label).to_owned(),
-        colour: PALETTE[index].hex(),
-        mark: Mark::Circle,
-    };
+    let key = |(index, (_, label)): (usize, &(&str, &str))| Key::new(*label, PALETTE[index], Mark::Circle);
     let mut section = titled("quantiles", "The response");
     if study.kind == Kind::Stripes {
-        section.figures.push(along::figure(study, base)?);
+        section.figures.push(along::figure(study, base));
     }
     if groups.len() < all {
         section
@@ -73,12 +62,12 @@ pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
         id: "quantiles-by-record".into(),
         title: "16, 50 and 84 % of the façades".into(),
         legend: quantities(study.kind).iter().enumerate().map(key).collect(),
-        panels: groups.iter().map(panel).collect::<Result<_>>()?,
+        panels: groups.iter().map(panel).collect(),
         caption: "Bars from the 16 % to the 84 % quantile over the façades, points at the median. A bar to the end of the axis: the quantile lies among walls that collapsed, or never reached the limit.".into(),
         links: medians(),
         ..Figure::default()
     });
-    Ok(section)
+    section
 }
 
 /// Of each floor, the stripes at a quarter of all and in the middle; at the strongest most walls have collapsed.
@@ -105,7 +94,7 @@ fn axis(study: &Distributions, own: &[&Distribution]) -> Axis {
     )
 }
 
-fn panel(kind: Kind, title: &str, own: &[&Distribution], x: &Axis) -> Result<String> {
+fn panel(kind: Kind, title: &str, own: &[&Distribution], x: &Axis) -> String {
     let mut records: Vec<&str> = Vec::new();
     for row in own {
         let record = row.record.as_deref().unwrap_or("");

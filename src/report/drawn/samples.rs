@@ -3,9 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use super::super::axis::Axis;
-use super::super::colours::{Mark, PALETTE};
-use super::super::graph::{Format, Graph, Layer};
+use super::super::chart::{Axis, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Link, Section};
 use super::titled;
 use crate::aggregate::VariantNote;
@@ -82,14 +80,10 @@ fn figure(
         let values: Vec<f64> = rows.iter().filter_map(|&row| all[row]).collect();
         let varies = values.iter().any(|value| *value != values[0]);
         if varies {
-            panels.push(panel(variable, &values, sampler.map(|sampler| sampler.marginal(variable)))?);
+            panels.push(panel(variable, &values, sampler.map(|sampler| sampler.marginal(variable))));
         }
     }
-    let key = |label: &str, index: usize| Key {
-        label: label.into(),
-        colour: PALETTE[index].hex(),
-        mark: Mark::None,
-    };
+    let key = |label: &str, index: usize| Key::new(label, PALETTE[index], Mark::None);
     Ok(Figure {
         id: format!("samples-{}", configuration.name()),
         title: format!("{} floor: {} façades", configuration.name(), rows.len()),
@@ -114,7 +108,7 @@ fn shown(variable: Variable) -> (&'static str, f64) {
     }
 }
 
-fn panel(variable: Variable, values: &[f64], survey: Option<&Marginal>) -> Result<String> {
+fn panel(variable: Variable, values: &[f64], survey: Option<&Marginal>) -> String {
     let (label, factor) = shown(variable);
     let mut sorted: Vec<f64> = values.iter().map(|value| factor * value).collect();
     sorted.sort_by(f64::total_cmp);
@@ -136,7 +130,7 @@ fn panel(variable: Variable, values: &[f64], survey: Option<&Marginal>) -> Resul
         x: Axis::linear(label, low, high),
         y: Axis::holding("density", heights),
         layers: vec![
-            Layer::Bars { colour: PALETTE[5], solid: false, bars },
+            Layer::Bars { colour: PALETTE[5], bars },
             Layer::Line {
                 colour: PALETTE[1],
                 width: 3,

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::super::colours::{PALETTE, PATTERNS};
+use super::super::chart::{PALETTE, PATTERNS};
 use super::RunPicture;
 use mrbd_kernel::model::{Contact, Joint, PATTERN_NAMES};
 use mrbd_kernel::simulate::{HistoryRow, Outcome};

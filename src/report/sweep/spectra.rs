@@ -2,12 +2,9 @@
 
 use std::path::Path;
 
-use super::super::colours::{COLLAPSE, Colour, Mark, of_curve};
-use super::super::lines::{Line, LinePanel};
+use super::super::chart::{Axis, COLLAPSE, Colour, Format, Graph, Layer, Mark, of_curve};
 use super::super::page::{Figure, Key, Section};
 use super::super::provenance::found_again;
-use super::super::words::rounded_up;
-use crate::error::Result;
 use crate::study::plan::Motions;
 use crate::study::runs::Manifest;
 use mrbd_records::{CODE_DAMPING, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck, response_spectrum_m_s2};
@@ -31,19 +28,16 @@ pub fn suite_of(folder: &Path, manifest: &Manifest) -> Option<Suite> {
 }
 
 /// The section; a sentence where the records are no longer at hand.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(suite: Option<&Suite>, site: Option<&Site>) -> Result<Section> {
+pub fn section(suite: Option<&Suite>, site: Option<&Site>) -> Section {
     let mut section =
         Section { id: "spectra".into(), title: "The records’ spectra".into(), ..Section::default() };
     match suite {
-        Some(suite) => section.figures.push(figure(suite, site)?),
+        Some(suite) => section.figures.push(figure(suite, site)),
         None => section.text.push(
             "The records are no longer where the study read them, or are other ones now: their spectra cannot be drawn.".into(),
         ),
     }
-    Ok(section)
+    section
 }
 
 fn periods_s() -> Vec<f64> {
@@ -51,7 +45,7 @@ fn periods_s() -> Vec<f64> {
     (1..=last).map(|k| f64::from(k) * STEP_S).collect()
 }
 
-fn figure(suite: &Suite, site: Option<&Site>) -> Result<Figure> {
+fn figure(suite: &Suite, site: Option<&Site>) -> Figure {
     let periods = periods_s();
     let damping = site.map_or(CODE_DAMPING, |site| site.damping);
     let spectra: Vec<Vec<f64>> = suite
@@ -61,34 +55,32 @@ fn figure(suite: &Suite, site: Option<&Site>) -> Result<Figure> {
         .collect();
     let mean = (0..periods.len()).map(|k| spectra.iter().map(|s| s[k]).sum::<f64>() / spectra.len() as f64);
     let over = |values: Vec<f64>| -> Vec<(f64, f64)> { periods.iter().copied().zip(values).collect() };
-    let mut lines: Vec<Line> = Vec::new();
+    let mut lines: Vec<Spectrum> = Vec::new();
     for (index, (record, spectrum)) in suite.records.iter().zip(&spectra).enumerate() {
         let colour = of_curve(index).0;
-        lines.push(Line { name: record.name.clone(), colour, width: 3, points: over(spectrum.clone()) });
+        lines.push(Spectrum { name: record.name.clone(), colour, width: 3, points: over(spectrum.clone()) });
     }
     if suite.records.len() > 1 {
-        lines.push(Line { name: "mean".into(), colour: MEAN, width: 8, points: over(mean.collect()) });
+        lines.push(Spectrum { name: "mean".into(), colour: MEAN, width: 8, points: over(mean.collect()) });
     }
     if let Some(site) = site {
         let code = periods.iter().map(|&period| site.elastic_m_s2(period)).collect();
-        lines.push(Line { name: "code".into(), colour: CODE, width: 8, points: over(code) });
+        lines.push(Spectrum { name: "code".into(), colour: CODE, width: 8, points: over(code) });
     }
-    let largest = lines.iter().flat_map(|line| &line.points).map(|point| point.1).fold(0.0, f64::max);
-    let legend = lines.iter().enumerate().map(|(index, line)| Key {
-        label: line.name.clone(),
-        colour: line.colour.hex(),
-        mark: if index < suite.records.len() { of_curve(index).1 } else { Mark::Square },
-    });
-    Ok(Figure {
+    let key = |(index, line): (usize, &Spectrum)| {
+        let mark = if index < suite.records.len() { of_curve(index).1 } else { Mark::Square };
+        Key::new(line.name.clone(), line.colour, mark)
+    };
+    Figure {
         id: "spectra-figure".into(),
         title: format!("Elastic response spectra, {} % damping", mrbd_kernel::written(100.0 * damping)),
         paper: (suite.records.len() > 1).then(|| "Fig. 11".into()),
-        legend: legend.collect(),
-        panels: vec![panel(rounded_up(1.02 * largest.max(f64::MIN_POSITIVE)), lines).svg()?],
+        legend: lines.iter().enumerate().map(key).collect(),
+        panels: vec![graph(lines).svg()],
         wide: true,
         caption: caption(suite, site),
         ..Figure::default()
-    })
+    }
 }
 
 /// The mean of the records: black, which neither axes nor text are, for the legend fades by colour.
@@ -96,14 +88,27 @@ const MEAN: Colour = Colour(0, 0, 0);
 /// The code: the colour that is left.
 const CODE: Colour = COLLAPSE;
 
-fn panel(y_top: f64, lines: Vec<Line>) -> LinePanel {
-    LinePanel {
-        title: "Response spectra".into(),
-        x_label: "period s".into(),
-        y_label: "pseudo-acceleration m/s²".into(),
-        shaded: Some(COMPATIBLE_PERIODS_S),
-        y_top,
-        lines,
+/// A spectrum as it is drawn.
+struct Spectrum {
+    name: String,
+    colour: Colour,
+    width: u32,
+    /// Periods, s, and pseudo-accelerations, m/s².
+    points: Vec<(f64, f64)>,
+}
+
+fn graph(spectra: Vec<Spectrum>) -> Graph {
+    let (from, to) = COMPATIBLE_PERIODS_S;
+    let all = spectra.iter().flat_map(|spectrum| &spectrum.points);
+    let y = Axis::holding("pseudo-acceleration m/s²", all.map(|point| point.1));
+    let line =
+        |Spectrum { name, colour, width, points }| Layer::Line { colour, width, dashed: false, name, points };
+    Graph {
+        title: String::new(),
+        format: Format::Wide,
+        x: Axis::linear("period s", 0.0, LONGEST_S),
+        y,
+        layers: std::iter::once(Layer::Shade { from, to }).chain(spectra.into_iter().map(line)).collect(),
     }
 }
 
