@@ -7,9 +7,9 @@ use serde_json::Value;
 
 use super::output;
 use super::progress::Bar;
+use super::report::write_page;
 use super::threads::Threads;
 use crate::error::Result;
-use crate::report::report;
 use crate::results::diagnosis::{OutputNames, write_results};
 use mrbd_lab::diagnose::{Experiment, check_data, diagnose};
 
@@ -53,7 +53,7 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     })?;
     drop(bar);
     eprintln!("{}", told(&summary));
-    let page = report(&args.out, None)?;
+    let page = write_page(&args.out, None)?;
     eprintln!("its page, to be opened in a browser: {}", page.display());
     output::to_stdout(|out| writeln!(out, "{}", names.diagnosis.display()).map_err(output::failed))
 }

@@ -6,7 +6,6 @@
 //!
 //! | module | what |
 //! | --- | --- |
-//! | `folder` | which kind of results a folder holds, and its page |
 //! | `sweep` | the paper's figures 12 and 14 to 20 from the medians and runs of a sweep |
 //! | `run` | one run: histories, and the wall in motion |
 //! | `drawn` | drawn façades: fragilities with intervals and data, quantiles, draws against the survey |
@@ -16,7 +15,8 @@
 //! | `comparison` | three models of a wall under the same records (Fig. 9) |
 //! | `overturning` | which pulses overturn a wall |
 //!
-//! To make another page: say what a folder of its kind is in `folder`, and fill a `Page` with sections.
+//! To make another page: say in `summary` what a folder of its kind holds, and fill a `Page` with sections here.
+//! Nothing is computed here but places and texts.
 //!
 //! | block | what |
 //! | --- | --- |
@@ -31,7 +31,6 @@ mod chart;
 mod comparison;
 mod diagnosis;
 mod drawn;
-mod folder;
 mod history;
 mod overturning;
 mod page;
@@ -41,5 +40,25 @@ mod run;
 mod sweep;
 mod words;
 
-pub use folder::report;
 pub use run::{ImpactMark, PlotFile, RunPicture, Watch};
+
+use crate::error::Result;
+use crate::summary::{Summary, as_damage};
+
+/// The page of results as HTML.
+///
+/// # Errors
+/// Input errors for damaged tables of results that are drawn as they are stored; [`crate::Error::Picture`] if the
+/// template refuses.
+pub fn html(summary: &Summary) -> Result<String> {
+    let page = match summary {
+        Summary::Sweep(sweep) => Ok(sweep::page(sweep)),
+        Summary::Drawn(drawn) => Ok(drawn::page(drawn)),
+        Summary::Calibration(calibrated) => Ok(calibration::page(calibrated)),
+        Summary::Diagnosis(folder) => diagnosis::page(folder),
+        Summary::Comparison(folder) => comparison::page(folder),
+        Summary::Overturning(folder) => overturning::page(folder),
+        Summary::History(file) => history::page(file),
+    };
+    page.map_err(as_damage)?.html()
+}

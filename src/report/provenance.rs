@@ -2,15 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-use serde::de::DeserializeOwned;
-
 use super::page::{Link, address};
 use crate::aggregate::VariantNote;
-use crate::error::{InputError, Result};
-use crate::study::runs::{Manifest, listed_run_files};
+use crate::study::runs::Manifest;
+pub use crate::summary::{Note, read_json};
 use crate::text::utc;
-use mrbd_files::{FileNote, file_sha256};
+use mrbd_files::FileNote;
 
 /// The manifest as names and values.
 pub fn of(manifest: &Manifest) -> Vec<(String, String)> {
@@ -44,43 +41,7 @@ pub fn inputs(files: &[FileNote]) -> impl Iterator<Item = (String, String)> {
     })
 }
 
-/// A file that was read, found again: where it was, or from the folder of the results; none where it is gone or another
-/// one now.
-pub fn found_again(folder: &Path, inputs: &[FileNote], role: &str) -> Option<PathBuf> {
-    let note = inputs.iter().find(|input| input.role == role)?;
-    let beside = note.path_from_folder.as_ref().map(|path| folder.join(path));
-    let places = std::iter::once(PathBuf::from(&note.path)).chain(beside);
-    places.into_iter().find(|path| file_sha256(path).is_ok_and(|sha256| sha256 == note.sha256))
-}
-
-/// The manifest of results that are not a study of runs: a calibration, a comparison of models.
-#[derive(Debug, Deserialize)]
-pub struct Note {
-    /// Name of what was done; empty where it has none.
-    #[serde(default)]
-    pub name: String,
-    /// Version of the program.
-    pub tool_version: String,
-    /// Suite of records, where there is one, and whether it is generated.
-    pub suite: Option<String>,
-    /// Whether its records are generated rather than recorded.
-    #[serde(default)]
-    pub generated: bool,
-    /// Files that were read.
-    pub inputs: Vec<FileNote>,
-    /// When it began, seconds since 1970.
-    pub started_unix_s: u64,
-}
-
 impl Note {
-    /// Reads a manifest.
-    ///
-    /// # Errors
-    /// As [`read_json`].
-    pub fn read(path: &Path) -> Result<Self> {
-        read_json(path, "a manifest as mrbd writes it beside its results")
-    }
-
     /// The manifest as names and values.
     pub fn pairs(&self) -> Vec<(String, String)> {
         let pair = |name: &str, value: String| (name.to_owned(), value);
@@ -93,21 +54,11 @@ impl Note {
         pairs
     }
 
-    /// A sentence on generated records; none where they are recorded.
+    /// A sentence on generated records; `None` where they are recorded.
     pub fn generated_note(&self) -> Option<String> {
         let suite = self.suite.as_deref().filter(|_| self.generated)?;
         Some(format!("The records of suite “{suite}” are generated, not measured."))
     }
-}
-
-/// Reads JSON that mrbd wrote.
-///
-/// # Errors
-/// An input error for a file that is not there or holds something else.
-pub fn read_json<T: DeserializeOwned>(path: &Path, allowed: &str) -> Result<T> {
-    let refuse = |found: String| InputError::file(path, found, allowed);
-    let bytes = std::fs::read(path).map_err(|e| refuse(e.to_string()))?;
-    Ok(serde_json::from_slice(&bytes).map_err(|e| refuse(e.to_string()))?)
 }
 
 /// What a reader must know before the figures: generated records, assumptions, failed runs.
@@ -137,18 +88,17 @@ pub fn notes(manifest: &Manifest, variants: &[VariantNote]) -> Vec<String> {
     notes
 }
 
-/// Links to the run files, one a record and part.
-///
-/// # Errors
-/// As [`listed_run_files`].
-pub fn run_links(folder: &Path) -> Result<Vec<Link>> {
-    let link = |path: &std::path::PathBuf| {
-        let relative = path.strip_prefix(folder).unwrap_or(path).to_string_lossy().replace('\\', "/");
-        let text = relative.strip_prefix("runs/record=").unwrap_or(&relative).to_owned();
-        Link { text, href: address(&relative) }
+/// Links to the run files: a record's name where it has one file, else with the name of the file.
+pub fn run_links(files: &[PathBuf]) -> Vec<Link> {
+    let record = |file: &PathBuf| file.parent().map(Path::to_path_buf);
+    let link = |file: &PathBuf| {
+        let path = file.to_string_lossy().replace('\\', "/");
+        let name = path.strip_prefix("runs/record=").unwrap_or(&path);
+        let alone = files.iter().filter(|other| record(other) == record(file)).count() == 1;
+        let name = if alone { name.strip_suffix("/part-1.parquet").unwrap_or(name) } else { name };
+        Link { text: name.to_owned(), href: address(&path) }
     };
-    // The figures beside them were made of the same files, checked.
-    Ok(listed_run_files(folder)?.iter().map(link).collect())
+    files.iter().map(link).collect()
 }
 
 /// All files behind a page.

@@ -44,3 +44,37 @@ pub fn level(parameter: Parameter, level: Level, value: Option<f64>) -> String {
     };
     format!("{name}: {value}")
 }
+
+/// A measure of intensity with its unit, by the name of its column.
+pub fn intensity(column: &str) -> String {
+    let name = match column {
+        "pga_m_s2" => "PGA m/s²",
+        "pga_g" => "PGA g",
+        "pgv_m_s" => "PGV m/s",
+        "pgd_m" => "PGD m",
+        "arias_m_s" => "Arias intensity m/s",
+        "cav_m_s" => "CAV m/s",
+        "sa_0p5s_m_s2" => "Sa(0.5 s) m/s²",
+        "sa_1p0s_m_s2" => "Sa(1.0 s) m/s²",
+        "sa_average_m_s2" => "average Sa m/s²",
+        other => other,
+    };
+    name.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mrbd_records::ScaledMeasure;
+
+    #[test]
+    fn regress_every_measure_has_a_name_and_a_unit() {
+        use ScaledMeasure as M;
+        let all =
+            [M::PgaMS2, M::PgaG, M::Pgv, M::Pgd, M::Arias, M::Cav, M::SaHalfSecond, M::SaOneSecond, M::SaAverage];
+        for measure in all {
+            let name = intensity(measure.name());
+            assert!(name.contains(' ') && !name.contains('_'), "{name}");
+        }
+    }
+}

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of `src/` in the flow of data, and the rooms that each may use.
-const ALLOWED: [(&str, &[&str]); 13] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("error", &[]),
     ("text", &[]),
     ("store", &["error"]),
@@ -21,6 +21,10 @@ const ALLOWED: [(&str, &[&str]); 13] = [
     ("results", &["error", "store"]),
     ("starter", &["error", "store"]),
     (
+        "summary",
+        &["error", "store", "survey", "study", "aggregate", "findings", "fragility", "classics", "results"],
+    ),
+    (
         "report",
         &[
             "error",
@@ -33,6 +37,7 @@ const ALLOWED: [(&str, &[&str]); 13] = [
             "fragility",
             "classics",
             "results",
+            "summary",
         ],
     ),
 ];

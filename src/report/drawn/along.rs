@@ -2,23 +2,23 @@
 
 use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, of_curve};
 use super::super::page::{Figure, Key};
+use super::super::words;
 use super::medians;
 use super::quantiles::{HIGH, LOW, MIDDLE, quantities};
-use crate::aggregate::{Distribution, Distributions, VariantNote};
+use crate::aggregate::{Distribution, Distributions};
 use crate::study::pipeline::Kind;
 
 /// Least rotation drawn, over α: below it is rest.
 const LEAST: f64 = 1e-3;
 
 /// A panel a floor.
-pub fn figure(study: &Distributions, base: &VariantNote) -> Figure {
-    let own =
-        |row: &&Distribution| row.variant == base.name && row.record.is_none() && row.intensity.is_some();
+pub fn figure(study: &Distributions, base: &str) -> Figure {
+    let own = |row: &&Distribution| row.variant == base && row.record.is_none() && row.intensity.is_some();
     let rows = study.rows.iter().filter(own).collect::<Vec<_>>();
     let mut floors = rows.iter().map(|row| row.configuration.as_str()).collect::<Vec<_>>();
     floors.dedup();
-    let label = study.measure.as_deref().unwrap_or("intensity");
-    let x = Axis::log_holding(label, rows.iter().filter_map(|row| row.intensity));
+    let label = words::intensity(study.measure.as_deref().unwrap_or("intensity"));
+    let x = Axis::log_holding(&label, rows.iter().filter_map(|row| row.intensity));
     let values = rows.iter().flat_map(|row| &row.quantiles[LOW..=HIGH]).flatten();
     let y = Axis::log_holding("max |θᵢ|/αᵢ", values.map(|value| value.max(LEAST)));
     let panel = |floor: &str| {
@@ -31,7 +31,7 @@ pub fn figure(study: &Distributions, base: &VariantNote) -> Figure {
             layers: quantities(Kind::Stripes)
                 .iter()
                 .enumerate()
-                .flat_map(|(index, quantity)| curve(index, *quantity, &own, y.ends()[1], label))
+                .flat_map(|(index, quantity)| curve(index, *quantity, &own, y.ends()[1], &label))
                 .collect(),
         }
         .svg()

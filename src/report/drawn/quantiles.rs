@@ -2,8 +2,9 @@
 
 use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Section};
+use super::super::words;
 use super::{along, medians, titled};
-use crate::aggregate::{CAPACITY, Distribution, Distributions, VariantNote};
+use crate::aggregate::{CAPACITY, Distribution, Distributions};
 use crate::study::pipeline::Kind;
 
 /// Places of the 16, 50 and 84 % quantiles among those that are told.
@@ -23,9 +24,9 @@ pub(super) fn quantities(kind: Kind) -> &'static [(&'static str, &'static str)] 
 }
 
 /// The section: a panel a floor (and limit, or stripe).
-pub fn section(study: &Distributions, base: &VariantNote) -> Section {
+pub fn section(study: &Distributions, base: &str) -> Section {
     let own: Vec<&Distribution> =
-        study.rows.iter().filter(|row| row.variant == base.name && row.record.is_some()).collect();
+        study.rows.iter().filter(|row| row.variant == base && row.record.is_some()).collect();
     let mut groups: Vec<(String, String)> = Vec::new();
     for row in &own {
         let group = (row.configuration.clone(), row.stratum(study.measure.as_deref()));
@@ -83,13 +84,13 @@ fn few_stripes(groups: Vec<(String, String)>) -> Vec<(String, String)> {
 
 fn axis(study: &Distributions, own: &[&Distribution]) -> Axis {
     let label = match study.kind {
-        Kind::Incremental => study.measure.as_deref().unwrap_or("intensity"),
-        _ => "max |θᵢ|/αᵢ",
+        Kind::Incremental => words::intensity(study.measure.as_deref().unwrap_or("intensity")),
+        _ => "max |θᵢ|/αᵢ".to_owned(),
     };
     let shown = own.iter().filter(|row| quantities(study.kind).iter().any(|(name, _)| *name == row.quantity));
     // Rotations below a thousandth of α are rest.
     Axis::log_holding(
-        label,
+        &label,
         shown.flat_map(|row| row.quantiles[LOW..=HIGH].iter().flatten()).map(|v| v.max(1e-3)),
     )
 }

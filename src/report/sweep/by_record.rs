@@ -1,27 +1,18 @@
 //! Figures 18 and 19: the reference façades under each record.
 
-use std::path::Path;
-
 use super::super::chart::{CurvePoint, Graph, of_curve};
 use super::super::page::{Figure, Key, Link, Section};
 use super::super::rotations;
 use super::medians::{over_slenderness, y_label};
-use crate::aggregate::{Measure, Middle, ReferenceRun, reference_runs};
-use crate::error::Result;
+use crate::aggregate::{Measure, Middle, ReferenceRun};
 use crate::findings::View;
 use crate::survey::Configuration;
 
 /// The section: a figure a body, a curve a record.
-///
-/// # Errors
-/// Whatever reading the runs and drawing meet.
-pub fn section(folder: &Path, view: &View, links: &[Link]) -> Result<Section> {
-    let first = |c: Configuration| view.parameters(c).first().map(|&parameter| (c, parameter));
-    let among: Vec<_> = Configuration::ALL.into_iter().filter_map(first).collect();
-    let runs = reference_runs(folder, view.variant(), &among)?;
+pub fn section(view: &View, runs: &[ReferenceRun], links: &[Link]) -> Section {
     let bodies = [(Measure::LowerOwn, "Fig. 18"), (Measure::UpperOwn, "Fig. 19")];
-    let figures = bodies.map(|(body, number)| figure(view, &runs, body, number, links));
-    Ok(Section {
+    let figures = bodies.map(|(body, number)| figure(view, runs, body, number, links));
+    Section {
         id: "records".into(),
         title: "Record by record".into(),
         text: vec![
@@ -29,7 +20,7 @@ pub fn section(folder: &Path, view: &View, links: &[Link]) -> Result<Section> {
         ],
         figures: figures.into(),
         ..Section::default()
-    })
+    }
 }
 
 fn figure(view: &View, runs: &[ReferenceRun], body: Measure, number: &str, links: &[Link]) -> Figure {

@@ -79,10 +79,25 @@ fn figure(view: &View, row: &Row, records: usize) -> Figure {
         paper: Some(number.into()),
         legend: legend(view, row),
         panels,
-        caption: "Median over the records of the largest rotation, by slenderness h/b; the other parameters at their means. Dashed line: 0.05, which the paper calls significant.".into(),
+        caption: caption(view, row),
         links: vec![Link::to("medians.parquet")],
         ..Figure::default()
     }
+}
+
+fn caption(view: &View, row: &Row) -> String {
+    let mut caption = "Median over the records of the largest rotation, by slenderness h/b; the other parameters at their means. Dashed line: 0.05, which the paper calls significant.".to_owned();
+    let value = |of: &(Configuration, Parameter), level| of_level(view, of.0, of.1, level)?.parameter_value;
+    if row.iter().any(|of| are_reversed(value(of, Level::Low), value(of, Level::High))) {
+        caption
+            .push_str(" The value at μ − σ is the larger one: the survey’s table has the two in this order.");
+    }
+    caption
+}
+
+/// Whether the value named μ − σ is larger than that named μ + σ.
+fn are_reversed(low: Option<f64>, high: Option<f64>) -> bool {
+    low.zip(high).is_some_and(|(low, high)| low > high)
 }
 
 /// One key a level; where the floors differ in its value, both are told.
@@ -190,4 +205,16 @@ fn slenderness_axis(view: &View) -> Axis {
     let (first, last) = (all.first().copied().unwrap_or(0.0), all.last().copied().unwrap_or(1.0));
     let room = (0.06 * (last - first)).max(0.5);
     Axis::linear("slenderness h/b", first - room, last + room)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_levels_are_told_to_be_reversed_where_they_are() {
+        assert!(are_reversed(Some(0.73), Some(0.52)) && !are_reversed(Some(0.2), Some(0.4)));
+        // Coefficients of restitution have levels and no value.
+        assert!(!are_reversed(None, None));
+    }
 }
