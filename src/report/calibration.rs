@@ -2,8 +2,8 @@
 
 mod convergence;
 mod histories;
+mod misfits;
 mod parameters;
-mod tests;
 
 use super::page::{Link, Number, Page};
 use crate::summary::{Calibrated, Note};
@@ -27,7 +27,7 @@ pub fn page(calibrated: &Calibrated) -> Page {
         sections: vec![
             histories::section(tests.as_deref(), stored),
             parameters::section(stored),
-            tests::section(stored),
+            misfits::section(stored),
             convergence::section(stored),
         ],
         provenance: origin(stored, note),

@@ -70,8 +70,17 @@ mod tests {
     #[test]
     fn regress_every_measure_has_a_name_and_a_unit() {
         use ScaledMeasure as M;
-        let all =
-            [M::PgaMS2, M::PgaG, M::Pgv, M::Pgd, M::Arias, M::Cav, M::SaHalfSecond, M::SaOneSecond, M::SaAverage];
+        let all = [
+            M::PgaMS2,
+            M::PgaG,
+            M::Pgv,
+            M::Pgd,
+            M::Arias,
+            M::Cav,
+            M::SaHalfSecond,
+            M::SaOneSecond,
+            M::SaAverage,
+        ];
         for measure in all {
             let name = intensity(measure.name());
             assert!(name.contains(' ') && !name.contains('_'), "{name}");

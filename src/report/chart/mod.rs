@@ -13,7 +13,6 @@
 
 mod axis;
 mod colours;
-mod draw;
 mod graph;
 mod layer;
 mod picture;
