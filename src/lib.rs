@@ -30,7 +30,8 @@
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
 //! | [`classics`] | a wall, and what others published | their studies again: the models of Fig. 9, overturning spectra |
 //! | [`results`] | what the laboratory found | result folders |
-//! | [`report`] | result folders, runs | pages and pictures |
+//! | [`summary`] | result folders | what a page shows, computed before anything is drawn |
+//! | [`report`] | summaries, runs | pages and pictures |
 //! | [`starter`] | nothing | a wall, a pipeline and an experiment to begin with |
 //! | [`cli`] | the command line | the above, and messages for people |
 //!
@@ -60,6 +61,8 @@ pub mod results;
 pub mod starter;
 pub mod store;
 pub mod study;
+pub mod summary;
 pub mod survey;
+pub mod text;
 
 pub use error::{Error, InputError, Result};

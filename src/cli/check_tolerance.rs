@@ -10,9 +10,9 @@ use super::{output, progress, replay};
 use crate::aggregate::{Compared, MOVED_SHARE, stored_answers};
 use crate::check::{Conditioning, conditioning, run_again, sampled};
 use crate::error::{InputError, Result};
-use crate::findings::aligned;
 use crate::study::plan::Plan;
 use crate::study::runs::OutputFolder;
+use crate::text::aligned;
 
 /// Run a sample of a study's runs again at a tighter tolerance: the share that comes out differently, and the medians.
 ///

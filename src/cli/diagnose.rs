@@ -6,9 +6,9 @@ use clap::Args;
 
 use super::output;
 use super::progress::Bar;
+use super::report::write_page;
 use super::threads::Threads;
 use crate::error::Result;
-use crate::report::report;
 use crate::results::diagnosis::{OutputNames, write_results};
 use mrbd_lab::diagnose::answer::{FoundEffect, Summary};
 use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
@@ -53,7 +53,7 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     write_results(&names, &experiment.inputs, &diagnosis)?;
     drop(bar);
     eprintln!("{}", in_words(&diagnosis.summary));
-    let page = report(&args.out, None)?;
+    let page = write_page(&args.out, None)?;
     eprintln!("its page, to be opened in a browser: {}", page.display());
     output::to_stdout(|out| writeln!(out, "{}", names.diagnosis.display()).map_err(output::failed))
 }

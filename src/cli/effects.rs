@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use super::output;
 use crate::error::{InputError, Result};
+use crate::text::wrapped;
 use mrbd_kernel::model::{Effect, EffectKind, EffectParameter, Place};
 
 /// List the further effects that a wall file may have, with an example of each.
@@ -66,17 +67,17 @@ fn place(place: Place) -> &'static str {
 fn for_people(kind: EffectKind) -> String {
     let entry = kind.entry();
     let mut lines = vec![format!("{} — {}", entry.name, place(entry.place))];
-    lines.extend(wrapped(entry.description));
+    lines.push(indented(entry.description));
     lines.push(format!("  {}", entry.law));
     if let Some(choice) = entry.choice {
         lines.push(format!("  {}: {}; {}", choice.key, choice.options.join(" or "), choice.meaning));
     }
     lines.extend(entry.parameters.iter().map(bounds));
-    lines.extend(wrapped(&format!("Known by: {}; at impacts: {}.", entry.fingerprint, entry.at_impacts)));
+    lines.push(indented(&format!("Known by: {}; at impacts: {}.", entry.fingerprint, entry.at_impacts)));
     if !entry.confused_with.is_empty() {
-        lines.extend(wrapped(&format!("Easily taken for: {}.", entry.confused_with.join(", "))));
+        lines.push(indented(&format!("Easily taken for: {}.", entry.confused_with.join(", "))));
     }
-    lines.extend(wrapped(&format!("Told by itself by {}.", entry.told_by)));
+    lines.push(indented(&format!("Told by itself by {}.", entry.told_by)));
     let several = if entry.may_repeat { "several add up or multiply" } else { "at most one a wall" };
     lines.push(format!("  In a wall file ({several}):\n"));
     lines.push(example(kind));
@@ -102,19 +103,10 @@ fn example(kind: EffectKind) -> String {
     text.trim_end().lines().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
 }
 
-/// Indented lines of at most so many letters.
-const WIDTH: usize = 96;
-
-fn wrapped(text: &str) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(format!("  {word}")),
-        }
-    }
-    lines
+/// Indented lines of a sentence.
+fn indented(text: &str) -> String {
+    wrapped(text, 2, WIDTH)
 }
+
+/// Width of a description, columns.
+const WIDTH: usize = 96;

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 
 use super::report::{assumptions, heading};
-use super::text::{aligned, wrapped};
 use crate::aggregate::{CAPACITY, Distribution, Distributions, MOVED_SHARE, Moved};
 use crate::study::pipeline::Kind;
+use crate::text::{TERMINAL, aligned, wrapped};
 
 /// Rows of a table by record that still can be read; more are in the file of medians.
 const MOST_ROWS: usize = 60;
@@ -22,7 +22,7 @@ pub fn report_distributions(out: &mut dyn Write, study: &Distributions) -> io::R
         _ => "Largest rotations over slenderness angles".to_owned(),
     };
     heading(out, &format!("{what}: quantiles over façades and records, variant {:?}", base.name))?;
-    writeln!(out, "{}", wrapped(&legend(study.kind), 0))?;
+    writeln!(out, "{}", wrapped(&legend(study.kind), 0, TERMINAL))?;
     let rows = |by_record: bool| {
         let rows = study.rows.iter().filter(|row| row.variant == base.name);
         rows.filter(|row| row.record.is_some() == by_record).collect::<Vec<_>>()
@@ -103,5 +103,5 @@ fn moved(out: &mut dyn Write, moved: &[Moved], base: &str) -> io::Result<()> {
     writeln!(out, "{}", aligned(&rows))?;
     let note =
         format!("moved: another outcome, or a result that differs by more than {} %", 100.0 * MOVED_SHARE);
-    writeln!(out, "{}", wrapped(&note, 0))
+    writeln!(out, "{}", wrapped(&note, 0, TERMINAL))
 }

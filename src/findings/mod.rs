@@ -12,7 +12,6 @@ mod needs;
 mod report;
 mod sensitivity;
 mod tables;
-mod text;
 mod variants;
 mod verdict;
 mod view;
@@ -22,7 +21,6 @@ use needs::Needs;
 
 pub use distributions::report_distributions;
 pub use report::{report, write_findings};
-pub use text::aligned;
 pub use verdict::{Answer, Verdict};
 pub use view::{Point, Slender, View};
 pub use vote::{FloorVotes, Vote, rules};
@@ -88,8 +86,13 @@ pub struct Held {
 impl Held {
     /// Of the medians of one variant.
     pub fn of(view: &View) -> Self {
-        let verdicts = FINDINGS.map(|finding| finding.answer(view).verdict);
-        let count = |keep: fn(&Verdict) -> bool| verdicts.iter().filter(|verdict| keep(verdict)).count();
+        Self::among(&FINDINGS.map(|finding| finding.answer(view)))
+    }
+
+    /// Of the answers to all findings.
+    pub fn among(answers: &[Answer]) -> Self {
+        let count =
+            |keep: fn(&Verdict) -> bool| answers.iter().filter(|answer| keep(&answer.verdict)).count();
         Self {
             holds: count(|verdict| *verdict == Verdict::Holds),
             asked: count(|verdict| *verdict != Verdict::NotAsked),

@@ -4,7 +4,6 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use super::tables::print_tables;
-use super::text::{aligned, wrapped};
 use super::variants::shift;
 use super::vote::{noticeable, rules};
 use super::{FINDINGS, Finding, Held, Verdict, View};
@@ -12,6 +11,7 @@ use crate::aggregate::{MOVED_SHARE, Measure, Medians, Moved, VariantNote};
 use crate::error::{Error, Result};
 use crate::store::write_durably;
 use crate::survey::Configuration;
+use crate::text::{TERMINAL, aligned, wrapped};
 
 /// Prints everything; the first variant is the one whose medians are shown whole.
 ///
@@ -31,9 +31,9 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     writeln!(out, "*: some records collapsed; fell: the median record collapsed; -: no such run")?;
     print_tables(out, &view)?;
     heading(out, &format!("Conclusions of the source against these medians, variant {:?}", base.name))?;
-    writeln!(out, "{}", wrapped(&rules(), 0))?;
+    writeln!(out, "{}", wrapped(&rules(), 0, TERMINAL))?;
     findings(out, &view)?;
-    writeln!(out, "{}", wrapped(&held(&view), 0))?;
+    writeln!(out, "{}", wrapped(&held(&view), 0, TERMINAL))?;
     if medians.variants.len() > 1 {
         heading(out, "The same conclusions under every variant")?;
         matrix(out, medians)?;
@@ -116,7 +116,7 @@ pub fn assumptions(out: &mut dyn Write, variants: &[VariantNote]) -> io::Result<
     )?;
     let mut suites: Vec<String> = variants.iter().map(suite).collect();
     suites.dedup();
-    suites.iter().try_for_each(|suite| writeln!(out, "{}", wrapped(suite, 0)))
+    suites.iter().try_for_each(|suite| writeln!(out, "{}", wrapped(suite, 0, TERMINAL)))
 }
 
 fn suite(variant: &VariantNote) -> String {
@@ -136,9 +136,13 @@ fn findings(out: &mut dyn Write, view: &View) -> io::Result<()> {
     for (index, finding) in FINDINGS.iter().enumerate() {
         let answer = finding.answer(view);
         writeln!(out, "{:>2}. {}: {}", index + 1, finding.name, answer.verdict.name().to_uppercase())?;
-        writeln!(out, "{}", wrapped(&format!("Claim: {} ({}).", finding.claim, finding.source), 4))?;
-        writeln!(out, "{}", wrapped(&format!("Holds if {}.", finding.criterion), 4))?;
-        writeln!(out, "{}", wrapped(&format!("Found: {}.", answer.numbers), 4))?;
+        writeln!(
+            out,
+            "{}",
+            wrapped(&format!("Claim: {} ({}).", finding.claim, finding.source), 4, TERMINAL)
+        )?;
+        writeln!(out, "{}", wrapped(&format!("Holds if {}.", finding.criterion), 4, TERMINAL))?;
+        writeln!(out, "{}", wrapped(&format!("Found: {}.", answer.numbers), 4, TERMINAL))?;
     }
     Ok(())
 }
@@ -182,7 +186,7 @@ fn shifts(out: &mut dyn Write, medians: &Medians, base: &VariantNote) -> io::Res
         "stood/fell: medians that stood under one of the two and collapsed under the other. runs moved: runs whose largest rotation differs by more than {} %, or whose outcome does; where only the tolerance differs, these are the ill-conditioned runs.",
         100.0 * MOVED_SHARE
     );
-    writeln!(out, "{}", wrapped(&notes, 0))
+    writeln!(out, "{}", wrapped(&notes, 0, TERMINAL))
 }
 
 fn shift_row(medians: &Medians, base: &str, variant: &str, configuration: Configuration) -> Vec<String> {

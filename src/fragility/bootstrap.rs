@@ -26,6 +26,15 @@ pub struct Bootstrap {
     pub seed: u64,
 }
 
+/// Replicates where no number is given: the ends of a 95 % interval are then quantiles among some fifty of them.
+pub const REPLICATES: u32 = 2000;
+
+impl Default for Bootstrap {
+    fn default() -> Self {
+        Self { replicates: REPLICATES, seed: 1 }
+    }
+}
+
 impl Bootstrap {
     /// The fragility of every replicate, in order; none where a replicate tells none.
     pub fn run(&self, method: Method, sample: &Sample) -> Vec<Option<Fitted>> {

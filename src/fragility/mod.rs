@@ -35,7 +35,7 @@ mod unknown;
 
 pub use analysis::{Analysis, BootstrapResult, Bounds, Known, Settings, analyse};
 pub use binomial::{Counts, Line, Link};
-pub use bootstrap::{Bootstrap, left_out};
+pub use bootstrap::{Bootstrap, REPLICATES, left_out};
 pub use cloud::{CloudFit, fit_cloud};
 pub use components::{Components, components};
 pub use expression::{ALLOWED as EXPRESSION_ALLOWED, Expression, NotAnExpression};

@@ -7,6 +7,7 @@
 use std::fmt::Write;
 
 use super::lognormal::LogNormal;
+use crate::text::escaped;
 
 /// Probability at minIML and noDamageLimit; one minus it at maxIML.
 const TAIL: f64 = 1e-3;
@@ -120,11 +121,6 @@ fn function(measure: &IntensityMeasure, limit_states: &[String], id: &str, curve
         id = escaped(id),
         params = params.collect::<String>(),
     )
-}
-
-/// Text that may stand in an attribute.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 #[cfg(test)]

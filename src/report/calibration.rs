@@ -2,49 +2,37 @@
 
 mod convergence;
 mod histories;
+mod misfits;
 mod parameters;
-mod tests;
-
-use std::path::Path;
 
 use super::page::{Link, Number, Page};
-use super::provenance::{Note, read_json};
-use crate::error::Result;
-use histories::Again;
+use crate::summary::{Calibrated, Note};
 use mrbd_lab::calibrate::{Calibration, Identifiability, disagreement};
 
-/// The page of the calibration in a folder.
-///
-/// # Errors
-/// Input errors for files that are none of a calibration; whatever drawing meets.
-pub fn page(folder: &Path) -> Result<Page> {
-    let stored: Calibration =
-        read_json(&folder.join("calibration.json"), "results as `mrbd calibrate` writes them, finished")?;
-    let note = Note::read(&folder.join("manifest.json"))?;
-    let again = Again::of(folder, &note, &stored);
-    let sections = vec![
-        histories::section(again.as_ref(), &stored)?,
-        parameters::section(&stored)?,
-        tests::section(&stored),
-        convergence::section(&stored)?,
+/// The page of a calibration.
+pub fn page(calibrated: &Calibrated) -> Page {
+    let Calibrated { stored, note, tests } = calibrated;
+    let files = [
+        "manifest.json",
+        "calibration.json",
+        "candidates.parquet",
+        "generations.parquet",
+        "wall.calibrated.toml",
     ];
-    Ok(Page {
+    Page {
         title: "Calibration".into(),
-        lead: lead(&stored),
-        numbers: numbers(&stored),
-        notes: notes(&stored),
-        sections,
-        provenance: origin(&stored, &note),
-        files: [
-            "manifest.json",
-            "calibration.json",
-            "candidates.parquet",
-            "generations.parquet",
-            "wall.calibrated.toml",
-        ]
-        .map(Link::to)
-        .to_vec(),
-    })
+        lead: lead(stored),
+        numbers: numbers(stored),
+        notes: notes(stored),
+        sections: vec![
+            histories::section(tests.as_deref(), stored),
+            parameters::section(stored),
+            misfits::section(stored),
+            convergence::section(stored),
+        ],
+        provenance: origin(stored, note),
+        files: files.map(Link::to).to_vec(),
+    }
 }
 
 fn lead(stored: &Calibration) -> String {
@@ -74,15 +62,14 @@ fn numbers(stored: &Calibration) -> Vec<Number> {
         let tests = stored.tests.iter().filter(|test| test.purpose == purpose);
         mean(tests.map(|test| if joint { test.wme_joint } else { test.wme_before }))
     };
-    let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
     let mut numbers = vec![
-        number(wme(of("fit", true)), "mean WME of the tests to fit"),
-        number(wme(of("fit", false)), "the same before calibration, C_l = 1"),
+        Number::new(wme(of("fit", true)), "mean WME of the tests to fit"),
+        Number::new(wme(of("fit", false)), "the same before calibration, C_l = 1"),
     ];
     if stored.tests.iter().any(|test| test.purpose != "fit") {
-        numbers.push(number(wme(of("hold-out", true)), "mean WME of the tests held out"));
+        numbers.push(Number::new(wme(of("hold-out", true)), "mean WME of the tests held out"));
     }
-    numbers.push(number(stored.simulations.to_string(), "simulations"));
+    numbers.push(Number::new(stored.simulations, "simulations"));
     numbers
 }
 

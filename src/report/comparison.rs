@@ -6,11 +6,10 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::colours::of_curve;
-use super::curves::{Curve, CurvePoint, Panel};
+use super::chart::{Axis, CurvePoint, Format, Graph, of_curve};
 use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{self, Note};
-use super::words::rounded_up;
+use super::rotations;
 use crate::aggregate::Middle;
 use crate::classics::comparison::MODELS;
 use crate::error::{InputError, Result};
@@ -59,21 +58,23 @@ pub fn page(folder: &Path) -> Result<Page> {
     let histories = Histories::read(folder)?;
     let mut sections = Vec::new();
     for law in distinct(rows.iter().map(|row| row.law.as_str())) {
-        let mut section = section(&rows, law)?;
+        let mut section = section(&rows, law);
         if let Some(histories) = &histories {
-            section.figures.extend(histories.figure(law)?);
+            section.figures.extend(histories.figure(law));
         }
         sections.push(section);
     }
     sections.push(claims(&findings));
     let failed = rows.iter().filter(|row| row.outcome == "failed").count();
     let collapsed = rows.iter().filter(|row| row.outcome == "collapsed").count();
-    let number =
-        |value: usize, meaning: &str| Number { value: value.to_string(), meaning: meaning.to_owned() };
     Ok(Page {
         title: format!("Comparison “{}”", note.name),
         lead: "One wall as three models under the same records: calibrated (carriage mass and C_l of Table 2), updated (carriage mass, C_l = 1) and lumped (the carriage in m_d, C_l = 1).".into(),
-        numbers: vec![number(rows.len(), "runs"), number(collapsed, "collapsed"), number(failed, "failed")],
+        numbers: vec![
+            Number::new(rows.len(), "runs"),
+            Number::new(collapsed, "collapsed"),
+            Number::new(failed, "failed"),
+        ],
         notes: note.generated_note().into_iter().collect(),
         sections,
         provenance: note.pairs(),
@@ -110,15 +111,15 @@ fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
 }
 
 /// The rows under one impact law: a panel a record.
-fn section(rows: &[Row], law: &str) -> Result<Section> {
+fn section(rows: &[Row], law: &str) -> Section {
     let own: Vec<&Row> = rows.iter().filter(|row| row.law == law).collect();
     let records = distinct(own.iter().map(|row| row.record.as_str()));
-    let panels = records.into_iter().map(|record| panel(&own, record).svg()).collect::<Result<_>>()?;
+    let panels = records.into_iter().map(|record| panel(&own, record).svg()).collect();
     let legend = MODELS.iter().enumerate().map(|(index, model)| {
         let (colour, mark) = of_curve(index);
-        Key { label: (*model).to_owned(), colour: colour.hex(), mark }
+        Key::new(*model, colour, mark)
     });
-    Ok(Section {
+    Section {
         id: format!("law-{law}"),
         title: format!("Impact law “{law}”"),
         figures: vec![Figure {
@@ -127,40 +128,33 @@ fn section(rows: &[Row], law: &str) -> Result<Section> {
             paper: Some("Fig. 9".into()),
             legend: legend.collect(),
             panels,
-            caption: "One panel a record. A cross in the red band: the wall collapsed. The paper finds that the calibrated model rotates least.".into(),
+            caption: "One panel a record. A cross in the red band above the axis: the wall collapsed. The paper finds that the calibrated model rotates least.".into(),
             links: vec![Link::to("comparison.csv")],
             ..Figure::default()
         }],
         ..Section::default()
-    })
+    }
 }
 
-fn panel(own: &[&Row], record: &str) -> Panel {
+/// Rotations of a panel whose walls all collapse are shown up to here, over α.
+const LEAST_SHOWN: f64 = 0.1;
+
+fn panel(own: &[&Row], record: &str) -> Graph {
     let own: Vec<&Row> = own.iter().copied().filter(|row| row.record == record).collect();
-    let stood = own.iter().filter_map(|row| match row.middle() {
-        Some(Middle::Rotation(rotation)) => Some(rotation),
-        _ => None,
-    });
-    let largest = stood.fold(0.1, f64::max);
+    let middles: Vec<Middle> = own.iter().filter_map(|row| row.middle()).collect();
     let scales = own.iter().map(|row| row.scale);
     let (first, last) = scales.fold((f64::MAX, f64::MIN), |(a, b), scale| (a.min(scale), b.max(scale)));
     let room = (0.06 * (last - first)).max(0.05);
-    // At the left stands the name of the band.
-    let left = if last > first { 0.2 * (last - first) } else { 0.2 };
     let curve = |(index, model): (usize, &&str)| {
-        let (colour, mark) = of_curve(index);
         let points = own.iter().filter(|row| row.model == **model).filter_map(|row| point(row)).collect();
-        Curve { colour, mark, points }
+        rotations::curve(index, MODELS.len(), points)
     };
-    Panel {
+    Graph {
         title: record.to_owned(),
-        x_label: "factor on the record".into(),
-        y_label: "max |θᵢ|/αᵢ".into(),
-        x: first - left..last + room,
-        y_top: rounded_up(1.02 * largest),
-        collapse_band: own.iter().any(|row| row.outcome == "collapsed"),
-        threshold: None,
-        curves: MODELS.iter().enumerate().map(curve).collect(),
+        format: Format::Half,
+        x: Axis::linear("factor on the record", first - room, last + room),
+        y: rotations::axis("max |θᵢ|/αᵢ", &middles, LEAST_SHOWN),
+        layers: MODELS.iter().enumerate().map(curve).collect(),
     }
 }
 
@@ -171,7 +165,7 @@ fn point(row: &Row) -> Option<CurvePoint> {
         Middle::Collapsed => "collapsed".to_owned(),
     };
     let tip = format!("{} under {} × {}\n{value}", row.model, row.record, row.scale);
-    Some(CurvePoint { x: row.scale, y, partly_collapsed: false, tip })
+    Some(CurvePoint { x: row.scale, y: rotations::number(&y), hollow: false, tip })
 }
 
 fn claims(findings: &[Finding]) -> Section {

@@ -15,7 +15,7 @@ mod words;
 
 use std::path::Path;
 
-use super::colours::{Colour, Mark, PALETTE};
+use super::chart::{Colour, Mark, PALETTE};
 use super::page::{Key, Link, Number, Page, Section};
 use super::provenance::{Note, read_json};
 use crate::error::Result;
@@ -114,5 +114,5 @@ fn notes(summary: &Summary) -> Vec<String> {
 }
 
 fn key(label: &str, colour: Colour, mark: Mark) -> Key {
-    Key { label: label.to_owned(), colour: colour.hex(), mark }
+    Key::new(label, colour, mark)
 }

@@ -5,44 +5,35 @@ mod fragility;
 mod quantiles;
 mod samples;
 
-use std::path::Path;
-
 use super::page::{Link, Number, Page, Section};
 use super::provenance;
-use super::sweep::{assumptions, records};
-use crate::aggregate::{Distributions, VariantNote, distributions};
-use crate::error::{InputError, Result};
+use super::sweep::{assumptions, spectra_section};
+use crate::aggregate::{Distributions, VariantNote};
 use crate::study::pipeline::Kind;
 use crate::study::runs::Manifest;
-use mrbd_records::Site;
+use crate::summary::Drawn;
 
-/// The page of the study in a folder; its table of quantiles is written there first, for the page links to it.
-///
-/// # Errors
-/// An input error for a folder without results; whatever reading and drawing meet.
-pub fn page(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<Page> {
-    let study = distributions(folder, manifest.kind)?;
-    let Some(base) = study.variants.first() else {
-        return Err(InputError::file(folder, "run files without a run", "the results of a study").into());
-    };
-    study.write(&folder.join("medians.parquet"))?;
-    let links = provenance::run_links(folder)?;
+/// The page of a study of drawn façades.
+pub fn page(drawn: &Drawn) -> Page {
+    let Drawn { manifest, distributions: study, .. } = drawn;
+    let base = study.variants.first().map_or("", |variant| &variant.name);
+    let links = provenance::run_links(&drawn.run_files);
     let sections = vec![
-        fragility::section(folder, &study, base, &links)?,
-        quantiles::section(&study, base)?,
-        samples::section(folder, manifest, base, &links)?,
-        records(folder, manifest, site)?,
+        fragility::section(study, &drawn.fragilities, &links),
+        quantiles::section(study, base),
+        samples::section(&drawn.samples, &links),
+        spectra_section(drawn.spectra.as_ref(), manifest.kind),
         assumptions(&study.variants),
     ];
-    Ok(Page {
+    Page {
         title: format!("{} “{}”", kind(manifest.kind), manifest.plan),
         lead: lead(manifest),
-        numbers: numbers(&study),
-        notes: notes(manifest, &study, base),
+        numbers: numbers(study),
+        notes: notes(manifest, study, base),
         sections,
         provenance: provenance::of(manifest),
         files: provenance::files(links),
-    })
+    }
 }
 
 fn kind(kind: Kind) -> &'static str {
@@ -67,17 +58,16 @@ fn lead(manifest: &Manifest) -> String {
 
 fn numbers(study: &Distributions) -> Vec<Number> {
     let total = |of: fn(&VariantNote) -> u64| study.variants.iter().map(of).sum::<u64>();
-    let number = |value: u64, meaning: &str| Number { value: value.to_string(), meaning: meaning.to_owned() };
     vec![
-        number(total(|v| v.runs), "runs"),
-        number(total(|v| v.collapsed), "collapsed"),
-        number(total(|v| v.failed), "failed"),
+        Number::new(total(|v| v.runs), "runs"),
+        Number::new(total(|v| v.collapsed), "collapsed"),
+        Number::new(total(|v| v.failed), "failed"),
     ]
 }
 
-fn notes(manifest: &Manifest, study: &Distributions, base: &VariantNote) -> Vec<String> {
+fn notes(manifest: &Manifest, study: &Distributions, base: &str) -> Vec<String> {
     let mut notes = provenance::notes(manifest, &study.variants);
-    notes.push(format!("Figures show variant “{}”.", base.name));
+    notes.push(format!("Figures show variant “{base}”."));
     for moved in &study.moved {
         let share = 100.0 * moved.moved as f64 / (moved.runs as f64).max(1.0);
         notes.push(format!(

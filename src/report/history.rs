@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use super::axis::Axis;
-use super::colours::{Colour, Mark, PALETTE, PATTERNS};
-use super::graph::{Format, Graph, Layer};
+use super::chart::{Axis, Format, Graph, Layer, Mark, PALETTE, PATTERNS, Stretch};
 use super::page::{Figure, Key, Link, Number, Page, Section};
 use crate::error::{InputError, Result};
 use crate::fragility::Table;
@@ -29,8 +27,7 @@ pub fn page(path: &Path) -> Result<Page> {
     let stored = Stored::read(path)?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let largest = |body: usize| stored.theta_mrad[body].iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let number =
-        |value: f64, meaning: &str| Number { value: format!("{value:.2} mrad"), meaning: meaning.to_owned() };
+    let number = |value: f64, meaning: &str| Number::new(format!("{value:.2} mrad"), meaning);
     Ok(Page {
         title: format!("History {name}"),
         lead: format!("{} samples of one run.", stored.time_s.len()),
@@ -44,7 +41,7 @@ pub fn page(path: &Path) -> Result<Page> {
         sections: vec![Section {
             id: "history".into(),
             title: "Rotations and patterns".into(),
-            figures: vec![stored.figure(&name)?],
+            figures: vec![stored.figure(&name)],
             ..Section::default()
         }],
         files: vec![Link::to(&name)],
@@ -76,26 +73,22 @@ impl Stored {
         })
     }
 
-    fn figure(&self, name: &str) -> Result<Figure> {
-        let key = |label: &str, colour: Colour| Key {
-            label: label.to_owned(),
-            colour: colour.hex(),
-            mark: Mark::None,
-        };
+    fn figure(&self, name: &str) -> Figure {
+        let key = |label, colour| Key::new(label, colour, Mark::None);
         let mut legend = vec![key("θ₁, lower body", PALETTE[0]), key("θ₂, upper body", PALETTE[1])];
         let occurring = (0..PATTERNS.len()).filter(|index| self.pattern.contains(index));
         legend.extend(occurring.map(|index| key(PATTERN_NAMES[index], PATTERNS[index])));
-        Ok(Figure {
+        Figure {
             id: "history-figure".into(),
             title: "The whole run".into(),
             paper: Some("Figs. 7 to 9".into()),
             legend,
-            panels: vec![self.rotations()?, self.patterns()?],
+            panels: vec![self.rotations(), self.patterns()],
             wide: true,
             caption: "Rotations of both bodies, and below them the pattern: which corners they turn about."
                 .into(),
             links: vec![Link::to(name)],
-        })
+        }
     }
 
     fn time_axis(&self) -> Axis {
@@ -103,7 +96,7 @@ impl Stored {
         Axis::linear("time s", self.time_s.first().copied().unwrap_or(0.0), last_s)
     }
 
-    fn rotations(&self) -> Result<String> {
+    fn rotations(&self) -> String {
         let line = |body: usize| Layer::Line {
             colour: PALETTE[body],
             width: 4,
@@ -121,21 +114,21 @@ impl Stored {
         .svg()
     }
 
-    fn patterns(&self) -> Result<String> {
-        let mut layers = Vec::new();
-        let mut from = 0;
-        for stretch in self.pattern.chunk_by(|a, b| a == b) {
-            let until = (from + stretch.len()).min(self.time_s.len() - 1);
-            let bars = vec![(self.time_s[from], self.time_s[until], 1.0)];
-            layers.push(Layer::Bars { colour: PATTERNS[stretch[0]], solid: true, bars });
-            from += stretch.len();
+    fn patterns(&self) -> String {
+        let mut stretches = Vec::new();
+        let mut first = 0;
+        for rows in self.pattern.chunk_by(|a, b| a == b) {
+            let after = (first + rows.len()).min(self.time_s.len() - 1);
+            let (from, to) = (self.time_s[first], self.time_s[after]);
+            stretches.push(Stretch { from, to, colour: PATTERNS[rows[0]] });
+            first += rows.len();
         }
         Graph {
             title: String::new(),
             format: Format::Strip,
             x: self.time_axis(),
             y: Axis::unmarked("pattern"),
-            layers,
+            layers: vec![Layer::Stretches(stretches)],
         }
         .svg()
     }

@@ -6,7 +6,6 @@
 //!
 //! | module | what |
 //! | --- | --- |
-//! | `folder` | which kind of results a folder holds, and its page |
 //! | `sweep` | the paper's figures 12 and 14 to 20 from the medians and runs of a sweep |
 //! | `run` | one run: histories, and the wall in motion |
 //! | `drawn` | drawn façades: fragilities with intervals and data, quantiles, draws against the survey |
@@ -16,37 +15,50 @@
 //! | `comparison` | three models of a wall under the same records (Fig. 9) |
 //! | `overturning` | which pulses overturn a wall |
 //!
-//! To make another page: say what a folder of its kind is in `folder`, and fill a `Page` with sections.
+//! To make another page: say in `summary` what a folder of its kind holds, and fill a `Page` with sections here.
+//! Nothing is computed here but places and texts.
 //!
 //! | block | what |
 //! | --- | --- |
 //! | `page` | `Page`, `Section`, `Figure` (panels under a legend, caption, links), `Table`, `Number`, made into HTML |
-//! | `graph`, `axis` | `Graph`: bands, lines, bars, dots and intervals over linear, logarithmic or named axes |
-//! | `curves` | `Panel`: curves over slenderness with a band for collapses above all numbers |
-//! | `lines` | `LinePanel`: spectra |
+//! | `chart` | `Graph`, `Stack`: layers over linear, logarithmic or named axes, as SVG or PNG |
+//! | `rotations` | curves of largest rotations, collapses in a zone above the axis |
 //! | `provenance` | the manifest as names and values, files, sentences on what is generated or assumed |
-//! | `colours`, `words` | a palette that colour-blind people tell apart, numbers and names as people read them |
-//! | `svg`, `pixels` | a drawing of plotters as SVG with values for the script, or as PNG |
+//! | `words` | names as people read them |
 
-mod axis;
 mod calibration;
-mod colours;
+mod chart;
 mod comparison;
-mod curves;
 mod diagnosis;
 mod drawn;
-mod folder;
-mod graph;
 mod history;
-mod lines;
 mod overturning;
 mod page;
-mod pixels;
 mod provenance;
+mod rotations;
 mod run;
-mod svg;
 mod sweep;
 mod words;
 
-pub use folder::report;
 pub use run::{ImpactMark, PlotFile, RunPicture, Watch};
+
+use crate::error::Result;
+use crate::summary::{Summary, as_damage};
+
+/// The page of results as HTML.
+///
+/// # Errors
+/// Input errors for damaged tables of results that are drawn as they are stored; [`crate::Error::Picture`] if the
+/// template refuses.
+pub fn html(summary: &Summary) -> Result<String> {
+    let page = match summary {
+        Summary::Sweep(sweep) => Ok(sweep::page(sweep)),
+        Summary::Drawn(drawn) => Ok(drawn::page(drawn)),
+        Summary::Calibration(calibrated) => Ok(calibration::page(calibrated)),
+        Summary::Diagnosis(folder) => diagnosis::page(folder),
+        Summary::Comparison(folder) => comparison::page(folder),
+        Summary::Overturning(folder) => overturning::page(folder),
+        Summary::History(file) => history::page(file),
+    };
+    page.map_err(as_damage)?.html()
+}

@@ -4,9 +4,7 @@ use std::path::Path;
 
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use super::axis::Axis;
-use super::colours::{COLLAPSE, Colour, Mark, PALETTE};
-use super::graph::{Dot, Format, Graph, Layer};
+use super::chart::{Axis, COLLAPSE, Colour, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::page::{Figure, Key, Link, Number, Page, Section};
 use crate::error::{Error, InputError, Result};
 use crate::fragility::Table;
@@ -31,19 +29,17 @@ pub fn page(folder: &Path) -> Result<Page> {
     let metadata = metadata(&folder.join("trials.parquet"))?;
     let of = |key: &str| metadata.iter().find(|(k, _)| k == key).map_or("", |(_, value)| value);
     let overturned = trials.iter().filter(|trial| trial.overturned).count();
-    let number =
-        |value: usize, meaning: &str| Number { value: value.to_string(), meaning: meaning.to_owned() };
     Ok(Page {
         title: format!("Overturning spectrum “{}”", of("study")),
         lead: format!(
             "Which pulses of the form “{}” overturn the wall, by frequency and amplitude.",
             of("shape")
         ),
-        numbers: vec![number(trials.len(), "pulses"), number(overturned, "overturned the wall")],
+        numbers: vec![Number::new(trials.len(), "pulses"), Number::new(overturned, "overturned the wall")],
         sections: vec![Section {
             id: "spectrum".into(),
             title: "The spectrum".into(),
-            figures: vec![figure(&trials, boundaries)?],
+            figures: vec![figure(&trials, boundaries)],
             ..Section::default()
         }],
         provenance: metadata,
@@ -52,7 +48,7 @@ pub fn page(folder: &Path) -> Result<Page> {
     })
 }
 
-fn figure(trials: &[Trial], boundaries: Vec<Dot>) -> Result<Figure> {
+fn figure(trials: &[Trial], boundaries: Vec<Dot>) -> Figure {
     let of = |overturned: bool| {
         let own = trials.iter().filter(|trial| trial.overturned == overturned);
         let dot = |trial: &Trial| {
@@ -80,21 +76,20 @@ fn figure(trials: &[Trial], boundaries: Vec<Dot>) -> Result<Figure> {
             dots(PALETTE[0], Mark::Triangle, 10, boundaries),
         ],
     };
-    let key = |label: &str, colour: Colour, mark| Key { label: label.to_owned(), colour: colour.hex(), mark };
-    Ok(Figure {
+    Figure {
         id: "spectrum-figure".into(),
         title: "Pulses that overturn".into(),
         legend: vec![
-            key("overturned", COLLAPSE, Mark::Square),
-            key("stood", STOOD, Mark::Circle),
-            key("boundary", PALETTE[0], Mark::Triangle),
+            Key::new("overturned", COLLAPSE, Mark::Square),
+            Key::new("stood", STOOD, Mark::Circle),
+            Key::new("boundary", PALETTE[0], Mark::Triangle),
         ],
-        panels: vec![graph.svg()?],
+        panels: vec![graph.svg()],
         wide: true,
         caption: "p = √(3g/4R), R half the diagonal of the wall. Boundaries are narrowed between neighbours that differ; two of them within one spacing of the amplitudes are not seen.".into(),
         links: vec![Link::to("trials.parquet"), Link::to("boundaries.parquet")],
         ..Figure::default()
-    })
+    }
 }
 
 fn numbers(table: &Table, path: &Path, name: &str) -> Result<Vec<f64>> {

@@ -3,8 +3,9 @@
 use minijinja::{AutoEscape, Environment, context};
 use serde::Serialize;
 
-use super::svg::failed;
-use crate::error::Result;
+use super::chart::{Colour, Mark};
+use crate::error::{Error, Result};
+use crate::text::percent_escaped;
 
 /// A page.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -32,6 +33,13 @@ pub struct Number {
     pub value: String,
     /// What it counts.
     pub meaning: String,
+}
+
+impl Number {
+    /// A number and what it counts.
+    pub fn new(value: impl ToString, meaning: impl Into<String>) -> Self {
+        Self { value: value.to_string(), meaning: meaning.into() }
+    }
 }
 
 /// A section.
@@ -80,7 +88,14 @@ pub struct Key {
     /// Colour.
     pub colour: String,
     /// Shape of its points.
-    pub mark: super::colours::Mark,
+    pub mark: Mark,
+}
+
+impl Key {
+    /// A name, the colour and the mark of its curve.
+    pub fn new(label: impl Into<String>, colour: Colour, mark: Mark) -> Self {
+        Self { label: label.into(), colour: colour.hex(), mark }
+    }
 }
 
 /// A link to a file beside the page.
@@ -178,28 +193,13 @@ impl Page {
     }
 }
 
-/// Text as it stands in HTML and in its attributes.
-pub fn escaped(text: &str) -> String {
-    let mut safe = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '"' => safe.push_str("&quot;"),
-            '\'' => safe.push_str("&#39;"),
-            other => safe.push(other),
-        }
-    }
-    safe
+/// A relative address of a file.
+pub fn address(path: &str) -> String {
+    percent_escaped(path, b"/._-=")
 }
 
-/// A relative address of a file: odd bytes as %XX, slashes kept.
-pub fn address(path: &str) -> String {
-    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/._-=".contains(&byte);
-    path.bytes()
-        .map(|byte| if plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") })
-        .collect()
+fn failed(error: minijinja::Error) -> Error {
+    Error::Picture { message: error.to_string() }
 }
 
 /// JSON that cannot end the script element it stands in.

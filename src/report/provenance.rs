@@ -2,14 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
-use serde::de::DeserializeOwned;
-
 use super::page::{Link, address};
 use crate::aggregate::VariantNote;
-use crate::error::{InputError, Result};
-use crate::study::runs::{Manifest, listed_run_files};
-use mrbd_files::{FileNote, file_sha256};
+use crate::study::runs::Manifest;
+pub use crate::summary::{Note, read_json};
+use crate::text::utc;
+use mrbd_files::FileNote;
 
 /// The manifest as names and values.
 pub fn of(manifest: &Manifest) -> Vec<(String, String)> {
@@ -43,43 +41,7 @@ pub fn inputs(files: &[FileNote]) -> impl Iterator<Item = (String, String)> {
     })
 }
 
-/// A file that was read, found again: where it was, or from the folder of the results; none where it is gone or another
-/// one now.
-pub fn found_again(folder: &Path, inputs: &[FileNote], role: &str) -> Option<PathBuf> {
-    let note = inputs.iter().find(|input| input.role == role)?;
-    let beside = note.path_from_folder.as_ref().map(|path| folder.join(path));
-    let places = std::iter::once(PathBuf::from(&note.path)).chain(beside);
-    places.into_iter().find(|path| file_sha256(path).is_ok_and(|sha256| sha256 == note.sha256))
-}
-
-/// The manifest of results that are not a study of runs: a calibration, a comparison of models.
-#[derive(Debug, Deserialize)]
-pub struct Note {
-    /// Name of what was done; empty where it has none.
-    #[serde(default)]
-    pub name: String,
-    /// Version of the program.
-    pub tool_version: String,
-    /// Suite of records, where there is one, and whether it is generated.
-    pub suite: Option<String>,
-    /// Whether its records are generated rather than recorded.
-    #[serde(default)]
-    pub generated: bool,
-    /// Files that were read.
-    pub inputs: Vec<FileNote>,
-    /// When it began, seconds since 1970.
-    pub started_unix_s: u64,
-}
-
 impl Note {
-    /// Reads a manifest.
-    ///
-    /// # Errors
-    /// As [`read_json`].
-    pub fn read(path: &Path) -> Result<Self> {
-        read_json(path, "a manifest as mrbd writes it beside its results")
-    }
-
     /// The manifest as names and values.
     pub fn pairs(&self) -> Vec<(String, String)> {
         let pair = |name: &str, value: String| (name.to_owned(), value);
@@ -92,21 +54,11 @@ impl Note {
         pairs
     }
 
-    /// A sentence on generated records; none where they are recorded.
+    /// A sentence on generated records; `None` where they are recorded.
     pub fn generated_note(&self) -> Option<String> {
         let suite = self.suite.as_deref().filter(|_| self.generated)?;
         Some(format!("The records of suite “{suite}” are generated, not measured."))
     }
-}
-
-/// Reads JSON that mrbd wrote.
-///
-/// # Errors
-/// An input error for a file that is not there or holds something else.
-pub fn read_json<T: DeserializeOwned>(path: &Path, allowed: &str) -> Result<T> {
-    let refuse = |found: String| InputError::file(path, found, allowed);
-    let bytes = std::fs::read(path).map_err(|e| refuse(e.to_string()))?;
-    Ok(serde_json::from_slice(&bytes).map_err(|e| refuse(e.to_string()))?)
 }
 
 /// What a reader must know before the figures: generated records, assumptions, failed runs.
@@ -136,18 +88,17 @@ pub fn notes(manifest: &Manifest, variants: &[VariantNote]) -> Vec<String> {
     notes
 }
 
-/// Links to the run files, one a record and part.
-///
-/// # Errors
-/// As [`listed_run_files`].
-pub fn run_links(folder: &Path) -> Result<Vec<Link>> {
-    let link = |path: &std::path::PathBuf| {
-        let relative = path.strip_prefix(folder).unwrap_or(path).to_string_lossy().replace('\\', "/");
-        let text = relative.strip_prefix("runs/record=").unwrap_or(&relative).to_owned();
-        Link { text, href: address(&relative) }
+/// Links to the run files: a record's name where it has one file, else with the name of the file.
+pub fn run_links(files: &[PathBuf]) -> Vec<Link> {
+    let record = |file: &PathBuf| file.parent().map(Path::to_path_buf);
+    let link = |file: &PathBuf| {
+        let path = file.to_string_lossy().replace('\\', "/");
+        let name = path.strip_prefix("runs/record=").unwrap_or(&path);
+        let alone = files.iter().filter(|other| record(other) == record(file)).count() == 1;
+        let name = if alone { name.strip_suffix("/part-1.parquet").unwrap_or(name) } else { name };
+        Link { text: name.to_owned(), href: address(&path) }
     };
-    // The figures beside them were made of the same files, checked.
-    Ok(listed_run_files(folder)?.iter().map(link).collect())
+    files.iter().map(link).collect()
 }
 
 /// All files behind a page.
@@ -156,31 +107,4 @@ pub fn files(runs: Vec<Link>) -> Vec<Link> {
     let mut files = vec![named("manifest.json"), named("plan.toml"), named("medians.parquet")];
     files.extend(runs);
     files
-}
-
-/// A time as people write it, by the civil calendar (days to dates after Howard Hinnant, public domain).
-fn utc(unix_s: u64) -> String {
-    let (days, second) = (unix_s / 86_400, unix_s % 86_400);
-    let z = days + 719_468;
-    let era_day = z % 146_097;
-    let era_year = (era_day - era_day / 1_460 + era_day / 36_524 - era_day / 146_096) / 365;
-    let year_day = era_day - (365 * era_year + era_year / 4 - era_year / 100);
-    let shifted_month = (5 * year_day + 2) / 153;
-    let day = year_day - (153 * shifted_month + 2) / 5 + 1;
-    let month = if shifted_month < 10 { shifted_month + 3 } else { shifted_month - 9 };
-    let year = era_year + (z / 146_097) * 400 + u64::from(month <= 2);
-    format!("{year}-{month:02}-{day:02} {:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn published_times_of_the_civil_calendar() {
-        assert_eq!(utc(0), "1970-01-01 00:00:00");
-        assert_eq!(utc(951_782_400), "2000-02-29 00:00:00");
-        assert_eq!(utc(1_338_271_203), "2012-05-29 06:00:03");
-        assert_eq!(utc(4_102_444_799), "2099-12-31 23:59:59");
-    }
 }

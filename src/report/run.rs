@@ -21,9 +21,9 @@ pub struct RunPicture<'a> {
     pub wall: &'a Wall,
     /// Name of the wall, for titles.
     pub wall_name: &'a str,
-    /// What shook it.
+    /// Its ground motion.
     pub shaking: &'a Shaking,
-    /// Name of the record, for titles; none: a free release.
+    /// Name of the record, for titles; `None` for a free release.
     pub record_name: Option<&'a str>,
     /// How accurately it was run.
     pub accuracy: Accuracy,
@@ -40,32 +40,29 @@ const NEARBY_S: (f64, f64) = (2.0, 3.0);
 
 impl RunPicture<'_> {
     /// The histories as one SVG that stands alone.
-    ///
-    /// # Errors
-    /// [`crate::Error::Picture`] if plotters refuses.
-    pub fn svg(&self) -> Result<String> {
-        self.histories(&self.whole())
+    pub fn svg(&self) -> String {
+        histories::stack(self, &self.whole()).svg()
     }
 
     /// The histories as one PNG, 2400 pixels wide.
     ///
     /// # Errors
-    /// As [`RunPicture::svg`].
+    /// [`crate::Error::Picture`] if plotters refuses.
     pub fn png(&self) -> Result<Vec<u8>> {
-        histories::png(self, &self.whole())
+        histories::stack(self, &self.whole()).png()
     }
 
     /// The page of the run: the wall in motion, histories, numbers.
     ///
     /// # Errors
-    /// [`crate::Error::Picture`] if plotters or the template refuses.
+    /// [`crate::Error::Picture`] if the template refuses.
     pub fn html(&self) -> Result<String> {
         let page = Page {
             title: self.title(),
             lead: self.outcome(),
             numbers: self.numbers(),
             notes: self.notes(),
-            sections: vec![self.motion_section(), self.history_section()?, self.number_section()],
+            sections: vec![self.motion_section(), self.history_section(), self.number_section()],
             provenance: self.provenance(),
             ..Page::default()
         };
@@ -88,17 +85,16 @@ impl RunPicture<'_> {
     }
 
     fn numbers(&self) -> Vec<Number> {
-        let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
         let [lower, upper] = self.response.theta_max_over_alpha_i().map(|ratio| format!("{ratio:.3}"));
-        let mut numbers = vec![number(lower, "largest |θ₁|/α₁, lower body")];
+        let mut numbers = vec![Number::new(lower, "largest |θ₁|/α₁, lower body")];
         if self.wall.is_cracked() {
-            numbers.push(number(upper, "largest |θ₂|/α₂, upper body"));
+            numbers.push(Number::new(upper, "largest |θ₂|/α₂, upper body"));
         } else {
-            numbers = vec![number(lower_of(self.response), "largest |θ|/α")];
+            numbers = vec![Number::new(lower_of(self.response), "largest |θ|/α")];
         }
         let top_mm = 1e3 * self.response.top_displacement_m.value;
-        numbers.push(number(format!("{top_mm:+.1} mm"), "largest displacement of the top"));
-        numbers.push(number(self.response.impacts.total().to_string(), "impacts"));
+        numbers.push(Number::new(format!("{top_mm:+.1} mm"), "largest displacement of the top"));
+        numbers.push(Number::new(self.response.impacts.total(), "impacts"));
         numbers
     }
 
@@ -134,23 +130,23 @@ impl RunPicture<'_> {
         }
     }
 
-    fn history_section(&self) -> Result<Section> {
-        let figure = |id: &str, title: &str, window: &Window| -> Result<Figure> {
-            Ok(Figure {
+    fn history_section(&self) -> Section {
+        let figure = |id: &str, title: &str, window: &Window| {
+            Figure {
                 id: id.into(),
                 title: title.into(),
                 paper: Some("Figs. 7 to 9".into()),
-                panels: vec![self.histories(window)?],
+                panels: vec![histories::stack(self, window).svg()],
                 wide: true,
                 caption: "From above: rotations over slenderness angles; pattern; impacts, higher the faster they close; ground acceleration.".into(),
                 ..Figure::default()
-            })
+            }
         };
-        let mut figures = vec![figure("history", "The whole run", &self.whole())?];
+        let mut figures = vec![figure("history", "The whole run", &self.whole())];
         if let Some(window) = self.nearby() {
-            figures.push(figure("nearby", "Around the largest rotation", &window)?);
+            figures.push(figure("nearby", "Around the largest rotation", &window));
         }
-        Ok(Section { id: "histories".into(), title: "Histories".into(), figures, ..Section::default() })
+        Section { id: "histories".into(), title: "Histories".into(), figures, ..Section::default() }
     }
 
     fn number_section(&self) -> Section {
@@ -242,10 +238,6 @@ impl RunPicture<'_> {
         let peak_s = self.response.theta_max_rad[larger].time_s;
         let from_s = (peak_s - NEARBY_S.0).min(whole.to_s - NEARBY_S.0 - NEARBY_S.1).max(0.0);
         Some(Window { from_s, to_s: (from_s + NEARBY_S.0 + NEARBY_S.1).min(whole.to_s) })
-    }
-
-    fn histories(&self, window: &Window) -> Result<String> {
-        histories::svg(self, window)
     }
 }
 

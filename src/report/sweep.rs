@@ -5,43 +5,34 @@ mod medians;
 mod spectra;
 mod tables;
 
-use std::path::Path;
-
 use super::page::{Number, Page, Section};
 use super::provenance;
-use crate::aggregate::{Medians, VariantNote, aggregate, write_medians};
-use crate::error::{InputError, Result};
-use crate::findings::{Held, View, rules};
+use crate::aggregate::{Medians, VariantNote};
+use crate::findings::{Held, rules};
 use crate::study::runs::Manifest;
-use mrbd_records::Site;
+use crate::summary::{Conclusions, Sweep};
+pub(super) use spectra::section as spectra_section;
 
-/// The page of the sweep in a folder, its records held against the code of a site where one is given; its medians are written there first, for the page links to them.
-///
-/// # Errors
-/// An input error for a folder without results; whatever reading and drawing meet.
-pub fn page(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<Page> {
-    let medians = aggregate(folder)?;
-    let Some(base) = medians.variants.first() else {
-        return Err(InputError::file(folder, "run files without a run", "the results of a sweep").into());
-    };
-    write_medians(&folder.join("medians.parquet"), &medians)?;
-    let view = View::new(&medians, &base.name);
-    let links = provenance::run_links(folder)?;
-    let mut sections = vec![medians::section(&view, manifest.suite.records.len())?];
-    if manifest.suite.records.len() > 1 {
-        sections.push(by_record::section(folder, &view, &links)?);
+/// The page of a sweep.
+pub fn page(sweep: &Sweep) -> Page {
+    let Sweep { manifest, medians, conclusions, .. } = sweep;
+    let view = sweep.view();
+    let links = provenance::run_links(&sweep.run_files);
+    let mut sections = vec![medians::section(&view, manifest.suite.records.len())];
+    if !sweep.reference.is_empty() {
+        sections.push(by_record::section(&view, &sweep.reference, &links));
     }
-    sections.push(records(folder, manifest, site)?);
-    sections.extend([findings(&medians, &view), assumptions(&medians.variants)]);
-    Ok(Page {
+    sections.push(spectra::section(sweep.spectra.as_ref(), manifest.kind));
+    sections.extend([findings(conclusions), assumptions(&medians.variants)]);
+    Page {
         title: format!("Sweep “{}”", manifest.plan),
         lead: lead(manifest),
-        numbers: numbers(&medians, &view),
+        numbers: numbers(medians, conclusions),
         notes: provenance::notes(manifest, &medians.variants),
         sections,
         provenance: provenance::of(manifest),
         files: provenance::files(links),
-    })
+    }
 }
 
 fn lead(manifest: &Manifest) -> String {
@@ -55,27 +46,25 @@ fn lead(manifest: &Manifest) -> String {
     )
 }
 
-fn numbers(medians: &Medians, view: &View) -> Vec<Number> {
-    let total =
-        |of: fn(&crate::aggregate::VariantNote) -> u64| -> u64 { medians.variants.iter().map(of).sum() };
-    let held = Held::of(view);
+fn numbers(medians: &Medians, conclusions: &[Conclusions]) -> Vec<Number> {
+    let total = |of: fn(&VariantNote) -> u64| -> u64 { medians.variants.iter().map(of).sum() };
+    let held = Held::among(conclusions.first().map_or(&[], |base| &base.answers));
     let hold = match held.not_asked() {
         0 => "conclusions of the paper hold here".to_owned(),
         others => format!("conclusions of the paper hold here; {others} others are not in this study"),
     };
-    let number = |value: String, meaning: &str| Number { value, meaning: meaning.to_owned() };
     vec![
-        number(total(|v| v.runs).to_string(), "runs"),
-        number(total(|v| v.collapsed).to_string(), "collapsed"),
-        number(total(|v| v.failed).to_string(), "failed"),
-        number(format!("{} of {}", held.holds, held.asked), &hold),
+        Number::new(total(|v| v.runs), "runs"),
+        Number::new(total(|v| v.collapsed), "collapsed"),
+        Number::new(total(|v| v.failed), "failed"),
+        Number::new(format!("{} of {}", held.holds, held.asked), hold),
     ]
 }
 
-fn findings(medians: &Medians, view: &View) -> Section {
-    let mut tables = vec![tables::findings(view)];
-    if medians.variants.len() > 1 {
-        tables.push(tables::by_variant(medians));
+fn findings(conclusions: &[Conclusions]) -> Section {
+    let mut tables: Vec<_> = conclusions.first().map(tables::findings).into_iter().collect();
+    if conclusions.len() > 1 {
+        tables.push(tables::by_variant(conclusions));
     }
     Section {
         id: "conclusions".into(),
@@ -87,14 +76,6 @@ fn findings(medians: &Medians, view: &View) -> Section {
         tables,
         ..Section::default()
     }
-}
-
-/// The spectra of a study's records, against the code of a site where one is given.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub(super) fn records(folder: &Path, manifest: &Manifest, site: Option<&Site>) -> Result<Section> {
-    spectra::section(spectra::suite_of(folder, manifest).as_ref(), site)
 }
 
 /// What every variant assumes, and how its runs ended.

@@ -4,25 +4,6 @@ use crate::study::pipeline::Parameter;
 use crate::study::plan::Level;
 use crate::survey::Configuration;
 
-/// A number beside an axis: as few digits as tell it.
-pub fn tick(value: f64) -> String {
-    let text = format!("{value:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    match text.strip_prefix('-') {
-        Some("0") => "0".to_owned(),
-        Some(digits) => format!("−{digits}"),
-        None => text.to_owned(),
-    }
-}
-
-/// The least of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not below a positive value.
-pub fn rounded_up(value: f64) -> f64 {
-    let power = 10f64.powf(value.log10().floor());
-    let steps = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
-    let fits = |step: &&f64| **step * power >= value * (1.0 - 1e-9);
-    steps.iter().find(fits).unwrap_or(&10.0) * power
-}
-
 /// The floor of a configuration, to begin a title with.
 pub fn floor(configuration: Configuration) -> &'static str {
     match configuration {
@@ -64,21 +45,45 @@ pub fn level(parameter: Parameter, level: Level, value: Option<f64>) -> String {
     format!("{name}: {value}")
 }
 
+/// A measure of intensity with its unit, by the name of its column.
+pub fn intensity(column: &str) -> String {
+    let name = match column {
+        "pga_m_s2" => "PGA m/s²",
+        "pga_g" => "PGA g",
+        "pgv_m_s" => "PGV m/s",
+        "pgd_m" => "PGD m",
+        "arias_m_s" => "Arias intensity m/s",
+        "cav_m_s" => "CAV m/s",
+        "sa_0p5s_m_s2" => "Sa(0.5 s) m/s²",
+        "sa_1p0s_m_s2" => "Sa(1.0 s) m/s²",
+        "sa_average_m_s2" => "average Sa m/s²",
+        other => other,
+    };
+    name.to_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mrbd_records::ScaledMeasure;
 
     #[test]
-    fn regress_ticks_have_no_idle_digits() {
-        assert_eq!([0.0, 0.05, 8.0, -0.00001, -1.25].map(tick), ["0", "0.05", "8", "0", "−1.25"]);
-    }
-
-    #[test]
-    fn analytic_rounding_up_is_least_and_not_below() {
-        for (value, round) in
-            [(0.222, 0.25), (0.25, 0.25), (0.81, 1.0), (1.0, 1.0), (37.0, 40.0), (0.003, 0.003)]
-        {
-            assert!((rounded_up(value) / round - 1.0).abs() < 1e-12, "{value}");
+    fn regress_every_measure_has_a_name_and_a_unit() {
+        use ScaledMeasure as M;
+        let all = [
+            M::PgaMS2,
+            M::PgaG,
+            M::Pgv,
+            M::Pgd,
+            M::Arias,
+            M::Cav,
+            M::SaHalfSecond,
+            M::SaOneSecond,
+            M::SaAverage,
+        ];
+        for measure in all {
+            let name = intensity(measure.name());
+            assert!(name.contains(' ') && !name.contains('_'), "{name}");
         }
     }
 }

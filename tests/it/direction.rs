@@ -7,21 +7,38 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of `src/` in the flow of data, and the rooms that each may use.
-const ALLOWED: [(&str, &[&str]); 12] = [
+const ALLOWED: [(&str, &[&str]); 14] = [
     ("error", &[]),
+    ("text", &[]),
     ("store", &["error"]),
     ("survey", &["error"]),
-    ("study", &["error", "store", "survey"]),
+    ("study", &["error", "text", "store", "survey"]),
     ("aggregate", &["error", "store", "survey", "study"]),
-    ("findings", &["error", "store", "survey", "study", "aggregate"]),
+    ("findings", &["error", "text", "store", "survey", "study", "aggregate"]),
     ("check", &["error", "store", "survey", "study", "aggregate"]),
-    ("fragility", &["error", "store", "study"]),
-    ("classics", &["error", "store", "study"]),
+    ("fragility", &["error", "text", "store", "study"]),
+    ("classics", &["error", "text", "store", "study"]),
     ("results", &["error", "store"]),
     ("starter", &["error", "store"]),
     (
-        "report",
+        "summary",
         &["error", "store", "survey", "study", "aggregate", "findings", "fragility", "classics", "results"],
+    ),
+    (
+        "report",
+        &[
+            "error",
+            "text",
+            "store",
+            "survey",
+            "study",
+            "aggregate",
+            "findings",
+            "fragility",
+            "classics",
+            "results",
+            "summary",
+        ],
     ),
 ];
 

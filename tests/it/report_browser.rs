@@ -125,8 +125,15 @@ fn regress_run_page_in_chromium() {
              const stopped = time();
              await wait(300);
              found.paused = time() === stopped;
-             found.cursor = all('svg line.cursor').length;",
+             found.cursor = all('svg line.cursor').length;
+             const wide = document.querySelector('.panels.wide');
+             const fades = () => wide.classList.contains('more');
+             found.begins = fades();
+             wide.scrollLeft = wide.scrollWidth; await wait(200);
+             found.ends = fades();",
         );
+        // What is cut at the edge of a phone fades there until its end is seen.
+        assert_eq!((&found["begins"], &found["ends"]), (&(width < 700).into(), &false.into()), "{width} px");
         assert!(found["ink"].as_u64().expect("a count") > 2000, "a wall is drawn: {found}");
         assert_eq!(found["time"], 0.3);
         let theta1 = data["theta1"][60].as_f64().expect("a sample") / 1e6;

@@ -1,6 +1,7 @@
 //! The spectrum as text: amplitude upwards, frequency to the right.
 
 use super::spectrum::Spectrum;
+use crate::text::aligned;
 
 /// One line an amplitude, largest first, one mark a frequency: `#` overturned, `.` stood; then the boundaries.
 pub fn picture(spectrum: &Spectrum) -> String {
@@ -24,11 +25,11 @@ pub fn picture(spectrum: &Spectrum) -> String {
 }
 
 fn boundaries(spectrum: &Spectrum) -> String {
-    let mut text = String::from("  ω/p   boundary over αg   above it\n");
-    for b in &spectrum.boundaries {
+    let head = ["ω/p", "boundary over αg", "above it"].map(str::to_owned).to_vec();
+    let rows = spectrum.boundaries.iter().map(|b| {
         let middle = 0.5 * (b.below_over_alpha_g + b.above_over_alpha_g);
         let above = if b.overturns_above { "overturns" } else { "stands" };
-        text += &format!("{:>5.3}   {middle:>16.4}   {above}\n", b.frequency_over_p);
-    }
-    text
+        vec![format!("{:.3}", b.frequency_over_p), format!("{middle:.4}"), above.to_owned()]
+    });
+    aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>()) + "\n"
 }

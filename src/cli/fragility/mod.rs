@@ -11,8 +11,8 @@ use super::output::check_apart;
 use crate::error::{Error, InputError, Result};
 use crate::fragility::report::{self, GroupAnalysis};
 use crate::fragility::{
-    Bootstrap, EXPRESSION_ALLOWED, Expression, IntensityMeasure, LogNormal, Method, Settings, analyse,
-    nrml_document, read_groups,
+    Bootstrap, EXPRESSION_ALLOWED, Expression, IntensityMeasure, LogNormal, Method, REPLICATES, Settings,
+    analyse, nrml_document, read_groups,
 };
 use crate::store::write_durably;
 
@@ -81,7 +81,7 @@ pub struct FragilityCommand {
     #[arg(long, value_name = "X", default_value_t = 0.95)]
     level: f64,
     /// Bootstrap replicates; 0 for none.
-    #[arg(long, value_name = "N", default_value_t = 2000)]
+    #[arg(long, value_name = "N", default_value_t = REPLICATES)]
     replicates: u32,
     /// Seed of the bootstrap.
     #[arg(long, value_name = "N", default_value_t = 1)]

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{percent, print, print_json, print_table};
+use super::{print, print_json, print_table};
 use crate::error::{Error, InputError, Result};
+use crate::text::signed_percent;
 use mrbd_records::{COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck};
 
 /// Check the mean spectrum of a suite against the Italian code spectrum (NTC 2018) of a site.
@@ -66,8 +67,9 @@ pub(super) fn execute(args: &CheckArgs) -> Result<()> {
     let suite = Suite::load(&args.suite)?;
     let check = SuiteCheck::of(&suite, &site, periods);
     let is_compatible = check.is_within(deviation);
-    let range = format!("{} to {}", percent(check.lowest_deviation), percent(check.highest_deviation));
-    let allowed = format!("{} to {}", percent(deviation.0), percent(deviation.1));
+    let range =
+        format!("{} to {}", signed_percent(check.lowest_deviation), signed_percent(check.highest_deviation));
+    let allowed = format!("{} to {}", signed_percent(deviation.0), signed_percent(deviation.1));
     if args.json {
         let facts = json!({ "suite": suite.name, "generated": suite.generated, "compatible": is_compatible, "check": check });
         print_json(&facts)?;
@@ -100,6 +102,6 @@ fn row(check: &SuiteCheck, i: usize) -> Vec<String> {
         format!("{:.2}", check.period_s[i]),
         format!("{code:.3}"),
         format!("{mean:.3}"),
-        percent(mean / code - 1.0),
+        signed_percent(mean / code - 1.0),
     ]
 }

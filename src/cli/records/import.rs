@@ -6,8 +6,9 @@ use std::str::FromStr;
 
 use clap::Args;
 
-use super::{ReadArgs, percent, print_table, table_or_table_4, written};
+use super::{ReadArgs, print_table, table_or_table_4, written};
 use crate::error::{InputError, Result};
+use crate::text::signed_percent;
 use mrbd_records::{Import, IntensityMeasures, RecordTable, read_imports, write_imports};
 
 /// Import records of a published table: check their peaks against it and write a suite.
@@ -82,8 +83,9 @@ fn row(table: &RecordTable, import: &Import) -> Vec<String> {
     let found = IntensityMeasures::of(&import.record.accelerogram);
     let said = table.records.iter().find(|row| row.id == import.id);
     let (pga_g, pgv_m_s) = said.map_or((f64::NAN, f64::NAN), |row| (row.pga_g, row.pgv_m_s));
-    let columns =
-        |found: f64, said: f64| [format!("{found:.4}"), format!("{said:.4}"), percent(found / said - 1.0)];
+    let columns = |found: f64, said: f64| {
+        [format!("{found:.4}"), format!("{said:.4}"), signed_percent(found / said - 1.0)]
+    };
     let peaks = columns(found.pga_g, pga_g).into_iter().chain(columns(found.pgv_m_s, pgv_m_s));
     [format!("{} {}", import.id, import.record.name)].into_iter().chain(peaks).collect()
 }

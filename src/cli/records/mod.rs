@@ -15,6 +15,7 @@ use clap::{Args, Subcommand};
 
 use super::output::print;
 use crate::error::{InputError, Result};
+use crate::text::aligned;
 use mrbd_records::{ReadOptions, Record, RecordTable, Unit, formats_in_words, read};
 
 /// The paper's Table 4, so that the commands work anywhere.
@@ -117,25 +118,8 @@ fn written<T>(option: &str, result: mrbd_files::Result<T>) -> Result<T> {
 
 /// Prints rows under a heading, columns aligned to the right but for the first.
 fn print_table(heading: &[&str], rows: &[Vec<String>]) -> Result<()> {
-    let width = |column: usize| {
-        let cells = rows.iter().map(|row| row[column].chars().count());
-        cells.chain([heading[column].chars().count()]).max().unwrap_or(0)
-    };
-    let widths: Vec<usize> = (0..heading.len()).map(width).collect();
-    let line = |cells: &mut dyn Iterator<Item = &str>| {
-        let pad = |(column, cell): (usize, &str)| match column {
-            0 => format!("{cell:<width$}", width = widths[0]),
-            _ => format!("{cell:>width$}", width = widths[column]),
-        };
-        cells.enumerate().map(pad).collect::<Vec<_>>().join("  ")
-    };
-    print(&line(&mut heading.iter().copied()))?;
-    rows.iter().try_for_each(|row| print(&line(&mut row.iter().map(String::as_str))))
-}
-
-/// A relative deviation as percent with its sign.
-fn percent(deviation: f64) -> String {
-    format!("{:+.1} %", 100.0 * deviation)
+    let heading = heading.iter().map(|&head| head.to_owned()).collect();
+    print(&aligned(&[&[heading], rows].concat()))
 }
 
 /// Prints a value as indented JSON.

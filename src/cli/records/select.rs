@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::check::PeriodArgs;
-use super::{ReadArgs, percent, print_table, written};
+use super::{ReadArgs, print_table, written};
 use crate::error::{InputError, Result};
+use crate::text::signed_percent;
 use mrbd_records::{Criteria, Selection, Site, SuiteSource, select};
 
 /// Select suites whose mean spectrum fits the code spectrum of a site, as REXEL does.
@@ -72,7 +73,8 @@ pub(super) fn execute(args: &SelectArgs) -> Result<()> {
     let name = |&member: &usize| suite.records[member].name.as_str();
     let row = |selection: &Selection| {
         let members: Vec<&str> = selection.members.iter().map(name).collect();
-        let (low, high) = (percent(selection.lowest_deviation), percent(selection.highest_deviation));
+        let (low, high) =
+            (signed_percent(selection.lowest_deviation), signed_percent(selection.highest_deviation));
         vec![members.join(" "), format!("{:.4}", selection.deviation_rms), low, high]
     };
     let rows: Vec<Vec<String>> = found.iter().map(row).collect();

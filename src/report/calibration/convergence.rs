@@ -1,18 +1,12 @@
 //! Figure 6: how the searches converged.
 
-use super::super::axis::Axis;
-use super::super::colours::of_curve;
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, of_curve};
 use super::super::page::{Figure, Key, Link, Section, Table};
 use super::wme;
-use crate::error::Result;
 use mrbd_lab::calibrate::{Calibration, MethodResult};
 
 /// The section.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(stored: &Calibration) -> Result<Section> {
+pub fn section(stored: &Calibration) -> Section {
     let mut names: Vec<&str> = searches(stored).map(|m| m.method.as_str()).collect();
     names.dedup();
     let mut seen: Vec<&str> = Vec::new();
@@ -28,12 +22,12 @@ pub fn section(stored: &Calibration) -> Result<Section> {
             groups.push(method.test.as_deref());
         }
     }
-    let panels = groups.into_iter().map(|test| panel(stored, &names, test)).collect::<Result<_>>()?;
+    let panels = groups.into_iter().map(|test| panel(stored, &names, test)).collect();
     let legend = names.iter().enumerate().map(|(index, name)| {
         let (colour, mark) = of_curve(index);
-        Key { label: (*name).to_owned(), colour: colour.hex(), mark }
+        Key::new(*name, colour, mark)
     });
-    Ok(Section {
+    Section {
         id: "convergence".into(),
         title: "How the searches converged".into(),
         figures: vec![Figure {
@@ -48,7 +42,7 @@ pub fn section(stored: &Calibration) -> Result<Section> {
         }],
         tables: vec![table(stored)],
         ..Section::default()
-    })
+    }
 }
 
 /// Searches that went through generations.
@@ -56,7 +50,7 @@ fn searches(stored: &Calibration) -> impl Iterator<Item = &MethodResult> {
     stored.methods.iter().filter(|m| m.best_costs.iter().filter(|cost| cost.is_finite()).count() > 1)
 }
 
-fn panel(stored: &Calibration, names: &[&str], test: Option<&str>) -> Result<String> {
+fn panel(stored: &Calibration, names: &[&str], test: Option<&str>) -> String {
     let own: Vec<&MethodResult> = searches(stored).filter(|m| m.test.as_deref() == test).collect();
     let costs = || own.iter().flat_map(|m| &m.best_costs).copied().filter(|cost| cost.is_finite());
     let longest = own.iter().map(|m| m.best_costs.len()).max().unwrap_or(1);

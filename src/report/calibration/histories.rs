@@ -1,78 +1,37 @@
-//! Figures 7 and 8: measured rotations, and those of the calibrated wall in the same tests, simulated again.
+//! Figures 7 and 8: measured rotations, and those of the calibrated wall in the same tests.
 
-use std::path::Path;
-
-use super::super::axis::Axis;
-use super::super::colours::{Colour, Mark, PALETTE};
-use super::super::graph::{Format, Graph, Layer};
+use super::super::chart::{Axis, Colour, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Link, Section};
-use super::super::provenance::{Note, found_again};
 use super::wme;
-use crate::error::Result;
-use mrbd_kernel::model::Wall;
-use mrbd_kernel::simulate::History;
-use mrbd_lab::calibrate::{Calibration, Experiment, TestResult};
-use mrbd_lab::experiment::Measured;
+use crate::summary::TestRotations;
+use mrbd_lab::calibrate::{Calibration, TestResult};
 
 /// Measured rotations: dark grey under the simulated ones.
 const MEASURED: Colour = PALETTE[6];
-/// Rows of a simulated history, s.
-const STEP_S: f64 = 0.01;
-
-/// The experiment as it was calibrated, read again.
-pub struct Again {
-    experiment: Experiment,
-    wall: Wall,
-}
-
-impl Again {
-    /// The experiment, if its files are still where they were and still the same.
-    pub fn of(folder: &Path, note: &Note, stored: &Calibration) -> Option<Self> {
-        let path = found_again(folder, &note.inputs, "experiment")?;
-        let experiment = Experiment::load(&path, Some(stored.seed)).ok()?;
-        if experiment.request != stored.request_sha256 {
-            return None;
-        }
-        let wall = experiment.space.wall(&stored.joint.values).ok()?;
-        Some(Self { experiment, wall })
-    }
-}
 
 /// The section; a sentence where the tests are no longer at hand.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(again: Option<&Again>, stored: &Calibration) -> Result<Section> {
+pub fn section(tests: Option<&[TestRotations]>, stored: &Calibration) -> Section {
     let mut section =
         Section { id: "histories".into(), title: "Measured against simulated".into(), ..Section::default() };
-    let Some(again) = again else {
+    let Some(tests) = tests else {
         section.text.push(
             "The experiment’s files are no longer where the calibration read them, or are other ones now: its histories cannot be drawn.".into(),
         );
-        return Ok(section);
+        return section;
     };
     section.text.push(
         "The calibrated wall in every test, from rest; tests held out were not seen by the search.".into(),
     );
-    for (index, test) in stored.tests.iter().enumerate() {
-        section.figures.push(figure(again, index, test)?);
-    }
-    Ok(section)
+    let numbered = stored.tests.iter().zip(tests).enumerate();
+    section.figures = numbered.map(|(index, (test, rotations))| figure(index, test, rotations)).collect();
+    section
 }
 
-fn figure(again: &Again, index: usize, test: &TestResult) -> Result<Figure> {
-    let simulated = simulated(again, index);
-    let alpha = again.wall.alpha_i_rad();
-    let measured = &again.experiment.tests[index].measured;
-    let mut panels = Vec::new();
-    let bodies = if again.wall.is_cracked() { 2 } else { 1 };
-    for (body, &alpha) in alpha.iter().enumerate().take(bodies) {
-        let measured = measured_line(measured, body, alpha);
-        let line = simulated.rows.iter().map(|row| (row.time_s, row.theta_rad[body] / alpha)).collect();
-        panels.push(panel(body, measured, line)?);
-    }
+fn figure(index: usize, test: &TestResult, rotations: &TestRotations) -> Figure {
     let held = if test.purpose == "fit" { "to fit" } else { "held out" };
-    Ok(Figure {
+    let bodies = 0..rotations.simulated.len();
+    let key = |label: &str, colour| Key::new(label, colour, Mark::None);
+    Figure {
         id: format!("test-{}", index + 1),
         title: format!("{}, {held}", test.name),
         paper: Some("Figs. 7 and 8".into()),
@@ -81,7 +40,7 @@ fn figure(again: &Again, index: usize, test: &TestResult) -> Result<Figure> {
             key("simulated, lower body", PALETTE[0]),
             key("simulated, upper body", PALETTE[1]),
         ],
-        panels,
+        panels: bodies.map(|body| panel(rotations, body).svg()).collect(),
         wide: true,
         caption: format!(
             "Rotations over slenderness angles; simulated up to the end of what counts. WME {} with the calibrated wall, {} before.",
@@ -89,47 +48,24 @@ fn figure(again: &Again, index: usize, test: &TestResult) -> Result<Figure> {
             wme(test.wme_before)
         ),
         links: vec![Link::to("calibration.json")],
-    })
-}
-
-fn key(label: &str, colour: Colour) -> Key {
-    Key { label: label.to_owned(), colour: colour.hex(), mark: Mark::None }
-}
-
-fn simulated(again: &Again, index: usize) -> History {
-    again.experiment.tests[index].history(&again.wall, again.experiment.accuracy(), STEP_S)
-}
-
-/// Measured samples, broken where samples are missing; none for a channel that is lost.
-fn measured_line(measured: &Measured, body: usize, alpha_rad: f64) -> Vec<(f64, f64)> {
-    let Some(theta) = &measured.theta_rad[body] else { return Vec::new() };
-    let mut line: Vec<(f64, f64)> = Vec::new();
-    for (&time_s, theta) in measured.time_s.iter().zip(theta) {
-        if line.last().is_some_and(|last| time_s - last.0 > measured.gap_s) {
-            line.push((time_s, f64::NAN));
-        }
-        line.push((time_s, theta / alpha_rad));
     }
-    line
 }
 
-fn panel(body: usize, measured: Vec<(f64, f64)>, simulated: Vec<(f64, f64)>) -> Result<String> {
-    let end_s = simulated.iter().chain(&measured).map(|point| point.0).fold(0.0, f64::max);
-    let label = ["θ₁/α₁", "θ₂/α₂"][body];
-    let values = measured.iter().chain(&simulated).map(|point| point.1);
-    let line = |name: &str, colour, width, points| Layer::Line {
+fn panel(rotations: &TestRotations, body: usize) -> Graph {
+    let (measured, simulated) = (&rotations.measured[body], &rotations.simulated[body]);
+    let end_s = simulated.iter().chain(measured).map(|point| point.0).fold(0.0, f64::max);
+    let line = |name: &str, colour, width, points: &[(f64, f64)]| Layer::Line {
         colour,
         width,
         dashed: false,
         name: name.to_owned(),
-        points,
+        points: points.to_vec(),
     };
     Graph {
         title: String::new(),
         format: Format::Low,
         x: Axis::linear("time s", 0.0, end_s),
-        y: Axis::holding(label, values),
+        y: Axis::holding(["θ₁/α₁", "θ₂/α₂"][body], measured.iter().chain(simulated).map(|point| point.1)),
         layers: vec![line("measured", MEASURED, 6, measured), line("simulated", PALETTE[body], 4, simulated)],
     }
-    .svg()
 }

@@ -1,20 +1,14 @@
 //! What the tests tell of each parameter: value, interval, and the misfit along it.
 
-use super::super::axis::Axis;
-use super::super::colours::{Mark, PALETTE};
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Link, Section, Table};
-use crate::error::Result;
 use mrbd_lab::calibrate::{Calibration, Estimate, Identifiability};
 
 /// The section.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(stored: &Calibration) -> Result<Section> {
-    let mut figures = vec![intervals(stored)?];
-    figures.extend(profiles(stored)?);
-    Ok(Section {
+pub fn section(stored: &Calibration) -> Section {
+    let mut figures = vec![intervals(stored)];
+    figures.extend(profiles(stored));
+    Section {
         id: "parameters".into(),
         title: "What the tests tell".into(),
         text: vec![format!(
@@ -24,7 +18,7 @@ pub fn section(stored: &Calibration) -> Result<Section> {
         figures,
         tables: vec![table(stored)],
         ..Section::default()
-    })
+    }
 }
 
 /// Parameters have different units, so they are shown as shares of what was searched.
@@ -32,7 +26,7 @@ fn share(p: &Estimate, value: f64) -> f64 {
     (value - p.lower_bound) / (p.upper_bound - p.lower_bound)
 }
 
-fn intervals(stored: &Calibration) -> Result<Figure> {
+fn intervals(stored: &Calibration) -> Figure {
     let rows = || stored.parameters.iter().zip((0..).map(f64::from));
     let names = stored.parameters.iter().map(|p| p.name.clone()).collect();
     let spans = rows().filter_map(|(p, row)| p.interval_95.map(|i| i.map(|end| (share(p, end), row))));
@@ -75,9 +69,8 @@ fn intervals(stored: &Calibration) -> Result<Figure> {
             },
         ],
     };
-    let key =
-        |label: &str, index: usize, mark| Key { label: label.into(), colour: PALETTE[index].hex(), mark };
-    Ok(Figure {
+    let key = |label: &str, index: usize, mark| Key::new(label, PALETTE[index], mark);
+    Figure {
         id: "intervals".into(),
         title: "Values and their intervals".into(),
         legend: vec![
@@ -85,18 +78,18 @@ fn intervals(stored: &Calibration) -> Result<Figure> {
             key("95 % interval", 5, Mark::None),
             key("best in one test", 4, Mark::Triangle),
         ],
-        panels: vec![graph.svg()?],
+        panels: vec![graph.svg()],
         wide: true,
         caption: "Intervals are bootstrap intervals over the tests’ samples. Parameters without one never act, or have nothing to scale, and stay at 1.".into(),
         links: vec![Link::to("calibration.json"), Link::to("candidates.parquet")],
         ..Figure::default()
-    })
+    }
 }
 
-/// The lowest misfit met along each parameter that was told; none if no parameter was.
-fn profiles(stored: &Calibration) -> Result<Option<Figure>> {
+/// The lowest misfit along each parameter that was told; `None` if no parameter was.
+fn profiles(stored: &Calibration) -> Option<Figure> {
     let told = stored.parameters.iter().filter(|p| p.interval_95.is_some() && p.profile.len() > 1);
-    let panels = told.map(profile).collect::<Result<Vec<_>>>()?;
+    let panels = told.map(profile).collect();
     let figure = Figure {
         id: "profiles".into(),
         title: "Lowest misfit along each parameter".into(),
@@ -105,10 +98,10 @@ fn profiles(stored: &Calibration) -> Result<Option<Figure>> {
         links: vec![Link::to("candidates.parquet")],
         ..Figure::default()
     };
-    Ok((!figure.panels.is_empty()).then_some(figure))
+    (!figure.panels.is_empty()).then_some(figure)
 }
 
-fn profile(p: &Estimate) -> Result<String> {
+fn profile(p: &Estimate) -> String {
     let middle = |from: f64, to: f64| (from + to) / 2.0;
     let points: Vec<(f64, f64)> =
         p.profile.iter().map(|s| (middle(s.from, s.to), s.mean_wme.unwrap_or(f64::NAN))).collect();

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use super::super::axis::Axis;
-use super::super::colours::{Mark, of_curve};
-use super::super::graph::{Format, Graph, Layer};
+use super::super::chart::{Axis, Format, Graph, Layer, Mark, of_curve};
 use super::super::page::{Figure, Key, Link};
 use crate::classics::comparison::MODELS;
 use crate::error::Result;
@@ -26,7 +24,7 @@ pub struct Histories {
 }
 
 impl Histories {
-    /// Reads them; none where the comparison was made before there were any.
+    /// Reads them; `None` where the comparison was made before there were any.
     ///
     /// # Errors
     /// Input errors for a file that is no such table.
@@ -50,37 +48,30 @@ impl Histories {
         }))
     }
 
-    /// The lowest and the highest scale under a law, both bodies; none without a row.
-    ///
-    /// # Errors
-    /// [`crate::Error::Picture`] if plotters refuses.
-    pub fn figure(&self, law: &str) -> Result<Option<Figure>> {
+    /// The lowest and the highest scale under a law, both bodies; `None` without a row.
+    pub fn figure(&self, law: &str) -> Option<Figure> {
         let own = (0..self.law.len()).filter(|&k| self.law[k] == law).collect::<Vec<_>>();
         let scales = own.iter().map(|&k| self.scale[k]);
         let (low, high) = scales.fold((f64::MAX, f64::MIN), |(a, b), scale| (a.min(scale), b.max(scale)));
-        let Some(record) = own.first().map(|&k| self.record[k].clone()) else { return Ok(None) };
+        let record = own.first().map(|&k| self.record[k].clone())?;
         let mut chosen = vec![low, high];
         chosen.dedup();
         let panels = chosen.iter().flat_map(|&scale| [0, 1].map(|body| (scale, body)));
         let panels = panels.map(|(scale, body)| self.panel(&own, &record, scale, body));
-        let legend = MODELS.iter().enumerate().map(|(index, model)| Key {
-            label: (*model).to_owned(),
-            colour: of_curve(index).0.hex(),
-            mark: Mark::None,
-        });
-        Ok(Some(Figure {
+        let key = |(index, model): (usize, &&str)| Key::new(*model, of_curve(index).0, Mark::None);
+        Some(Figure {
             id: format!("histories-{law}"),
             title: format!("In time, under {record}"),
             paper: Some("Fig. 9".into()),
-            legend: legend.collect(),
-            panels: panels.collect::<Result<_>>()?,
+            legend: MODELS.iter().enumerate().map(key).collect(),
+            panels: panels.collect(),
             wide: true,
             caption: "Of the records that the calibrated model stands most often, the one that turns it most, at the lowest and the highest factor; a line that ends is a wall that fell. All factors are in the file.".into(),
             links: vec![Link::to(FILE)],
-        }))
+        })
     }
 
-    fn panel(&self, own: &[usize], record: &str, scale: f64, body: usize) -> Result<String> {
+    fn panel(&self, own: &[usize], record: &str, scale: f64, body: usize) -> String {
         let lines = MODELS.iter().enumerate().map(|(index, model)| {
             let rows = own.iter().filter(|&&k| self.model[k] == *model && self.scale[k] == scale);
             let points = rows.map(|&k| (self.time_s[k], self.theta[body][k]));

@@ -1,8 +1,6 @@
 //! Everything that was tried, ranked: effects, and beside them numbers of the wall and the placebo.
 
-use super::super::axis::Axis;
-use super::super::colours::{Mark, PALETTE};
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Link, Section, Table};
 use super::words::{at, parameters};
 use super::{MEASURED, key};
@@ -142,7 +140,7 @@ fn figure(id: &str, rivals: &[&Rival]) -> Result<Figure> {
             key("tests held out", PALETTE[HELD_OUT], Mark::Square),
             key("on all tests", PALETTE[2], Mark::Triangle),
         ],
-        panels: vec![graph.svg()?, against.svg()?],
+        panels: vec![graph.svg(), against.svg()],
         caption: "Windowed error in units of the noise; the dashed line is a perfect model. A name needs both near it. What is below 1 against a hypothesis stands at 1. The answer with something added to it stands in the table only.".into(),
         links: vec![Link::to("rivals.parquet")],
         ..Figure::default()

@@ -1,8 +1,6 @@
 //! How large an effect of each kind could still hide.
 
-use super::super::axis::Axis;
-use super::super::colours::{Mark, PALETTE};
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Link, Section, Table};
 use super::words::{number, with_sd};
 use super::{MEASURED, key};
@@ -84,7 +82,7 @@ fn figure(powers: &[&CouldHide]) -> Result<Figure> {
         id: "could-hide-figure".into(),
         title: "Smallest size that would be named".into(),
         legend: vec![key("smallest size named", PALETTE[0], Mark::Circle)],
-        panels: vec![graph.svg()?],
+        panels: vec![graph.svg()],
         caption: "A size that matters makes a force at the top as large as the floor’s spring at the largest displacement; for gains and factors, joints, corners, delays and offsets the table gives what it is. Right of the dashed line an effect that matters could hide.".into(),
         links: vec![Link::to("diagnosis.json")],
         ..Figure::default()

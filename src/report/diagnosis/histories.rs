@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use super::super::axis::Axis;
-use super::super::colours::{Colour, Mark};
-use super::super::graph::{Format, Graph, Layer};
+use super::super::chart::{Axis, Colour, Format, Graph, Layer, Mark};
 use super::super::page::{Figure, Link, Section, Table};
 use super::columns::Columns;
 use super::{AFTER, BEFORE, MEASURED, key};
@@ -157,14 +155,14 @@ impl Histories {
             layer("simulated, wall as given", BEFORE, 3, &lines[1]),
         ];
         layers.extend(lines.get(2).map(|line| layer("simulated, updated wall", AFTER, 4, line)));
-        Graph {
+        Ok(Graph {
             title: String::new(),
             format: Format::Low,
             x: Axis::linear("time s", from_s, to_s),
             y: Axis::holding(["θ₁ mrad", "θ₂ mrad"][body], values),
             layers,
         }
-        .svg()
+        .svg())
     }
 }
 

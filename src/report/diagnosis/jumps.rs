@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use super::super::axis::Axis;
-use super::super::colours::Mark;
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark};
 use super::super::page::{Figure, Link};
 use super::columns::Columns;
 use super::window_errors::CHANGES;
@@ -98,7 +96,7 @@ pub fn figure(path: &Path, summary: &Summary) -> Result<Option<Figure>> {
         id: "jumps".into(),
         title: "Velocities after impacts".into(),
         legend,
-        panels: vec![graph.svg()?],
+        panels: vec![graph.svg()],
         caption: "From the measured state before an impact, or a burst of them, the model is run to where the measured pattern is clear again: 1 is the model’s impact law, C_l included. Bars are standard deviations by the noise of the velocities after it; a force missing meanwhile moves a ratio too. Ratios beyond the axis stand at its ends.".into(),
         links: vec![Link::to("jumps.parquet")],
         ..Figure::default()

@@ -1,8 +1,6 @@
 //! Where the missing force acts: in time, by direction, and by what closes the gap there.
 
-use super::super::axis::Axis;
-use super::super::colours::{Mark, PATTERNS};
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PATTERNS};
 use super::super::page::{Figure, Link, Section, Table};
 use super::force::Points;
 use super::histories::Histories;
@@ -88,14 +86,14 @@ impl Points {
         if summary.has_updated_wall() {
             layers.push(dots(AFTER, Mark::Square, &self.after_n));
         }
-        Graph {
+        Ok(Graph {
             title: test.to_owned(),
             format: Format::Half,
             x: Axis::linear("time s", from_s, to_s),
             y,
             layers,
         }
-        .svg()
+        .svg())
     }
 
     /// The moment pairs of patterns 1 and 2, and the direction of a force at the top.
@@ -138,7 +136,7 @@ impl Points {
                 key("missing moments", BEFORE, Mark::Circle),
                 key("a horizontal force at the top", MEASURED, Mark::None),
             ],
-            panels: vec![graph.svg()?],
+            panels: vec![graph.svg()],
             caption: "Where both bodies turn apart, the equations of motion lack a pair of moments. A horizontal force at the top makes pairs along the line.".into(),
             links: vec![Link::to("force.parquet")],
             ..Figure::default()

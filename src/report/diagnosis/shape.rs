@@ -1,8 +1,6 @@
 //! What shape the missing force has: against what the top does, with the candidates' laws drawn through.
 
-use super::super::axis::Axis;
-use super::super::colours::{Colour, Mark, PALETTE};
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Colour, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Link, Section};
 use super::force::{AGAINST, Law, Points};
 use super::{AFTER, BEFORE, key};
@@ -81,14 +79,14 @@ impl Points {
             });
         }
         let largest = x.iter().fold(0.0, |most: f64, x| most.max(x.abs())).max(f64::MIN_POSITIVE);
-        Graph {
+        Ok(Graph {
             title: String::new(),
             format: Format::Half,
             x: Axis::linear(AGAINST[which].1, -1.03 * largest, 1.03 * largest),
             y,
             layers,
         }
-        .svg()
+        .svg())
     }
 }
 

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use super::super::axis::Axis;
-use super::super::colours::{Colour, Mark};
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Colour, Dot, Format, Graph, Layer, Mark};
 use super::super::page::{Figure, Link, Section};
 use super::columns::Columns;
 use super::{AFTER, BEFORE, key};
@@ -154,7 +152,7 @@ fn in_time(windows: &Windows, test: &str, summary: &Summary) -> Result<String> {
         layers.push(dots(1, AFTER, Mark::Square));
     }
     let x = Axis::linear("time s", 0.0, end_s);
-    Graph { title: test.to_owned(), format: Format::Half, x, y: axis(&all), layers }.svg()
+    Ok(Graph { title: test.to_owned(), format: Format::Half, x, y: axis(&all), layers }.svg())
 }
 
 fn by_kind(windows: &Windows, summary: &Summary, title: &str, of: fn(&Window) -> String) -> Result<String> {
@@ -187,5 +185,5 @@ fn by_kind(windows: &Windows, summary: &Summary, title: &str, of: fn(&Window) ->
         layers.push(Layer::Dots { colour, mark, size: 6, hollow: false, dots });
     }
     let x = axis(&windows.0.iter().collect::<Vec<_>>());
-    Graph { title: title.to_owned(), format: Format::Half, x, y: Axis::names("", kinds), layers }.svg()
+    Ok(Graph { title: title.to_owned(), format: Format::Half, x, y: Axis::names("", kinds), layers }.svg())
 }

@@ -1,30 +1,24 @@
 //! Quantiles of the response over façades and records, along the intensity of stripes.
 
-use super::super::axis::Axis;
-use super::super::colours::{Mark, of_curve};
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, of_curve};
 use super::super::page::{Figure, Key};
+use super::super::words;
 use super::medians;
 use super::quantiles::{HIGH, LOW, MIDDLE, quantities};
-use crate::aggregate::{Distribution, Distributions, VariantNote};
-use crate::error::Result;
+use crate::aggregate::{Distribution, Distributions};
 use crate::study::pipeline::Kind;
 
 /// Least rotation drawn, over α: below it is rest.
 const LEAST: f64 = 1e-3;
 
 /// A panel a floor.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn figure(study: &Distributions, base: &VariantNote) -> Result<Figure> {
-    let own =
-        |row: &&Distribution| row.variant == base.name && row.record.is_none() && row.intensity.is_some();
+pub fn figure(study: &Distributions, base: &str) -> Figure {
+    let own = |row: &&Distribution| row.variant == base && row.record.is_none() && row.intensity.is_some();
     let rows = study.rows.iter().filter(own).collect::<Vec<_>>();
     let mut floors = rows.iter().map(|row| row.configuration.as_str()).collect::<Vec<_>>();
     floors.dedup();
-    let label = study.measure.as_deref().unwrap_or("intensity");
-    let x = Axis::log_holding(label, rows.iter().filter_map(|row| row.intensity));
+    let label = words::intensity(study.measure.as_deref().unwrap_or("intensity"));
+    let x = Axis::log_holding(&label, rows.iter().filter_map(|row| row.intensity));
     let values = rows.iter().flat_map(|row| &row.quantiles[LOW..=HIGH]).flatten();
     let y = Axis::log_holding("max |θᵢ|/αᵢ", values.map(|value| value.max(LEAST)));
     let panel = |floor: &str| {
@@ -37,24 +31,24 @@ pub fn figure(study: &Distributions, base: &VariantNote) -> Result<Figure> {
             layers: quantities(Kind::Stripes)
                 .iter()
                 .enumerate()
-                .flat_map(|(index, quantity)| curve(index, *quantity, &own, y.ends()[1], label))
+                .flat_map(|(index, quantity)| curve(index, *quantity, &own, y.ends()[1], &label))
                 .collect(),
         }
         .svg()
     };
     let key = |(index, (_, label)): (usize, &(&str, &str))| {
         let (colour, mark) = of_curve(index);
-        Key { label: (*label).to_owned(), colour: colour.hex(), mark }
+        Key::new(*label, colour, mark)
     };
-    Ok(Figure {
+    Figure {
         id: "quantiles-along".into(),
         title: "Along the intensity, all records together".into(),
         legend: quantities(Kind::Stripes).iter().enumerate().map(key).collect(),
-        panels: floors.into_iter().map(panel).collect::<Result<_>>()?,
+        panels: floors.into_iter().map(panel).collect(),
         caption: "Median over façades and records, and the band from the 16 % to the 84 % quantile. At the upper end: the quantile lies among walls that collapsed.".into(),
         links: medians(),
         ..Figure::default()
-    })
+    }
 }
 
 /// Band and median of one quantity; a quantile beyond all numbers stands at the end of the axis.

@@ -1,49 +1,22 @@
 //! Fragility curves with their intervals and the data behind them.
 
-use std::path::Path;
-
-use super::super::axis::Axis;
-use super::super::colours::of_curve;
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, of_curve};
 use super::super::page::{Figure, Key, Link, Section, Table};
+use super::super::words;
 use super::titled;
-use crate::aggregate::{Distributions, VariantNote};
-use crate::error::{InputError, Result};
-use crate::fragility::{
-    Analysis, Bootstrap, Columns, EXPRESSION_ALLOWED, Expression, Group, Interval, Known, Method,
-    NotAnExpression, Outcomes, Sample, Settings, analyse, read_groups,
-};
-use crate::study::pipeline::Kind;
+use crate::aggregate::Distributions;
+use crate::fragility::{Analysis, Interval, Known, Method};
+use crate::summary::{DEFAULT_INTENSITY, LEVEL, LimitFragility};
 
-/// The rotation over α_i that the paper calls significant.
-const SIGNIFICANT: f64 = 0.05;
-/// Intensity of studies that were not scaled to one: in rocking, velocity tells more than acceleration.
-const DEFAULT_INTENSITY: &str = "pgv_m_s";
-/// Replicates behind the intervals of the page; `mrbd fragility` takes any number.
-const REPLICATES: u32 = 500;
-const LEVEL: f64 = 0.95;
 /// Bins of data points, and steps of a curve.
 const BINS: usize = 10;
 const STEPS: u32 = 80;
 
-/// The fragility of one limit under one floor.
-struct Fragility {
-    configuration: String,
-    limit: String,
-    sample: Sample,
-    analysis: Analysis,
-    method: Method,
-}
-
 /// The section: a panel a floor, a curve a limit.
-///
-/// # Errors
-/// Whatever reading the runs and drawing meet.
-pub fn section(folder: &Path, study: &Distributions, base: &VariantNote, links: &[Link]) -> Result<Section> {
-    let all = fragilities(folder, study, base)?;
+pub fn section(study: &Distributions, all: &[LimitFragility], links: &[Link]) -> Section {
     let mut limits: Vec<String> = Vec::new();
     let mut floors: Vec<String> = Vec::new();
-    for one in &all {
+    for one in all {
         if !limits.contains(&one.limit) {
             limits.push(one.limit.clone());
         }
@@ -51,14 +24,14 @@ pub fn section(folder: &Path, study: &Distributions, base: &VariantNote, links: 
             floors.push(one.configuration.clone());
         }
     }
-    let x = axis(study, &all);
+    let x = axis(study, all);
     let panel = |floor: &String| {
-        let own: Vec<&Fragility> = all.iter().filter(|one| one.configuration == *floor).collect();
+        let own: Vec<&LimitFragility> = all.iter().filter(|one| one.configuration == *floor).collect();
         panel(floor, &own, &limits, &x)
     };
     let legend = limits.iter().enumerate().map(|(index, limit)| {
         let (colour, mark) = of_curve(index);
-        Key { label: limit.clone(), colour: colour.hex(), mark }
+        Key::new(limit.clone(), colour, mark)
     });
     let mut section = titled("fragility", "Fragility");
     section.text.push(format!(
@@ -69,67 +42,29 @@ pub fn section(folder: &Path, study: &Distributions, base: &VariantNote, links: 
         id: "fragility-curves".into(),
         title: "Probability of reaching a limit".into(),
         legend: legend.collect(),
-        panels: floors.iter().map(panel).collect::<Result<_>>()?,
-        caption: "Points: shares of the runs in bins of intensity, of incremental analyses shares of the walls that reached the limit up to there.".into(),
+        panels: floors.iter().map(panel).collect(),
+        caption: format!("Points: shares of the runs in bins of intensity, of incremental analyses shares of the walls that reached the limit up to there. Intensity: column {} of the data.", measure(study)),
         links: links.to_vec(),
         ..Figure::default()
     });
-    section.tables.push(table(study, &all));
-    Ok(section)
+    section.tables.push(table(study, all));
+    section
 }
 
-fn fragilities(folder: &Path, study: &Distributions, base: &VariantNote) -> Result<Vec<Fragility>> {
-    let intensity = if study.measure.is_some() { "intensity" } else { DEFAULT_INTENSITY };
-    let slip = |e: NotAnExpression| InputError::file(folder, e.to_string(), EXPRESSION_ALLOWED);
-    let expression = Expression::parse(intensity).map_err(slip)?;
-    let columns = |outcome: Outcomes, groups: &[&str]| Columns {
-        intensity: expression.clone(),
-        stood: (study.kind == Kind::Incremental).then(|| "stood_intensity".to_owned()),
-        outcome,
-        demand: None,
-        groups: groups.iter().map(|&name| name.to_owned()).collect(),
-        clusters: ["record", "draw"].map(str::to_owned).to_vec(),
-    };
-    let of =
-        |columns: &Columns, method: Method, limit: &dyn Fn(&Group) -> String| -> Result<Vec<Fragility>> {
-            let groups = read_groups(folder, columns)?.into_iter().filter(|group| group.key[0] == base.name);
-            Ok(groups.map(|group| fragility(group, method, limit)).collect())
-        };
-    if study.kind == Kind::Incremental {
-        let columns =
-            columns(Outcomes::Words("limit_exceeded".into()), &["variant", "configuration", "limit"]);
-        return of(&columns, Method::Incremental, &|group| match group.key[2].as_str() {
-            "collapse" => "collapse".to_owned(),
-            rotation => format!("|θᵢ|/αᵢ > {rotation}"),
-        });
-    }
-    let groups = ["variant", "configuration"];
-    let turned = columns(Outcomes::Above("theta_max_over_own_alpha".into(), SIGNIFICANT), &groups);
-    let mut all = of(&turned, Method::Outcomes, &|_| format!("|θᵢ|/αᵢ > {SIGNIFICANT}"))?;
-    let fell = columns(Outcomes::Words("outcome".into()), &groups);
-    all.extend(of(&fell, Method::Outcomes, &|_| "collapse".to_owned())?);
-    Ok(all)
-}
-
-fn fragility(group: Group, method: Method, limit: &dyn Fn(&Group) -> String) -> Fragility {
-    let bootstrap = Bootstrap { replicates: REPLICATES, seed: 1 };
-    let analysis = analyse(&group.sample, &Settings { method, bootstrap, level: LEVEL });
-    Fragility {
-        configuration: group.key[1].clone(),
-        limit: limit(&group),
-        sample: group.sample,
-        analysis,
-        method,
-    }
+/// Column of the intensity.
+fn measure(study: &Distributions) -> &str {
+    study.measure.as_deref().unwrap_or(DEFAULT_INTENSITY)
 }
 
 /// An axis of intensity that all panels share.
-fn axis(study: &Distributions, all: &[Fragility]) -> Axis {
-    let label = study.measure.as_deref().unwrap_or(DEFAULT_INTENSITY);
-    Axis::log_holding(label, all.iter().flat_map(|one| one.analysis.range).flatten())
+fn axis(study: &Distributions, all: &[LimitFragility]) -> Axis {
+    Axis::log_holding(
+        &words::intensity(measure(study)),
+        all.iter().flat_map(|one| one.analysis.range).flatten(),
+    )
 }
 
-fn panel(floor: &str, own: &[&Fragility], limits: &[String], x: &Axis) -> Result<String> {
+fn panel(floor: &str, own: &[&LimitFragility], limits: &[String], x: &Axis) -> String {
     let mut layers = Vec::new();
     for one in own {
         let index = limits.iter().position(|limit| *limit == one.limit).unwrap_or(0);
@@ -148,7 +83,7 @@ fn panel(floor: &str, own: &[&Fragility], limits: &[String], x: &Axis) -> Result
 }
 
 /// Band and line of a fragility that is known.
-fn curve(one: &Fragility, index: usize, x: &Axis) -> Vec<Layer> {
+fn curve(one: &LimitFragility, index: usize, x: &Axis) -> Vec<Layer> {
     let Ok(known) = &one.analysis.result else { return Vec::new() };
     let colour = of_curve(index).0;
     let [low, high] = x.ends().map(f64::ln);
@@ -168,7 +103,7 @@ fn curve(one: &Fragility, index: usize, x: &Axis) -> Vec<Layer> {
 }
 
 /// Shares of the data: in bins of equal numbers, or at each intensity where there are few.
-fn points(one: &Fragility) -> Vec<Dot> {
+fn points(one: &LimitFragility) -> Vec<Dot> {
     let (x, failures, trials) = (one.sample.ln_intensity(), one.sample.failures(), one.sample.trials());
     let mut rows: Vec<usize> = (0..x.len()).collect();
     rows.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
@@ -200,9 +135,9 @@ fn reached(rows: &[usize], x: &[f64], failures: &[f64], limit: &str) -> Vec<Dot>
     failed.iter().enumerate().step_by(every).map(dot).collect()
 }
 
-fn table(study: &Distributions, all: &[Fragility]) -> Table {
-    let measure = study.measure.as_deref().unwrap_or(DEFAULT_INTENSITY);
-    let row = |one: &Fragility| {
+fn table(study: &Distributions, all: &[LimitFragility]) -> Table {
+    let measure = words::intensity(measure(study));
+    let row = |one: &LimitFragility| {
         let Analysis { failures, trials, result, .. } = &one.analysis;
         let mut row =
             vec![format!("{} floor: {}", one.configuration, one.limit), format!("{failures} of {trials}")];

@@ -1,13 +1,10 @@
 //! Quantiles of the response over façades, record by record; over records too, along the intensity of stripes.
 
-use super::super::axis::Axis;
-use super::super::colours::Mark;
-use super::super::colours::PALETTE;
-use super::super::graph::{Dot, Format, Graph, Layer};
+use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Section};
+use super::super::words;
 use super::{along, medians, titled};
-use crate::aggregate::{CAPACITY, Distribution, Distributions, VariantNote};
-use crate::error::Result;
+use crate::aggregate::{CAPACITY, Distribution, Distributions};
 use crate::study::pipeline::Kind;
 
 /// Places of the 16, 50 and 84 % quantiles among those that are told.
@@ -27,12 +24,9 @@ pub(super) fn quantities(kind: Kind) -> &'static [(&'static str, &'static str)] 
 }
 
 /// The section: a panel a floor (and limit, or stripe).
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
+pub fn section(study: &Distributions, base: &str) -> Section {
     let own: Vec<&Distribution> =
-        study.rows.iter().filter(|row| row.variant == base.name && row.record.is_some()).collect();
+        study.rows.iter().filter(|row| row.variant == base && row.record.is_some()).collect();
     let mut groups: Vec<(String, String)> = Vec::new();
     for row in &own {
         let group = (row.configuration.clone(), row.stratum(study.measure.as_deref()));
@@ -55,14 +49,10 @@ pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
             .collect();
         panel(study.kind, &format!("{configuration} floor {stratum}"), &own, &x)
     };
-    let key = |(index, (_, label)): (usize, &(&str, &str))| Key {
-        label: (*label).to_owned(),
-        colour: PALETTE[index].hex(),
-        mark: Mark::Circle,
-    };
+    let key = |(index, (_, label)): (usize, &(&str, &str))| Key::new(*label, PALETTE[index], Mark::Circle);
     let mut section = titled("quantiles", "The response");
     if study.kind == Kind::Stripes {
-        section.figures.push(along::figure(study, base)?);
+        section.figures.push(along::figure(study, base));
     }
     if groups.len() < all {
         section
@@ -73,12 +63,12 @@ pub fn section(study: &Distributions, base: &VariantNote) -> Result<Section> {
         id: "quantiles-by-record".into(),
         title: "16, 50 and 84 % of the façades".into(),
         legend: quantities(study.kind).iter().enumerate().map(key).collect(),
-        panels: groups.iter().map(panel).collect::<Result<_>>()?,
+        panels: groups.iter().map(panel).collect(),
         caption: "Bars from the 16 % to the 84 % quantile over the façades, points at the median. A bar to the end of the axis: the quantile lies among walls that collapsed, or never reached the limit.".into(),
         links: medians(),
         ..Figure::default()
     });
-    Ok(section)
+    section
 }
 
 /// Of each floor, the stripes at a quarter of all and in the middle; at the strongest most walls have collapsed.
@@ -94,18 +84,18 @@ fn few_stripes(groups: Vec<(String, String)>) -> Vec<(String, String)> {
 
 fn axis(study: &Distributions, own: &[&Distribution]) -> Axis {
     let label = match study.kind {
-        Kind::Incremental => study.measure.as_deref().unwrap_or("intensity"),
-        _ => "max |θᵢ|/αᵢ",
+        Kind::Incremental => words::intensity(study.measure.as_deref().unwrap_or("intensity")),
+        _ => "max |θᵢ|/αᵢ".to_owned(),
     };
     let shown = own.iter().filter(|row| quantities(study.kind).iter().any(|(name, _)| *name == row.quantity));
     // Rotations below a thousandth of α are rest.
     Axis::log_holding(
-        label,
+        &label,
         shown.flat_map(|row| row.quantiles[LOW..=HIGH].iter().flatten()).map(|v| v.max(1e-3)),
     )
 }
 
-fn panel(kind: Kind, title: &str, own: &[&Distribution], x: &Axis) -> Result<String> {
+fn panel(kind: Kind, title: &str, own: &[&Distribution], x: &Axis) -> String {
     let mut records: Vec<&str> = Vec::new();
     for row in own {
         let record = row.record.as_deref().unwrap_or("");

@@ -1,20 +1,10 @@
 //! The façades that were drawn, against the distributions of the survey.
 
-use std::collections::BTreeSet;
-use std::path::Path;
-
-use super::super::axis::Axis;
-use super::super::colours::{Mark, PALETTE};
-use super::super::graph::{Format, Graph, Layer};
+use super::super::chart::{Axis, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Link, Section};
 use super::titled;
-use crate::aggregate::VariantNote;
-use crate::error::Result;
-use crate::fragility::Table;
-use crate::study::runs::Manifest;
-use crate::survey::sampling::{FacadeSampler, Marginal, Sampling, Variable};
-use crate::survey::{Configuration, Survey};
-use mrbd_files::file_sha256;
+use crate::summary::{FloorSamples, Samples};
+use crate::survey::sampling::{Marginal, Variable};
 
 /// Bars of a histogram.
 const BARS: usize = 24;
@@ -22,83 +12,29 @@ const BARS: usize = 24;
 const POINTS: u32 = 160;
 
 /// The section: a figure a floor, a panel a variable that varies.
-///
-/// # Errors
-/// Whatever reading the runs and drawing meet.
-pub fn section(folder: &Path, manifest: &Manifest, base: &VariantNote, links: &[Link]) -> Result<Section> {
+pub fn section(samples: &Samples, links: &[Link]) -> Section {
     let mut section = titled("samples", "The façades drawn, against the survey");
-    let names: Vec<&str> = Variable::ALL.iter().map(|variable| variable.name()).collect();
-    let columns = [&["variant", "configuration", "draw"][..], &names].concat();
-    let table = Table::read(folder, &columns)?;
-    let survey = survey(manifest);
-    if survey.is_none() {
+    if !samples.has_survey {
         section.text.push(
             "The survey is no longer where the study read it, or is another one now: its distributions cannot be drawn.".into(),
         );
     }
-    for configuration in Configuration::ALL {
-        let rows = one_row_a_draw(&table, base, configuration)?;
-        if rows.is_empty() {
-            continue;
-        }
-        let sampler = survey
-            .as_ref()
-            .and_then(|(survey, sampling)| FacadeSampler::new(survey, configuration, sampling).ok());
-        section.figures.push(figure(&table, &rows, configuration, sampler.as_ref(), links)?);
-    }
-    Ok(section)
+    section.figures = samples.floors.iter().map(|floor| figure(floor, links)).collect();
+    section
 }
 
-/// The survey and how it was sampled, if the file is still where it was and still the same.
-fn survey(manifest: &Manifest) -> Option<(Survey, Sampling)> {
-    let file = manifest.inputs.iter().find(|input| input.role == "survey")?;
-    let path = Path::new(&file.path);
-    let same = file_sha256(path).is_ok_and(|sha256| sha256 == file.sha256);
-    let sampling = serde_json::from_value(manifest.study.get("sampling")?.clone()).ok()?;
-    same.then(|| Survey::load(path).ok()).flatten().map(|survey| (survey, sampling))
-}
-
-/// Rows of the first variant, each draw once.
-fn one_row_a_draw(table: &Table, base: &VariantNote, configuration: Configuration) -> Result<Vec<usize>> {
-    let (variants, floors, draws) =
-        (table.labels("variant")?, table.labels("configuration")?, table.labels("draw")?);
-    let mut seen = BTreeSet::new();
-    let own = |&row: &usize| {
-        variants[row] == base.name && floors[row] == configuration.name() && seen.insert(draws[row].as_str())
-    };
-    Ok((0..table.rows()).filter(own).collect())
-}
-
-fn figure(
-    table: &Table,
-    rows: &[usize],
-    configuration: Configuration,
-    sampler: Option<&FacadeSampler>,
-    links: &[Link],
-) -> Result<Figure> {
-    let mut panels = Vec::new();
-    for variable in Variable::ALL {
-        let all = table.numbers(variable.name())?;
-        let values: Vec<f64> = rows.iter().filter_map(|&row| all[row]).collect();
-        let varies = values.iter().any(|value| *value != values[0]);
-        if varies {
-            panels.push(panel(variable, &values, sampler.map(|sampler| sampler.marginal(variable)))?);
-        }
-    }
-    let key = |label: &str, index: usize| Key {
-        label: label.into(),
-        colour: PALETTE[index].hex(),
-        mark: Mark::None,
-    };
-    Ok(Figure {
-        id: format!("samples-{}", configuration.name()),
-        title: format!("{} floor: {} façades", configuration.name(), rows.len()),
+fn figure(floor: &FloorSamples, links: &[Link]) -> Figure {
+    let key = |label: &str, index: usize| Key::new(label, PALETTE[index], Mark::None);
+    let variables = floor.variables.iter();
+    Figure {
+        id: format!("samples-{}", floor.configuration.name()),
+        title: format!("{} floor: {} façades", floor.configuration.name(), floor.facades),
         legend: vec![key("drawn", 5), key("survey", 1)],
-        panels,
+        panels: variables.map(|(variable, values, survey)| panel(*variable, values, survey.as_ref())).collect(),
         caption: "Bars: density of the values that were drawn. Line: the log-normal distribution of the survey, cut where the study cuts it.".into(),
         links: links.to_vec(),
         ..Figure::default()
-    })
+    }
 }
 
 /// How a variable is shown: its name with a unit that people use, and the factor to that unit.
@@ -114,7 +50,7 @@ fn shown(variable: Variable) -> (&'static str, f64) {
     }
 }
 
-fn panel(variable: Variable, values: &[f64], survey: Option<&Marginal>) -> Result<String> {
+fn panel(variable: Variable, values: &[f64], survey: Option<&Marginal>) -> String {
     let (label, factor) = shown(variable);
     let mut sorted: Vec<f64> = values.iter().map(|value| factor * value).collect();
     sorted.sort_by(f64::total_cmp);
@@ -136,7 +72,7 @@ fn panel(variable: Variable, values: &[f64], survey: Option<&Marginal>) -> Resul
         x: Axis::linear(label, low, high),
         y: Axis::holding("density", heights),
         layers: vec![
-            Layer::Bars { colour: PALETTE[5], solid: false, bars },
+            Layer::Bars { colour: PALETTE[5], bars },
             Layer::Line {
                 colour: PALETTE[1],
                 width: 3,

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::super::colours::{PALETTE, PATTERNS};
+use super::super::chart::{PALETTE, PATTERNS};
 use super::RunPicture;
 use mrbd_kernel::model::{Contact, Joint, PATTERN_NAMES};
 use mrbd_kernel::simulate::{HistoryRow, Outcome};
@@ -12,9 +12,13 @@ const PER_RAD: f64 = 1e6;
 /// Accelerations are told in mm/s².
 const PER_M_S2: f64 = 1e3;
 
-/// The data of the script, one number a sample and body.
+/// Most samples that the script is given: a thousand seconds at sixty a second, as a screen shows them.
+const MOST_SAMPLES: usize = 60_000;
+
+/// The data of the script, one number a sample and body; of a long history every so many samples one.
 pub fn data(picture: &RunPicture) -> Value {
-    let rows = &picture.watch.history.rows;
+    let every = picture.watch.history.rows.len().div_ceil(MOST_SAMPLES).max(1);
+    let rows: Vec<&HistoryRow> = picture.watch.history.rows.iter().step_by(every).collect();
     let p = picture.wall.parameters();
     let h1 = p.crack_height_m.unwrap_or(p.height_m);
     let theta =
@@ -27,13 +31,13 @@ pub fn data(picture: &RunPicture) -> Value {
         "cracked": picture.wall.is_cracked(),
         "stiffness": p.stiffness_n_per_m,
         "alpha": picture.wall.alpha_i_rad(),
-        "step": picture.watch.history.step_s(),
+        "step": picture.watch.history.step_s() * every as f64,
         "theta1": theta(0),
         "theta2": theta(1),
-        "ground": ground.iter().take(rows.len()).map(|a| whole(a * PER_M_S2)).collect::<Vec<_>>(),
+        "ground": ground.iter().step_by(every).take(rows.len()).map(|a| whole(a * PER_M_S2)).collect::<Vec<_>>(),
         "perRad": PER_RAD,
         "perMS2": PER_M_S2,
-        "patterns": pattern_changes(rows),
+        "patterns": pattern_changes(&rows),
         "patternNames": PATTERN_NAMES,
         "patternColours": PATTERNS.map(|colour| colour.hex()),
         "bodyColours": [PALETTE[0].hex(), PALETTE[1].hex()],
@@ -58,7 +62,7 @@ fn rounded(value: f64) -> f64 {
 }
 
 /// Rows at which the pattern changes, with the pattern from there on.
-fn pattern_changes(rows: &[HistoryRow]) -> Vec<[usize; 2]> {
+fn pattern_changes(rows: &[&HistoryRow]) -> Vec<[usize; 2]> {
     let mut changes: Vec<[usize; 2]> = Vec::new();
     for (row, index) in rows.iter().map(|row| row.contact.index()).enumerate() {
         if changes.last().is_none_or(|[_, last]| *last != index) {

@@ -49,7 +49,7 @@ impl PlotFile {
     /// [`crate::Error::Picture`] or [`crate::Error::Io`].
     pub fn write(&self, picture: &RunPicture) -> Result<()> {
         let bytes = match self.kind {
-            Kind::Svg => picture.svg()?.into_bytes(),
+            Kind::Svg => picture.svg().into_bytes(),
             Kind::Png => picture.png()?,
             Kind::Html => picture.html()?.into_bytes(),
         };

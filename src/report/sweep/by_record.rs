@@ -1,51 +1,41 @@
 //! Figures 18 and 19: the reference façades under each record.
 
-use std::path::Path;
-
-use super::super::colours::of_curve;
-use super::super::curves::{Curve, CurvePoint, Panel};
+use super::super::chart::{CurvePoint, Graph, of_curve};
 use super::super::page::{Figure, Key, Link, Section};
-use super::super::words;
-use super::medians::{SIGNIFICANT, title, x_range, y_label};
-use crate::aggregate::{Measure, Middle, ReferenceRun, reference_runs};
-use crate::error::Result;
+use super::super::rotations;
+use super::medians::{over_slenderness, y_label};
+use crate::aggregate::{Measure, Middle, ReferenceRun};
 use crate::findings::View;
 use crate::survey::Configuration;
 
 /// The section: a figure a body, a curve a record.
-///
-/// # Errors
-/// Whatever reading the runs and drawing meet.
-pub fn section(folder: &Path, view: &View, links: &[Link]) -> Result<Section> {
-    let first = |c: Configuration| view.parameters(c).first().map(|&parameter| (c, parameter));
-    let among: Vec<_> = Configuration::ALL.into_iter().filter_map(first).collect();
-    let runs = reference_runs(folder, view.variant(), &among)?;
+pub fn section(view: &View, runs: &[ReferenceRun], links: &[Link]) -> Section {
     let bodies = [(Measure::LowerOwn, "Fig. 18"), (Measure::UpperOwn, "Fig. 19")];
-    let figures = bodies.map(|(body, number)| figure(view, &runs, body, number, links));
-    Ok(Section {
+    let figures = bodies.map(|(body, number)| figure(view, runs, body, number, links));
+    Section {
         id: "records".into(),
         title: "Record by record".into(),
         text: vec![
-            "The reference façades, all parameters at their means, under each record. A cross in the red band: the wall collapsed. Press a record to see it alone.".into(),
+            "The reference façades, all parameters at their means, under each record. A cross in the red band above the axis: the wall collapsed. Press a record to see it alone.".into(),
         ],
-        figures: figures.into_iter().collect::<Result<_>>()?,
+        figures: figures.into(),
         ..Section::default()
-    })
+    }
 }
 
-fn figure(view: &View, runs: &[ReferenceRun], body: Measure, number: &str, links: &[Link]) -> Result<Figure> {
+fn figure(view: &View, runs: &[ReferenceRun], body: Measure, number: &str, links: &[Link]) -> Figure {
     let panel = |configuration| panel(view, runs, configuration, body);
     let upper = body == Measure::UpperOwn;
-    Ok(Figure {
+    Figure {
         id: if upper { "records-upper" } else { "records-lower" }.into(),
         title: format!("{} body under each record", if upper { "Upper" } else { "Lower" }),
         paper: Some(number.into()),
         legend: legend(runs),
-        panels: Configuration::ALL.map(|c| panel(c).svg()).into_iter().collect::<Result<_>>()?,
+        panels: Configuration::ALL.map(|c| panel(c).svg()).into(),
         caption: "Largest rotation of the reference façades by slenderness h/b, one curve a record. Dashed line: 0.05, which the paper calls significant.".into(),
         links: links.to_vec(),
         ..Figure::default()
-    })
+    }
 }
 
 /// Names of the records in the order of the suite, with their earthquakes.
@@ -61,19 +51,14 @@ fn legend(runs: &[ReferenceRun]) -> Vec<Key> {
     let key = |(index, (name, event)): (usize, (&str, &str))| {
         let (colour, mark) = of_curve(index);
         let label = if event.is_empty() { name.to_owned() } else { format!("{name} ({event})") };
-        Key { label, colour: colour.hex(), mark }
+        Key::new(label, colour, mark)
     };
     records(runs).into_iter().enumerate().map(key).collect()
 }
 
-fn panel(view: &View, runs: &[ReferenceRun], configuration: Configuration, body: Measure) -> Panel {
+fn panel(view: &View, runs: &[ReferenceRun], configuration: Configuration, body: Measure) -> Graph {
     let of_body = |run: &ReferenceRun| run.rotation[usize::from(body == Measure::UpperOwn)];
-    let all: Vec<Middle> = runs.iter().filter_map(of_body).collect();
-    let rotation = |middle: &Middle| match middle {
-        Middle::Rotation(rotation) => Some(*rotation),
-        Middle::Collapsed => None,
-    };
-    let largest = all.iter().filter_map(rotation).fold(SIGNIFICANT.0, f64::max);
+    let shown: Vec<Middle> = runs.iter().filter_map(of_body).collect();
     let point = |run: &ReferenceRun| {
         let y = of_body(run)?;
         let value = match y {
@@ -81,21 +66,13 @@ fn panel(view: &View, runs: &[ReferenceRun], configuration: Configuration, body:
             Middle::Collapsed => "collapsed".into(),
         };
         let tip = format!("{}\nh/b {}: {value}", run.record, run.slenderness);
-        Some(CurvePoint { x: run.slenderness, y, partly_collapsed: false, tip })
+        Some(CurvePoint { x: run.slenderness, y: rotations::number(&y), hollow: false, tip })
     };
-    let curve = |(index, (name, _)): (usize, (&str, &str))| {
-        let (colour, mark) = of_curve(index);
-        let own = |run: &&ReferenceRun| run.record == name && run.configuration == configuration;
-        Curve { colour, mark, points: runs.iter().filter(own).filter_map(point).collect() }
+    let records = records(runs);
+    let curve = |(index, (name, _)): (usize, &(&str, &str))| {
+        let own = |run: &&ReferenceRun| run.record == *name && run.configuration == configuration;
+        rotations::curve(index, records.len(), runs.iter().filter(own).filter_map(point).collect())
     };
-    Panel {
-        title: title(configuration, body),
-        x_label: "slenderness h/b".into(),
-        y_label: y_label(body).into(),
-        x: x_range(view),
-        y_top: words::rounded_up(1.02 * largest),
-        collapse_band: all.contains(&Middle::Collapsed),
-        threshold: Some(SIGNIFICANT),
-        curves: records(runs).into_iter().enumerate().map(curve).collect(),
-    }
+    let curves = records.iter().enumerate().map(curve).collect();
+    over_slenderness(view, &shown, (configuration, body), curves)
 }

@@ -1,11 +1,9 @@
 //! Figures 12, 14 to 17 and 20: medians over the records against slenderness, a curve a level.
 
-use super::super::colours::of_curve;
-use super::super::curves::{Curve, CurvePoint, Panel};
+use super::super::chart::{Axis, CurvePoint, Format, Graph, Layer, of_curve};
 use super::super::page::{Figure, Key, Link, Section};
-use super::super::words;
+use super::super::{rotations, words};
 use crate::aggregate::{Measure, Median, Middle};
-use crate::error::Result;
 use crate::findings::{Slender, View};
 use crate::study::pipeline::Parameter;
 use crate::study::plan::Level;
@@ -15,10 +13,7 @@ use crate::survey::Configuration;
 pub(super) const SIGNIFICANT: (f64, &str) = (0.05, "significant, 0.05");
 
 /// The section with a figure for each parameter.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(view: &View, records: usize) -> Result<Section> {
+pub fn section(view: &View, records: usize) -> Section {
     let (title, what) = match records {
         1 => ("Under the one record", "The largest rotation of each body under the one record of the suite"),
         _ => ("Medians over the records", "The median over the records of the largest rotation of each body"),
@@ -27,15 +22,15 @@ pub fn section(view: &View, records: usize) -> Result<Section> {
         1 => "",
         _ => " A hollow point: some records did, the median one did not.",
     };
-    Ok(Section {
+    Section {
         id: "medians".into(),
         title: title.into(),
         text: vec![format!(
-            "{what}, over the slenderness angle of that body. A cross in the red band: the wall collapsed under the median record.{hollow} Press a level to see it alone."
+            "{what}, over the slenderness angle of that body. A cross in the red band above the axis: the wall collapsed under the median record.{hollow} Press a level to see it alone."
         )],
-        figures: rows(view).iter().map(|row| figure(view, row, records)).collect::<Result<_>>()?,
+        figures: rows(view).iter().map(|row| figure(view, row, records)).collect(),
         ..Section::default()
-    })
+    }
 }
 
 /// A figure's parameters, one a floor: the paper puts the two kinds of floor mass into one figure.
@@ -57,12 +52,12 @@ fn rows(view: &View) -> Vec<Row> {
     [12, 14, 15, 16, 17, 20].map(of).into_iter().filter(|row| !row.is_empty()).collect()
 }
 
-fn figure(view: &View, row: &Row, records: usize) -> Result<Figure> {
+fn figure(view: &View, row: &Row, records: usize) -> Figure {
     let frame = Frame::of(view, row);
     let mut panels = Vec::new();
     for body in Measure::BODIES {
         for &(configuration, parameter) in row {
-            panels.push(frame.panel(view, configuration, parameter, body).svg()?);
+            panels.push(frame.panel(view, configuration, parameter, body).svg());
         }
     }
     let mut names: Vec<&str> = row.iter().map(|&(_, p)| words::parameter(p)).collect();
@@ -78,16 +73,31 @@ fn figure(view: &View, row: &Row, records: usize) -> Result<Figure> {
         Parameter::DiaphragmMass | Parameter::CarriageMass => "Fig. 17",
         Parameter::Restitution => "Fig. 20",
     };
-    Ok(Figure {
+    Figure {
         id: first.name().replace('_', "-"),
         title: format!("Influence of the {}", names.join(" and ")),
         paper: Some(number.into()),
         legend: legend(view, row),
         panels,
-        caption: "Median over the records of the largest rotation, by slenderness h/b; the other parameters at their means. Dashed line: 0.05, which the paper calls significant.".into(),
-        links: vec![Link { text: "medians.parquet".into(), href: "medians.parquet".into() }],
+        caption: caption(view, row),
+        links: vec![Link::to("medians.parquet")],
         ..Figure::default()
-    })
+    }
+}
+
+fn caption(view: &View, row: &Row) -> String {
+    let mut caption = "Median over the records of the largest rotation, by slenderness h/b; the other parameters at their means. Dashed line: 0.05, which the paper calls significant.".to_owned();
+    let value = |of: &(Configuration, Parameter), level| of_level(view, of.0, of.1, level)?.parameter_value;
+    if row.iter().any(|of| are_reversed(value(of, Level::Low), value(of, Level::High))) {
+        caption
+            .push_str(" The value at μ − σ is the larger one: the survey’s table has the two in this order.");
+    }
+    caption
+}
+
+/// Whether the value named μ − σ is larger than that named μ + σ.
+fn are_reversed(low: Option<f64>, high: Option<f64>) -> bool {
+    low.zip(high).is_some_and(|(low, high)| low > high)
 }
 
 /// One key a level; where the floors differ in its value, both are told.
@@ -104,7 +114,7 @@ fn legend(view: &View, row: &Row) -> Vec<Key> {
             labels = vec![format!("{a} (perpendicular), {value} (parallel)")];
         }
         let (colour, mark) = of_curve(level.index());
-        Key { label: labels.concat(), colour: colour.hex(), mark }
+        Key::new(labels.concat(), colour, mark)
     };
     Level::ALL.map(key).to_vec()
 }
@@ -121,8 +131,7 @@ fn of_level<'a>(
 
 /// What the panels of a figure share, so that they can be compared by eye.
 struct Frame {
-    y_top: f64,
-    collapse_band: bool,
+    shown: Vec<Middle>,
 }
 
 impl Frame {
@@ -131,35 +140,36 @@ impl Frame {
             row.contains(&(median.case.configuration, median.case.parameter))
                 && Measure::BODIES.contains(&median.measure)
         };
-        let middles: Vec<Middle> = view.rows().filter(shown).filter_map(Median::middle).collect();
-        let rotation = |middle: &Middle| match middle {
-            Middle::Rotation(rotation) => Some(*rotation),
-            Middle::Collapsed => None,
-        };
-        let largest = middles.iter().filter_map(rotation).fold(SIGNIFICANT.0, f64::max);
-        Self { y_top: words::rounded_up(1.02 * largest), collapse_band: middles.contains(&Middle::Collapsed) }
+        Self { shown: view.rows().filter(shown).filter_map(Median::middle).collect() }
     }
 
-    fn panel(&self, view: &View, configuration: Configuration, parameter: Parameter, body: Measure) -> Panel {
+    fn panel(&self, view: &View, configuration: Configuration, parameter: Parameter, body: Measure) -> Graph {
         let curve = |level: Level| {
-            let (colour, mark) = of_curve(level.index());
             let point = |slenderness: f64| {
                 let median = view.row(configuration, parameter, level, (slenderness, body))?;
                 point(median, body)
             };
             let points = view.slendernesses(Slender::Any).into_iter().filter_map(point).collect();
-            Curve { colour, mark, points }
+            rotations::curve(level.index(), Level::ALL.len(), points)
         };
-        Panel {
-            title: title(configuration, body),
-            x_label: "slenderness h/b".into(),
-            y_label: y_label(body).into(),
-            x: x_range(view),
-            y_top: self.y_top,
-            collapse_band: self.collapse_band,
-            threshold: Some(SIGNIFICANT),
-            curves: Level::ALL.map(curve).to_vec(),
-        }
+        over_slenderness(view, &self.shown, (configuration, body), Level::ALL.map(curve).to_vec())
+    }
+}
+
+/// Curves of a body under a floor, over slenderness.
+pub(super) fn over_slenderness(
+    view: &View,
+    shown: &[Middle],
+    (configuration, body): (Configuration, Measure),
+    curves: Vec<Layer>,
+) -> Graph {
+    let significant = Layer::Threshold { y: SIGNIFICANT.0, name: SIGNIFICANT.1 };
+    Graph {
+        title: title(configuration, body),
+        format: Format::Half,
+        x: slenderness_axis(view),
+        y: rotations::axis(y_label(body), shown, SIGNIFICANT.0),
+        layers: std::iter::once(significant).chain(curves).collect(),
     }
 }
 
@@ -177,10 +187,10 @@ fn point(median: &Median, body: Measure) -> Option<CurvePoint> {
         median.collapsed,
         median.runs - median.failed
     );
-    Some(CurvePoint { x: case.slenderness, y, partly_collapsed: median.collapsed > 0, tip })
+    Some(CurvePoint { x: case.slenderness, y: rotations::number(&y), hollow: median.collapsed > 0, tip })
 }
 
-pub(super) fn title(configuration: Configuration, body: Measure) -> String {
+fn title(configuration: Configuration, body: Measure) -> String {
     let body = if body == Measure::LowerOwn { "lower body" } else { "upper body" };
     format!("{}: {body}", words::floor(configuration))
 }
@@ -190,9 +200,21 @@ pub(super) fn y_label(body: Measure) -> &'static str {
 }
 
 /// All slendernesses with room at both sides.
-pub(super) fn x_range(view: &View) -> std::ops::Range<f64> {
+fn slenderness_axis(view: &View) -> Axis {
     let all = view.slendernesses(Slender::Any);
     let (first, last) = (all.first().copied().unwrap_or(0.0), all.last().copied().unwrap_or(1.0));
     let room = (0.06 * (last - first)).max(0.5);
-    first - room..last + room
+    Axis::linear("slenderness h/b", first - room, last + room)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_levels_are_told_to_be_reversed_where_they_are() {
+        assert!(are_reversed(Some(0.73), Some(0.52)) && !are_reversed(Some(0.2), Some(0.4)));
+        // Coefficients of restitution have levels and no value.
+        assert!(!are_reversed(None, None));
+    }
 }

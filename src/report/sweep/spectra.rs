@@ -1,124 +1,114 @@
-//! Figure 11: response spectra of the records as they were run, against the code's where a site is given.
+//! Figure 11: response spectra of the records, against the code's where a site is given.
 
-use std::path::Path;
-
-use super::super::colours::{COLLAPSE, Colour, Mark, of_curve};
-use super::super::lines::{Line, LinePanel};
+use super::super::chart::{Axis, COLLAPSE, Colour, Format, Graph, Layer, Mark, of_curve};
 use super::super::page::{Figure, Key, Section};
-use super::super::provenance::found_again;
-use super::super::words::rounded_up;
-use crate::error::Result;
-use crate::study::plan::Motions;
-use crate::study::runs::Manifest;
-use mrbd_records::{CODE_DAMPING, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck, response_spectrum_m_s2};
-
-/// Longest period shown, s.
-const LONGEST_S: f64 = 3.0;
-/// Spacing of the periods, s.
-const STEP_S: f64 = 0.02;
-
-/// The suite of a study, if its file is still where it was and still holds the samples that were run.
-pub fn suite_of(folder: &Path, manifest: &Manifest) -> Option<Suite> {
-    let file = found_again(folder, &manifest.inputs, "suite")?;
-    let motions = Motions::new(Suite::load(&file).ok()?);
-    let same = motions.hashes.len() == manifest.suite.records.len()
-        && motions
-            .hashes
-            .iter()
-            .zip(&manifest.suite.records)
-            .all(|(now, then)| now.horizontal == then.sha256);
-    same.then_some(motions.suite)
-}
-
-/// The section; a sentence where the records are no longer at hand.
-///
-/// # Errors
-/// [`crate::Error::Picture`] if plotters refuses.
-pub fn section(suite: Option<&Suite>, site: Option<&Site>) -> Result<Section> {
-    let mut section =
-        Section { id: "spectra".into(), title: "The records’ spectra".into(), ..Section::default() };
-    match suite {
-        Some(suite) => section.figures.push(figure(suite, site)?),
-        None => section.text.push(
-            "The records are no longer where the study read them, or are other ones now: their spectra cannot be drawn.".into(),
-        ),
-    }
-    Ok(section)
-}
-
-fn periods_s() -> Vec<f64> {
-    let last = (LONGEST_S / STEP_S).round() as u32;
-    (1..=last).map(|k| f64::from(k) * STEP_S).collect()
-}
-
-fn figure(suite: &Suite, site: Option<&Site>) -> Result<Figure> {
-    let periods = periods_s();
-    let damping = site.map_or(CODE_DAMPING, |site| site.damping);
-    let spectra: Vec<Vec<f64>> = suite
-        .records
-        .iter()
-        .map(|record| response_spectrum_m_s2(&record.horizontal, &periods, damping))
-        .collect();
-    let mean = (0..periods.len()).map(|k| spectra.iter().map(|s| s[k]).sum::<f64>() / spectra.len() as f64);
-    let over = |values: Vec<f64>| -> Vec<(f64, f64)> { periods.iter().copied().zip(values).collect() };
-    let mut lines: Vec<Line> = Vec::new();
-    for (index, (record, spectrum)) in suite.records.iter().zip(&spectra).enumerate() {
-        let colour = of_curve(index).0;
-        lines.push(Line { name: record.name.clone(), colour, width: 3, points: over(spectrum.clone()) });
-    }
-    if suite.records.len() > 1 {
-        lines.push(Line { name: "mean".into(), colour: MEAN, width: 8, points: over(mean.collect()) });
-    }
-    if let Some(site) = site {
-        let code = periods.iter().map(|&period| site.elastic_m_s2(period)).collect();
-        lines.push(Line { name: "code".into(), colour: CODE, width: 8, points: over(code) });
-    }
-    let largest = lines.iter().flat_map(|line| &line.points).map(|point| point.1).fold(0.0, f64::max);
-    let legend = lines.iter().enumerate().map(|(index, line)| Key {
-        label: line.name.clone(),
-        colour: line.colour.hex(),
-        mark: if index < suite.records.len() { of_curve(index).1 } else { Mark::Square },
-    });
-    Ok(Figure {
-        id: "spectra-figure".into(),
-        title: format!("Elastic response spectra, {} % damping", mrbd_kernel::written(100.0 * damping)),
-        paper: (suite.records.len() > 1).then(|| "Fig. 11".into()),
-        legend: legend.collect(),
-        panels: vec![panel(rounded_up(1.02 * largest.max(f64::MIN_POSITIVE)), lines).svg()?],
-        wide: true,
-        caption: caption(suite, site),
-        ..Figure::default()
-    })
-}
+use crate::study::pipeline::Kind;
+use crate::summary::{CodeSpectrum, Spectra};
+use mrbd_records::COMPATIBLE_PERIODS_S;
 
 /// The mean of the records: black, which neither axes nor text are, for the legend fades by colour.
 const MEAN: Colour = Colour(0, 0, 0);
 /// The code: the colour that is left.
 const CODE: Colour = COLLAPSE;
 
-fn panel(y_top: f64, lines: Vec<Line>) -> LinePanel {
-    LinePanel {
-        title: "Response spectra".into(),
-        x_label: "period s".into(),
-        y_label: "pseudo-acceleration m/s²".into(),
-        shaded: Some(COMPATIBLE_PERIODS_S),
-        y_top,
-        lines,
+/// The section; a sentence where the records are no longer at hand.
+pub fn section(spectra: Option<&Spectra>, kind: Kind) -> Section {
+    let mut section =
+        Section { id: "spectra".into(), title: "The records’ spectra".into(), ..Section::default() };
+    match spectra {
+        Some(spectra) => section.figures.push(figure(spectra, kind)),
+        None => section.text.push(
+            "The records are no longer where the study read them, or are other ones now: their spectra cannot be drawn.".into(),
+        ),
+    }
+    section
+}
+
+/// A line of the figure and its mark in the legend.
+struct Line<'a> {
+    name: &'a str,
+    colour: Colour,
+    mark: Mark,
+    width: u32,
+    /// Pseudo-accelerations, m/s².
+    values: &'a [f64],
+}
+
+fn lines(spectra: &Spectra) -> Vec<Line<'_>> {
+    let mut lines: Vec<Line> = spectra
+        .records
+        .iter()
+        .enumerate()
+        .map(|(index, (name, values))| {
+            let (colour, mark) = of_curve(index);
+            Line { name, colour, mark, width: 3, values }
+        })
+        .collect();
+    let single = |name, colour, values| Line { name, colour, mark: Mark::Square, width: 8, values };
+    if spectra.records.len() > 1 {
+        lines.push(single("mean", MEAN, &spectra.mean_m_s2[..]));
+    }
+    lines.extend(spectra.code.iter().map(|code| single("code", CODE, &code.elastic_m_s2[..])));
+    lines
+}
+
+fn figure(spectra: &Spectra, kind: Kind) -> Figure {
+    let lines = lines(spectra);
+    Figure {
+        id: "spectra-figure".into(),
+        title: format!(
+            "Elastic response spectra, {} % damping",
+            mrbd_kernel::written(100.0 * spectra.damping)
+        ),
+        paper: (spectra.records.len() > 1).then(|| "Fig. 11".into()),
+        legend: lines.iter().map(|line| Key::new(line.name, line.colour, line.mark)).collect(),
+        panels: vec![graph(spectra, &lines).svg()],
+        wide: true,
+        caption: caption(spectra, kind),
+        ..Figure::default()
     }
 }
 
-fn caption(suite: &Suite, site: Option<&Site>) -> String {
+fn graph(spectra: &Spectra, lines: &[Line]) -> Graph {
     let (from, to) = COMPATIBLE_PERIODS_S;
-    let scaled = format!(
-        "Records of suite “{}” as they were run, scaled. Shaded: {from} to {to} s, where the paper compares with the code.",
-        suite.name
-    );
-    let Some(site) = site else {
-        return format!("{scaled} No code spectrum: give the site with --site.");
+    let layer = |line: &Line| Layer::Line {
+        colour: line.colour,
+        width: line.width,
+        dashed: false,
+        name: line.name.to_owned(),
+        points: spectra.periods_s.iter().copied().zip(line.values.iter().copied()).collect(),
     };
-    let check = SuiteCheck::of(suite, site, COMPATIBLE_PERIODS_S);
+    let values = lines.iter().flat_map(|line| line.values).copied();
+    Graph {
+        title: String::new(),
+        format: Format::Wide,
+        x: Axis::linear("period s", 0.0, spectra.periods_s.last().copied().unwrap_or(1.0)),
+        y: Axis::holding("pseudo-acceleration m/s²", values),
+        layers: std::iter::once(Layer::Shade { from, to }).chain(lines.iter().map(layer)).collect(),
+    }
+}
+
+fn caption(spectra: &Spectra, kind: Kind) -> String {
+    let (from, to) = COMPATIBLE_PERIODS_S;
+    let scales = match kind {
+        Kind::Cloud | Kind::Stripes | Kind::Incremental => {
+            "at the suite’s own scales; the runs scaled them further"
+        }
+        Kind::Sweep | Kind::MonteCarlo => "as they were run, scaled",
+    };
+    let records = format!(
+        "Records of suite “{}” {scales}. Shaded: {from} to {to} s, where the paper compares with the code.",
+        spectra.suite
+    );
+    match &spectra.code {
+        None => format!("{records} No code spectrum: give the site with --site."),
+        Some(code) => format!("{records} {}", of_code(code)),
+    }
+}
+
+fn of_code(CodeSpectrum { site, check, .. }: &CodeSpectrum) -> String {
     format!(
-        "{scaled} Code: NTC 2018, a_g {} g, F₀ {}, T_C* {} s, soil {:?}. There the mean lies {:+.0} % to {:+.0} % from the code.",
+        "Code: NTC 2018, a_g {} g, F₀ {}, T_C* {} s, soil {:?}. There the mean lies {:+.0} % to {:+.0} % from the code.",
         site.ag_g,
         site.f0,
         site.tc_star_s,

@@ -1,8 +1,9 @@
 //! Findings and assumptions as tables.
 
 use super::super::page::{Cell, Table};
-use crate::aggregate::{Medians, VariantNote};
-use crate::findings::{FINDINGS, Verdict, View};
+use crate::aggregate::VariantNote;
+use crate::findings::{Answer, FINDINGS, Finding, Verdict};
+use crate::summary::Conclusions;
 
 fn verdict(verdict: Verdict) -> Cell {
     let class = match verdict {
@@ -19,33 +20,31 @@ fn heads(heads: &[&str]) -> Vec<String> {
 }
 
 /// Every conclusion with its criterion, its verdict and the numbers that decide.
-pub fn findings(view: &View) -> Table {
-    let row = |(index, finding): (usize, &crate::findings::Finding)| {
-        let answer = finding.answer(view);
+pub fn findings(conclusions: &Conclusions) -> Table {
+    let row = |(index, (finding, answer)): (usize, (&Finding, &Answer))| {
         vec![
             Cell::from(format!("{}. {}", index + 1, finding.name)),
             verdict(answer.verdict),
             Cell::from(format!("{} ({})", finding.claim, finding.source)),
-            Cell::from(answer.numbers),
+            Cell::from(answer.numbers.clone()),
             Cell::from(finding.criterion.to_owned()),
         ]
     };
     Table {
         prose: true,
-        caption: format!("Conclusions under variant “{}”", view.variant()),
+        caption: format!("Conclusions under variant “{}”", conclusions.variant),
         head: heads(&["conclusion", "verdict", "the paper says", "found", "holds if"]),
-        rows: FINDINGS.iter().enumerate().map(row).collect(),
+        rows: FINDINGS.iter().zip(&conclusions.answers).enumerate().map(row).collect(),
     }
 }
 
 /// The verdicts under every set of assumptions.
-pub fn by_variant(medians: &Medians) -> Table {
+pub fn by_variant(conclusions: &[Conclusions]) -> Table {
     let mut head = heads(&["conclusion"]);
-    head.extend(medians.variants.iter().map(|variant| variant.name.clone()));
-    let row = |(index, finding): (usize, &crate::findings::Finding)| {
+    head.extend(conclusions.iter().map(|under| under.variant.clone()));
+    let row = |(index, finding): (usize, &Finding)| {
         let mut row = vec![Cell::from(format!("{}. {}", index + 1, finding.name))];
-        let of = |variant: &VariantNote| finding.answer(&View::new(medians, &variant.name)).verdict;
-        row.extend(medians.variants.iter().map(|variant| verdict(of(variant))));
+        row.extend(conclusions.iter().map(|under| verdict(under.answers[index].verdict)));
         row
     };
     Table {

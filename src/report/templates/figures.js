@@ -21,6 +21,13 @@
     circle.addEventListener("pointerdown", () => show(circle));
     circle.addEventListener("pointerleave", () => { tip.hidden = true; });
   }
+  // A frame that is wider than the screen fades at its edge as long as there is more to come.
+  for (const frame of document.querySelectorAll(".panels.wide, .table")) {
+    const update = () => frame.classList.toggle("more", frame.scrollLeft + frame.clientWidth < frame.scrollWidth - 2);
+    frame.addEventListener("scroll", update, { passive: true });
+    addEventListener("resize", update);
+    update();
+  }
   const coloursOf = (element) =>
     [element.getAttribute("stroke"), element.getAttribute("fill"), element.dataset.colour];
   for (const figure of document.querySelectorAll("figure.plot")) {

@@ -16,6 +16,7 @@ use super::manifest::Manifest;
 use super::manifest_differences::differences;
 use crate::error::{Error, InputError, Result};
 use crate::store::durable::{UNFINISHED, make_writable, write_durably};
+use crate::text::percent_escaped;
 
 /// What to do with results that are in the folder already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -195,12 +196,7 @@ fn other_file(path: &Path) -> Result<Option<String>> {
 
 /// A record's name as part of a folder's name, as Hive and its readers write it: odd bytes as %XX.
 pub(super) fn as_folder_name(name: &str) -> String {
-    name.bytes()
-        .map(|byte| match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'.' | b'_' | b'-' => char::from(byte).to_string(),
-            _ => format!("%{byte:02X}"),
-        })
-        .collect()
+    percent_escaped(name, b"._-")
 }
 
 #[cfg(test)]

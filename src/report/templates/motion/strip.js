@@ -16,9 +16,11 @@ function drawStrip(view, data, run, state) {
   const first = Math.max(0, Math.floor(from / data.step) - 1);
   const last = Math.min(run.rows - 1, Math.ceil(to / data.step) + 1);
   const along = (row) => x(row * data.step);
+  // A line of text above rotations and ground, so that no trace runs through it.
+  const line = width / 30;
   const top = Math.max(...data.alpha.map((alpha) => run.largest / alpha)) || 1;
   [data.theta1, data.theta2].slice(0, data.cracked ? 2 : 1).forEach((list, body) => {
-    curve(g, list, 1 / data.perRad / data.alpha[body] / top, data.bodyColours[body], [parts[0], parts[1]], [first, last], along);
+    curve(g, list, 1 / data.perRad / data.alpha[body] / top, data.bodyColours[body], [parts[0] + line, parts[1]], [first, last], along);
   });
   run.changes.forEach(([row, index], i) => {
     const until = run.changes[i + 1] ? run.changes[i + 1][0] : run.rows;
@@ -33,8 +35,8 @@ function drawStrip(view, data, run, state) {
     upright(g, x(time), parts[3], parts[3] - tall, INK);
   }
   const shaken = Math.min(last, data.ground.length - 1);
-  curve(g, data.ground, 1 / data.perMS2 / run.strongest, "#555", [parts[3], parts[4]], [first, shaken], along);
-  labels(g, width, parts, `±${top.toPrecision(2)}`, data.ground.length > 0 ? run.strongest : 0);
+  curve(g, data.ground, 1 / data.perMS2 / run.strongest, "#555", [parts[3] + line, parts[4]], [first, shaken], along);
+  labels(g, line, parts, `±${top.toPrecision(2)}`, data.ground.length > 0 ? run.strongest : 0);
   g.lineWidth = width / 350;
   upright(g, x(state.time), 0, height, "#a50f15");
   view.span.textContent = `${from.toFixed(2)} s to ${to.toFixed(2)} s`;
@@ -61,11 +63,11 @@ function curve(g, list, scale, colour, [top, bottom], [first, last], along) {
   g.stroke();
 }
 
-function labels(g, width, parts, rotations, strongest) {
-  g.font = `${Math.max(10, Math.round(width / 48))}px system-ui, sans-serif`;
+function labels(g, line, parts, rotations, strongest) {
+  g.font = `${Math.max(10, Math.round(0.62 * line))}px system-ui, sans-serif`;
   g.textAlign = "left";
   g.fillStyle = "#666";
-  const down = width / 40;
+  const down = 0.78 * line;
   g.fillText(`θ/α, ${rotations}`, 4, parts[0] + down);
   g.fillText(strongest > 0 ? `ground, ±${strongest.toPrecision(2)} m/s²` : "ground at rest", 4, parts[3] + down);
 }

@@ -1,18 +1,11 @@
 //! Colours that colour-blind people tell apart, and marks that tell curves apart without colour.
 
-use plotters::style::RGBColor;
-
-/// A colour and its name in SVG.
+/// A colour: red, green, blue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Colour(pub u8, pub u8, pub u8);
 
 impl Colour {
-    /// As plotters takes it.
-    pub fn rgb(self) -> RGBColor {
-        RGBColor(self.0, self.1, self.2)
-    }
-
-    /// As plotters writes it into SVG: the script finds the elements of a curve by it.
+    /// As SVG has it: the script finds the elements of a curve by it.
     pub fn hex(self) -> String {
         format!("#{:02X}{:02X}{:02X}", self.0, self.1, self.2)
     }
@@ -32,6 +25,9 @@ pub const PALETTE: [Colour; 7] = [
 
 /// Collapse, wherever it is drawn.
 pub const COLLAPSE: Colour = Colour(0xA5, 0x0F, 0x15);
+
+/// Paper, and what is hollow.
+pub const WHITE: Colour = Colour(0xFF, 0xFF, 0xFF);
 
 /// Axes and text.
 pub const INK: Colour = Colour(0x22, 0x22, 0x22);

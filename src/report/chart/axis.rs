@@ -1,7 +1,5 @@
 //! An axis of a graph: linear, logarithmic, or a list of names.
 
-use super::words::{rounded_up, tick};
-
 /// How values are spread along an axis.
 #[derive(Debug, Clone, PartialEq)]
 enum Scale {
@@ -19,6 +17,7 @@ pub struct Axis {
     from: f64,
     to: f64,
     scale: Scale,
+    zone: Option<&'static str>,
 }
 
 impl Axis {
@@ -26,7 +25,7 @@ impl Axis {
     pub fn linear(label: &str, from: f64, to: f64) -> Self {
         // A single value has no length; it stands in the middle.
         let (from, to) = if to > from { (from, to) } else { (from - 0.5, from + 0.5) };
-        Self { label: label.to_owned(), from, to, scale: Scale::Linear }
+        Self { label: label.to_owned(), from, to, scale: Scale::Linear, zone: None }
     }
 
     /// A linear axis from 0 to a round number not below the values, or between round numbers if some are negative.
@@ -43,18 +42,33 @@ impl Axis {
         let (low, high) = positive.fold((f64::MAX, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
         let (low, high) = if high > 0.0 { (low, high) } else { (0.1, 1.0) };
         let room = (high / low).powf(0.04).max(1.1);
-        Self { label: label.to_owned(), from: low / room, to: high * room, scale: Scale::Log }
+        Self { label: label.to_owned(), from: low / room, to: high * room, scale: Scale::Log, zone: None }
     }
 
     /// Names, the first at the end where values would be largest; the n-th stands at n.
     pub fn names(label: &str, names: Vec<String>) -> Self {
         let to = names.len() as f64 - 0.5;
-        Self { label: label.to_owned(), from: to, to: -0.5, scale: Scale::Names(names) }
+        Self { label: label.to_owned(), from: to, to: -0.5, scale: Scale::Names(names), zone: None }
     }
 
     /// From 0 to 1 without ticks.
     pub fn unmarked(label: &str) -> Self {
-        Self { label: label.to_owned(), from: 0.0, to: 1.0, scale: Scale::Unmarked }
+        Self { label: label.to_owned(), from: 0.0, to: 1.0, scale: Scale::Unmarked, zone: None }
+    }
+
+    /// With a zone above its end, for what lies beyond all numbers.
+    pub fn with_zone(self, name: &'static str) -> Self {
+        Self { zone: Some(name), ..self }
+    }
+
+    /// Name of the zone above its end; `None` where there is none.
+    pub fn zone(&self) -> Option<&'static str> {
+        self.zone
+    }
+
+    /// Whether it has no ticks.
+    pub fn is_unmarked(&self) -> bool {
+        self.scale == Scale::Unmarked
     }
 
     /// Where a value stands along the axis, 0 at its start to 1 at its end; values beyond stand at the ends.
@@ -117,6 +131,25 @@ fn number(value: f64) -> String {
     text.replacen(".0e", "e", 1).replace('-', "−")
 }
 
+/// A number in as few digits as tell it.
+fn tick(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    match text.strip_prefix('-') {
+        Some("0") => "0".to_owned(),
+        Some(digits) => format!("−{digits}"),
+        None => text.to_owned(),
+    }
+}
+
+/// The least of 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 times a power of ten that is not below a positive value.
+fn rounded_up(value: f64) -> f64 {
+    let power = 10f64.powf(value.log10().floor());
+    let steps = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
+    let fits = |step: &&f64| **step * power >= value * (1.0 - 1e-9);
+    steps.iter().find(fits).unwrap_or(&10.0) * power
+}
+
 fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let finite = values.into_iter().filter(|v| v.is_finite());
     finite.fold((0.0_f64, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)))
@@ -161,6 +194,20 @@ mod tests {
                 axis.holds(0.0) && values.iter().filter(|v| v.is_finite()).all(|v| axis.holds(*v)),
                 "{axis:?}"
             );
+        }
+    }
+
+    #[test]
+    fn regress_ticks_have_no_idle_digits() {
+        assert_eq!([0.0, 0.05, 8.0, -0.00001, -1.25].map(tick), ["0", "0.05", "8", "0", "−1.25"]);
+    }
+
+    #[test]
+    fn analytic_rounding_up_is_least_and_not_below() {
+        for (value, round) in
+            [(0.222, 0.25), (0.25, 0.25), (0.81, 1.0), (1.0, 1.0), (37.0, 40.0), (0.003, 0.003)]
+        {
+            assert!((rounded_up(value) / round - 1.0).abs() < 1e-12, "{value}");
         }
     }
 }

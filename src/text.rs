@@ -1,0 +1,124 @@
+//! Text as people and files have it: wrapped sentences, aligned tables, escaped names, percents and dates.
+
+/// Width of a terminal's text, columns.
+pub const TERMINAL: usize = 100;
+
+/// Breaks a text at spaces into lines of at most `width` columns, each behind `indent` spaces.
+pub fn wrapped(text: &str, indent: usize, width: usize) -> String {
+    let mut lines = vec![" ".repeat(indent)];
+    for word in text.split_whitespace() {
+        let line = lines.last_mut().map_or(0, |line| line.chars().count());
+        if line > indent && line + 1 + word.chars().count() > width {
+            lines.push(" ".repeat(indent));
+        }
+        if let Some(line) = lines.last_mut() {
+            let gap = if line.chars().count() > indent { " " } else { "" };
+            line.push_str(gap);
+            line.push_str(word);
+        }
+    }
+    lines.join("\n")
+}
+
+/// Columns side by side: the first to the left, the others to the right, each as wide as its widest cell.
+pub fn aligned(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().zip(&widths).enumerate();
+        let padded = cells.map(|(column, (cell, &width))| match column {
+            0 => format!("{cell:<width$}"),
+            _ => format!("{cell:>width$}"),
+        });
+        padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    };
+    rows.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Text as it stands in XML and HTML, in their attributes too.
+pub fn escaped(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => safe.push_str("&amp;"),
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '"' => safe.push_str("&quot;"),
+            '\'' => safe.push_str("&#39;"),
+            other => safe.push(other),
+        }
+    }
+    safe
+}
+
+/// A name of which all bytes but letters, digits and some `plain` ones are %XX (RFC 3986, section 2.1).
+pub fn percent_escaped(name: &str, plain: &[u8]) -> String {
+    let stays = |byte: u8| byte.is_ascii_alphanumeric() || plain.contains(&byte);
+    name.bytes()
+        .map(|byte| if stays(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") })
+        .collect()
+}
+
+/// A relative deviation as percent with its sign.
+pub fn signed_percent(deviation: f64) -> String {
+    format!("{:+.1} %", 100.0 * deviation)
+}
+
+/// A time (UTC) as people write it, by the civil calendar.
+///
+/// Days to dates after Howard Hinnant, "chrono-Compatible Low-Level Date Algorithms", public domain.
+pub fn utc(unix_s: u64) -> String {
+    let (days, second) = (unix_s / 86_400, unix_s % 86_400);
+    let z = days + 719_468;
+    let era_day = z % 146_097;
+    let era_year = (era_day - era_day / 1_460 + era_day / 36_524 - era_day / 146_096) / 365;
+    let year_day = era_day - (365 * era_year + era_year / 4 - era_year / 100);
+    let shifted_month = (5 * year_day + 2) / 153;
+    let day = year_day - (153 * shifted_month + 2) / 5 + 1;
+    let month = if shifted_month < 10 { shifted_month + 3 } else { shifted_month - 9 };
+    let year = era_year + (z / 146_097) * 400 + u64::from(month <= 2);
+    format!("{year}-{month:02}-{day:02} {:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_lines_are_indented_and_no_longer_than_allowed() {
+        let text = "word ".repeat(60);
+        let lines = wrapped(&text, 4, TERMINAL);
+        assert!(lines.lines().count() > 2);
+        assert!(lines.lines().all(|line| line.len() <= TERMINAL && line.starts_with("    word")));
+        assert_eq!(lines.split_whitespace().count(), 60);
+    }
+
+    #[test]
+    fn regress_texts_cannot_become_markup() {
+        assert_eq!(escaped("<a b=\"c\"> & 'd'"), "&lt;a b=&quot;c&quot;&gt; &amp; &#39;d&#39;");
+    }
+
+    #[test]
+    fn analytic_odd_bytes_are_escaped_and_plain_ones_stay() {
+        assert_eq!(percent_escaped("a b/c=ü", b"/="), "a%20b/c=%C3%BC");
+        assert_eq!(percent_escaped("a b/c=ü", b"._-"), "a%20b%2Fc%3D%C3%BC");
+    }
+
+    #[test]
+    fn published_times_of_the_civil_calendar() {
+        assert_eq!(utc(0), "1970-01-01 00:00:00");
+        assert_eq!(utc(951_782_400), "2000-02-29 00:00:00");
+        assert_eq!(utc(1_338_271_203), "2012-05-29 06:00:03");
+        assert_eq!(utc(4_102_444_799), "2099-12-31 23:59:59");
+    }
+
+    #[test]
+    fn regress_columns_line_up_whatever_their_letters() {
+        let rows = [vec!["θ".to_owned(), "1".to_owned()], vec!["ab".to_owned(), "100".to_owned()]];
+        assert_eq!(aligned(&rows), "θ     1\nab  100");
+    }
+}
