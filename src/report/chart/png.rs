@@ -142,7 +142,8 @@ mod tests {
     #[test]
     fn analytic_a_png_holds_its_pixels() {
         let mut picture = Picture::new((4, 2), String::new());
-        picture.block([(1.0, 0.0), (1.0, 0.0)], COLLAPSE);
+        // One unit wide and high is one pixel.
+        picture.block([(1.0, 0.0), (2.0, 1.0)], COLLAPSE);
         let bytes = picture.png().expect("drawn");
         // Signature, then IHDR with the size; the checksum of an empty IEND is known.
         assert_eq!(&bytes[..16], b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR");

@@ -3,10 +3,17 @@
 use super::colours::Colour;
 use super::picture::Place;
 
+/// Points of a line that a column of one unit keeps.
+const MOST: usize = 4;
+
 /// A line of which each column of one unit keeps its first, lowest, highest and last point.
 pub fn line(places: &[Place]) -> Vec<Place> {
     let mut thin = Vec::new();
     for column in places.chunk_by(|a, b| a.0.floor() == b.0.floor()) {
+        if column.len() <= MOST {
+            thin.extend_from_slice(column);
+            continue;
+        }
         let by_height = |a: &usize, b: &usize| column[*a].1.total_cmp(&column[*b].1);
         let (low, high) = ((0..column.len()).min_by(by_height), (0..column.len()).max_by(by_height));
         let mut kept = [Some(0), low, high, Some(column.len() - 1)];
