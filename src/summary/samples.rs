@@ -26,9 +26,12 @@ pub struct FloorSamples {
     pub configuration: Configuration,
     /// Number of façades.
     pub facades: usize,
-    /// Variables that vary: their values in SI units, and the survey's distribution where it is at hand.
-    pub variables: Vec<(Variable, Vec<f64>, Option<Marginal>)>,
+    /// Variables that vary.
+    pub variables: Vec<Drawn>,
 }
+
+/// A variable as it was drawn: its values in SI units, and the survey's distribution where it is at hand.
+pub type Drawn = (Variable, Vec<f64>, Option<Marginal>);
 
 impl Samples {
     /// Reads the façades of a variant.
@@ -74,11 +77,7 @@ fn one_row_a_draw(table: &Table, base: &str, configuration: Configuration) -> Re
     Ok((0..table.rows()).filter(own).collect())
 }
 
-fn variables(
-    table: &Table,
-    rows: &[usize],
-    sampler: Option<&FacadeSampler>,
-) -> Result<Vec<(Variable, Vec<f64>, Option<Marginal>)>> {
+fn variables(table: &Table, rows: &[usize], sampler: Option<&FacadeSampler>) -> Result<Vec<Drawn>> {
     let mut varying = Vec::new();
     for variable in Variable::ALL {
         let all = table.numbers(variable.name())?;

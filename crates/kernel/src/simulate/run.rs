@@ -97,7 +97,7 @@ impl<O: Observer> Run<O> {
     }
 
     /// The run that was begun, to its end, step by step.
-    pub fn to_end(mut self) -> Response {
+    pub fn into_response(mut self) -> Response {
         let mut reactions = Reactions::default();
         while self.needs_step() {
             let step = self.step_request().take(&mut reactions);

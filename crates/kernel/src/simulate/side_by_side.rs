@@ -271,7 +271,7 @@ impl<O: Observer> Prepared<O> {
 
     /// Runs it alone.
     pub(super) fn run_alone(self) -> Response {
-        self.begun().to_end()
+        self.begun().into_response()
     }
 }
 
