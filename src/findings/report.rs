@@ -31,9 +31,9 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     writeln!(out, "*: some records collapsed; fell: the median record collapsed; -: no such run")?;
     print_tables(out, &view)?;
     heading(out, &format!("Conclusions of the source against these medians, variant {:?}", base.name))?;
-    writeln!(out, "{}", wrapped(&rules(), 0))?;
+    writeln!(out, "{}", wrapped(&rules(), 0, TERMINAL))?;
     findings(out, &view)?;
-    writeln!(out, "{}", wrapped(&held(&view), 0))?;
+    writeln!(out, "{}", wrapped(&held(&view), 0, TERMINAL))?;
     if medians.variants.len() > 1 {
         heading(out, "The same conclusions under every variant")?;
         matrix(out, medians)?;

@@ -56,7 +56,10 @@ fn figure(spectra: &Spectra, kind: Kind) -> Figure {
     let lines = lines(spectra);
     Figure {
         id: "spectra-figure".into(),
-        title: format!("Elastic response spectra, {} % damping", mrbd_kernel::written(100.0 * spectra.damping)),
+        title: format!(
+            "Elastic response spectra, {} % damping",
+            mrbd_kernel::written(100.0 * spectra.damping)
+        ),
         paper: (spectra.records.len() > 1).then(|| "Fig. 11".into()),
         legend: lines.iter().map(|line| Key::new(line.name, line.colour, line.mark)).collect(),
         panels: vec![graph(spectra, &lines).svg()],
