@@ -7,7 +7,7 @@ use super::picture::{Across, Down, Pen, Picture, Place, Words};
 
 /// Height of the zone above the axis, and of the gap below it, over that of text.
 const ZONE: f64 = 2.2;
-const GAP: f64 = 0.5;
+const GAP: f64 = 0.7;
 
 /// A rectangle of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]

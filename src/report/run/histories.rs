@@ -6,7 +6,7 @@ use mrbd_kernel::model::PATTERN_NAMES;
 use mrbd_kernel::simulate::Outcome;
 
 /// Heights of rotations, patterns, impacts and ground, units of the picture.
-const HEIGHTS: [f64; 4] = [668.0, 56.0, 76.0, 372.0];
+const HEIGHTS: [f64; 4] = [668.0, 56.0, 76.0, 376.0];
 /// Height of the slowest impact, over that of the fastest.
 const SLOWEST: f64 = 0.12;
 
