@@ -28,6 +28,7 @@
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
 //! | [`check`] | medians and accepted medians, runs and the same runs again | what moved, and what is ill-conditioned |
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
+//! | [`margin`] | a wall, a suite | the factor on each record that overturns it, and its fragility |
 //! | [`classics`] | a wall, and what others published | their studies again: the models of Fig. 9, overturning spectra |
 //! | [`results`] | what the laboratory found | result folders |
 //! | [`summary`] | result folders | what a page shows, computed before anything is drawn |
@@ -56,6 +57,7 @@ pub mod cli;
 pub mod error;
 pub mod findings;
 pub mod fragility;
+pub mod margin;
 pub mod report;
 pub mod results;
 pub mod starter;

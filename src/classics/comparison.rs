@@ -187,8 +187,8 @@ fn check(path: &Path, table: &ComparisonTable) -> Result<(), InputError> {
     require("laws", format!("{:?}", table.laws), !table.laws.is_empty(), "\"whole\", \"contact\" or both")?;
     let tail_holds = table.tail_s.is_finite() && table.tail_s >= 0.0;
     require("tail_s", table.tail_s.to_string(), tail_holds, "a finite number of seconds, 0 or more")?;
-    let tolerance_holds = (1e-12..=1e-2).contains(&table.tolerance);
-    require("tolerance", table.tolerance.to_string(), tolerance_holds, "1e-12 to 1e-2")
+    let tolerance_holds = Accuracy::TOLERANCES.contains(&table.tolerance);
+    require("tolerance", table.tolerance.to_string(), tolerance_holds, Accuracy::ALLOWED)
 }
 
 /// The wall as the three models, in the order of [`MODELS`].

@@ -13,6 +13,7 @@ use crate::error::{InputError, Result};
 use crate::study::plan::Plan;
 use crate::study::runs::OutputFolder;
 use crate::text::aligned;
+use mrbd_kernel::simulate::Accuracy;
 
 /// Run a sample of a study's runs again at a tighter tolerance: the share that comes out differently, and the medians.
 ///
@@ -64,11 +65,11 @@ impl CheckToleranceCommand {
     fn check_tolerance(&self, plan: &Plan) -> Result<()> {
         let Some(tolerance) = self.tolerance else { return Ok(()) };
         let tightest = plan.variants().map(|v| v.assumptions.tolerance).fold(f64::INFINITY, f64::min);
-        // Below 1e-13 rounding, not the step, makes the error.
-        if (1e-13..tightest).contains(&tolerance) {
+        if (*Accuracy::TOLERANCES.start()..tightest).contains(&tolerance) {
             return Ok(());
         }
-        let allowed = format!("1e-13 or more, and below the study's {tightest:e}");
+        let allowed =
+            format!("{:e} or more, and below the study's {tightest:e}", Accuracy::TOLERANCES.start());
         Err(InputError::option("--tolerance", format!("{tolerance:e}"), allowed).into())
     }
 }

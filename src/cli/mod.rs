@@ -13,6 +13,7 @@ mod effects;
 mod examples;
 mod fragility;
 mod init;
+mod margin;
 mod merge;
 mod output;
 mod progress;
@@ -68,6 +69,7 @@ enum Command {
     Records(records::RecordsArgs),
     #[command(after_help = examples::REPORT)]
     Report(report::ReportCommand),
+    Margin(margin::MarginCommand),
     Simulate(simulate::SimulateArgs),
     Completions(completions::CompletionsCommand),
 }
@@ -94,6 +96,7 @@ impl Cli {
             Command::Effects(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
+            Command::Margin(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),
             Command::Completions(command) => command.execute(),
         }

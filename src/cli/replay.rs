@@ -13,7 +13,7 @@ use crate::study::pipeline::Pipeline;
 use crate::study::plan::{Plan, Run};
 use crate::study::runs::{COLUMNS, Manifest, OutputFolder};
 use mrbd_files::file_sha256;
-use mrbd_kernel::simulate::{FREE_RELEASE_STEP_S, History, simulate_observed};
+use mrbd_kernel::simulate::{Ensemble, FREE_RELEASE_STEP_S, History, simulate_observed};
 
 /// Results that are compared with what is stored, bit by bit: each depends on the whole run.
 const COMPARED: [&str; 4] = ["theta1_max_rad", "theta2_max_rad", "end_time_s", "energy_residual"];
@@ -53,10 +53,9 @@ impl ReplayCommand {
         let position = run.position;
         let finished = self.rerun(run)?;
         if let (Ok(wall), Some(response)) = (&finished.run.wall, &finished.response) {
-            output::print(&match self.json {
-                true => format!("{:#}", simulate::as_json(wall, response)),
-                false => simulate::summary(wall, response),
-            })?;
+            let alone = Ensemble { run: response.clone(), others: Vec::new() };
+            let results = simulate::RunResults::new(wall, &finished.run.shaking(), &alone);
+            output::print(&if self.json { format!("{:#}", results.json()) } else { results.text() })?;
         }
         match finished.failure {
             Some(reason) => {

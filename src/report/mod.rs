@@ -14,6 +14,7 @@
 //! | `diagnosis` | where model and tests part, the missing force, candidates and rivals, before and after |
 //! | `comparison` | three models of a wall under the same records (Fig. 9) |
 //! | `overturning` | which pulses overturn a wall |
+//! | `margin` | the factor on each record that takes a wall beyond a limit |
 //!
 //! To make another page: say in `summary` what a folder of its kind holds, and fill a `Page` with sections here.
 //! Nothing is computed here but places and texts.
@@ -32,6 +33,7 @@ mod comparison;
 mod diagnosis;
 mod drawn;
 mod history;
+mod margin;
 mod overturning;
 mod page;
 mod provenance;
@@ -57,6 +59,7 @@ pub fn html(summary: &Summary) -> Result<String> {
         Summary::Calibration(calibrated) => Ok(calibration::page(calibrated)),
         Summary::Diagnosis(folder) => diagnosis::page(folder),
         Summary::Comparison(folder) => comparison::page(folder),
+        Summary::Margin(folder) => margin::page(folder),
         Summary::Overturning(folder) => overturning::page(folder),
         Summary::History(file) => history::page(file),
     };

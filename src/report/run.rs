@@ -12,7 +12,7 @@ use super::page::{Cell, Figure, Motion, Number, Page, Section, Table, script_saf
 use crate::error::Result;
 use histories::Window;
 use mrbd_kernel::model::{PATTERN_NAMES, Wall};
-use mrbd_kernel::simulate::{Accuracy, Outcome, Response, Shaking};
+use mrbd_kernel::simulate::{Accuracy, Ensemble, Outcome, Response, Shaking};
 
 /// Everything a picture of a run is made from.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +31,10 @@ pub struct RunPicture<'a> {
     pub watch: &'a Watch,
     /// How it ended.
     pub response: &'a Response,
+    /// The run and those beside it: digits are shown as far as they hold in all.
+    pub ensemble: &'a Ensemble,
+    /// How sure the outcome is, and whether the model applies, each a sentence.
+    pub remarks: &'a [String],
 }
 
 /// Histories shorter than this are not shown a second time from nearby, s.
@@ -85,27 +89,37 @@ impl RunPicture<'_> {
     }
 
     fn numbers(&self) -> Vec<Number> {
-        let [lower, upper] = self.response.theta_max_over_alpha_i().map(|ratio| format!("{ratio:.3}"));
-        let mut numbers = vec![Number::new(lower, "largest |θ₁|/α₁, lower body")];
-        if self.wall.is_cracked() {
-            numbers.push(Number::new(upper, "largest |θ₂|/α₂, upper body"));
-        } else {
-            numbers = vec![Number::new(lower_of(self.response), "largest |θ|/α")];
-        }
-        let top_mm = 1e3 * self.response.top_displacement_m.value;
-        numbers.push(Number::new(format!("{top_mm:+.1} mm"), "largest displacement of the top"));
+        let [lower, upper] = [0, 1].map(|i| self.held(|r| r.theta_max_over_alpha_i()[i]));
+        let mut numbers = match self.wall.is_cracked() {
+            true => vec![
+                Number::new(lower, "largest |θ₁|/α₁, lower body"),
+                Number::new(upper, "largest |θ₂|/α₂, upper body"),
+            ],
+            false => vec![Number::new(lower, "largest |θ|/α")],
+        };
+        let top_mm = self.held(|r| 1e3 * r.top_displacement_m.value.abs());
+        numbers.push(Number::new(format!("{top_mm} mm"), "largest displacement of the top"));
         numbers.push(Number::new(self.response.impacts.total(), "impacts"));
         numbers
     }
 
+    /// A result with the digits that hold, or three decimals of a run that is alone.
+    fn held(&self, value: impl Fn(&Response) -> f64) -> String {
+        match self.ensemble.others.is_empty() {
+            true => format!("{:.3}", value(self.response)),
+            false => self.ensemble.text(value),
+        }
+    }
+
     fn notes(&self) -> Vec<String> {
         let restitution = self.wall.parameters().restitution;
-        let mut notes = vec![format!(
+        let mut notes = self.remarks.to_vec();
+        notes.push(format!(
             "Assumed: impact law “{}”, capture velocity {:e} rad/s, collapse at {} αᵢ.",
             restitution.law.name(),
             restitution.capture_velocity_rad_s,
             self.wall.parameters().collapse_rotation_ratio
-        )];
+        ));
         if self.shaking.vertical.is_some() {
             notes.push("The vertical component acted too; the figures show the horizontal one.".into());
         }
@@ -239,8 +253,4 @@ impl RunPicture<'_> {
         let from_s = (peak_s - NEARBY_S.0).min(whole.to_s - NEARBY_S.0 - NEARBY_S.1).max(0.0);
         Some(Window { from_s, to_s: (from_s + NEARBY_S.0 + NEARBY_S.1).min(whole.to_s) })
     }
-}
-
-fn lower_of(response: &Response) -> String {
-    format!("{:.3}", response.theta_max_over_alpha_i()[0])
 }

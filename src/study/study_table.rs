@@ -10,6 +10,7 @@ use super::sweep_table::SweepTable;
 use crate::error::{InputError, Result};
 use crate::survey::Configuration;
 use crate::survey::sampling::Sampling;
+use mrbd_kernel::simulate::Response;
 use mrbd_records::ScaledMeasure;
 
 /// The `kind` of a pipeline file, and of the manifest of its results.
@@ -145,6 +146,17 @@ pub enum Limit {
     Collapse,
     /// Neither θ_1/α_1 nor θ_2/α_2 may exceed this, and it must not collapse.
     Rotation(f64),
+}
+
+impl Limit {
+    /// Whether a response exceeds it; a collapse does in any case.
+    pub fn exceeded_by(&self, response: &Response) -> bool {
+        response.collapsed()
+            || match self {
+                Limit::Collapse => false,
+                Limit::Rotation(over_alpha_i) => response.theta_max_over_own_alpha() > *over_alpha_i,
+            }
+    }
 }
 
 impl fmt::Display for Limit {

@@ -50,6 +50,8 @@ pub enum Summary {
     Comparison(PathBuf),
     /// The folder of an overturning spectrum, drawn as it is stored.
     Overturning(PathBuf),
+    /// The folder of a wall's margin, drawn as it is stored.
+    Margin(PathBuf),
     /// The file of a history, drawn as it is stored.
     History(PathBuf),
 }
@@ -106,6 +108,7 @@ fn of_folder(folder: &Path, manifest: &Path, site: Option<&Site>) -> Result<Summ
     match kind.as_deref() {
         Some(results::calibration::KIND) => Ok(Summary::Calibration(Box::new(Calibrated::read(folder)?))),
         Some(results::diagnosis::KIND) => Ok(Summary::Diagnosis(folder.to_path_buf())),
+        Some(crate::margin::KIND) => Ok(Summary::Margin(folder.to_path_buf())),
         Some(crate::classics::comparison::KIND) => Ok(Summary::Comparison(folder.to_path_buf())),
         _ => study(folder, manifest, site),
     }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{InputError, Result};
 use mrbd_kernel::model::{ImpactLaw, Restitution, WallParameters};
+use mrbd_kernel::simulate::Accuracy;
 
 /// What a study assumes where the survey is silent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -51,7 +52,7 @@ impl Default for Assumptions {
             law: ImpactLaw::Whole,
             capture_velocity_rad_s: Restitution::DEFAULT_CAPTURE_RAD_S,
             collapse_rotation_ratio: WallParameters::DEFAULT_COLLAPSE_RATIO,
-            tolerance: mrbd_kernel::simulate::Accuracy::default().tolerance,
+            tolerance: Accuracy::default().tolerance,
             tail_s: 5.0,
             vertical: false,
         }
@@ -88,9 +89,8 @@ impl Assumptions {
         rule("capture_velocity_rad_s", capture, capture >= 0.0, not_below_0)?;
         let ratio = self.collapse_rotation_ratio;
         rule("collapse_rotation_ratio", ratio, ratio > 0.0, above_0)?;
-        // Below 1e-13 rounding, not the step, makes the error.
-        let within = (1e-13..=1e-2).contains(&self.tolerance);
-        rule("tolerance", self.tolerance, within, "1e-13 to 1e-2")?;
+        let within = Accuracy::TOLERANCES.contains(&self.tolerance);
+        rule("tolerance", self.tolerance, within, Accuracy::ALLOWED)?;
         rule("tail_s", self.tail_s, self.tail_s >= 0.0, not_below_0)?;
         Ok(())
     }

@@ -119,6 +119,7 @@ fn rejects_walls_that_cannot_be() {
         ("length_m = 1.5", "", "length_m"),
         ("lower_width_m = 0.271", "lower_width_m = 0.4", "corners.lower_width_m"),
         ("stiffness_n_per_m = 37000.0", "stiffness_n_per_m = 37e20", "diaphragm.stiffness_n_per_m"),
+        ("rotation_ratio = 2.0", "rotation_ratio = 1e6", "collapse.rotation_ratio"),
         ("law = \"whole\"", "law = \"hole\"", "restitution.law"),
         ("[wall]", "[wall", "wall.toml:"),
     ];
@@ -194,7 +195,7 @@ fn rejects_options_that_make_no_sense() {
     rejects(&["simulate", "missing.toml", "--record", record], &["missing.toml"]);
     rejects(&["simulate", TABLE_WALL, "--record", "missing.csv"], &["missing.csv"]);
     rejects(&["simulate", TABLE_WALL], &["--record", "[initial]"]);
-    rejects(&["simulate", TABLE_WALL, "--record", record, "--tolerance", "0"], &["--tolerance", "1e-12"]);
+    rejects(&["simulate", TABLE_WALL, "--record", record, "--tolerance", "0"], &["--tolerance", "1e-13"]);
     rejects(&["simulate", TABLE_WALL, "--record", record, "--tail", "-1"], &["--tail"]);
     rejects(&["simulate", TABLE_WALL, "--record", record, "--scale", "inf"], &["--scale"]);
     rejects(
@@ -223,4 +224,73 @@ fn rejects_vertical_records_at_another_step() {
         .expect("the record");
     let arguments = ["simulate", TABLE_WALL, "--record", text(&record), "--vertical", text(&vertical)];
     rejects(&arguments, &["up.csv", "0.005", "0.01"]);
+}
+
+/// The wall and the record of `mrbd init`, a factor on the record, and one line of the wall's file replaced.
+fn starter_run(scale: &str, (old, new): (&str, &str), further: &[&str]) -> Output {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let wall = include_str!("../../src/starter/wall.toml");
+    assert!(wall.contains(old), "{old}");
+    let path = folder.path().join("wall.toml");
+    std::fs::write(&path, wall.replacen(old, new, 1)).expect("the wall");
+    let record = concat!(env!("CARGO_MANIFEST_DIR"), "/inputs/records/emilia7/generated_4_600ya.csv");
+    let output =
+        mrbd(&[&["simulate", text(&path), "--record", record, "--scale", scale][..], further].concat());
+    assert!(output.status.success(), "{}", stderr(&output));
+    output
+}
+
+fn starter_json(scale: &str, change: (&str, &str)) -> Value {
+    serde_json::from_slice(&starter_run(scale, change, &["--json"]).stdout).expect("JSON")
+}
+
+const SAME: (&str, &str) = ("37e3", "37e3");
+
+#[test]
+fn regress_an_outcome_that_flips_is_undecided() {
+    // The run falls at 1e-6 and stands at 1e-10; a millionth more or less on the record makes it stand.
+    let result = starter_json("3.4", SAME);
+    let ensemble = &result["ensemble"];
+    assert_eq!(ensemble["verdict"], "undecided", "{ensemble}");
+    let share = ensemble["collapsed_share"].as_f64().expect("a share");
+    assert!(share > 0.0 && share < 1.0, "{share}");
+    assert_eq!(ensemble["members"], 4);
+    let told = String::from_utf8_lossy(&starter_run("3.4", SAME, &[]).stdout).into_owned();
+    assert!(told.contains("\nUndecided: "), "{told}");
+}
+
+#[test]
+fn regress_a_tame_run_holds_to_its_digits() {
+    let result = starter_json("2", SAME);
+    let ensemble = &result["ensemble"];
+    assert_eq!(
+        (&ensemble["verdict"], &result["model_applies"]),
+        (&"stood".into(), &true.into()),
+        "{ensemble}"
+    );
+    let digits = ensemble["digits"]["theta1_max_over_alpha1"].as_u64().expect("digits");
+    assert!(digits >= 2, "{ensemble}");
+    // The run lies within its own ensemble.
+    let run = result["theta1_max_over_alpha1"].as_f64().expect("a number");
+    let ends: [f64; 2] =
+        serde_json::from_value(ensemble["theta1_max_over_alpha1"].clone()).expect("an interval");
+    assert!(ends[0] <= run && run <= ends[1] && ends[0] < ends[1], "{run} in {ends:?}");
+    // Alone it is the same run, and says nothing of others.
+    let alone = starter_run("2", SAME, &["--json", "--alone"]);
+    let mut alone: Value = serde_json::from_slice(&alone.stdout).expect("JSON");
+    assert_eq!(alone["ensemble"], Value::Null);
+    alone["ensemble"] = ensemble.clone();
+    assert_eq!(alone, result);
+}
+
+#[test]
+fn regress_a_floor_that_no_record_can_move_is_beyond_the_model() {
+    let result = starter_json("3.5", ("37e3", "1e11"));
+    assert_eq!(result["model_applies"], false);
+    let reasons = result["beyond_model"].to_string();
+    for reason in ["friction", "tensions", "period"] {
+        assert!(reasons.contains(reason), "{reason} in {reasons}");
+    }
+    let told = starter_run("3.5", ("37e3", "1e11"), &["--alone"]).stdout;
+    assert!(String::from_utf8_lossy(&told).contains("The model does not apply: "));
 }

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of `src/` in the flow of data, and the rooms that each may use.
-const ALLOWED: [(&str, &[&str]); 14] = [
+const ALLOWED: [(&str, &[&str]); 15] = [
     ("error", &[]),
     ("text", &[]),
     ("store", &["error"]),
@@ -17,12 +17,24 @@ const ALLOWED: [(&str, &[&str]); 14] = [
     ("findings", &["error", "text", "store", "survey", "study", "aggregate"]),
     ("check", &["error", "store", "survey", "study", "aggregate"]),
     ("fragility", &["error", "text", "store", "study"]),
+    ("margin", &["error", "store", "study", "fragility"]),
     ("classics", &["error", "text", "store", "study"]),
     ("results", &["error", "store"]),
     ("starter", &["error", "store"]),
     (
         "summary",
-        &["error", "store", "survey", "study", "aggregate", "findings", "fragility", "classics", "results"],
+        &[
+            "error",
+            "store",
+            "survey",
+            "study",
+            "aggregate",
+            "findings",
+            "fragility",
+            "margin",
+            "classics",
+            "results",
+        ],
     ),
     (
         "report",
@@ -35,6 +47,7 @@ const ALLOWED: [(&str, &[&str]); 14] = [
             "aggregate",
             "findings",
             "fragility",
+            "margin",
             "classics",
             "results",
             "summary",

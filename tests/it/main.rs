@@ -44,6 +44,7 @@ mod ground_suite;
 mod guide;
 mod impacts;
 mod limits;
+mod margin;
 mod matrix_form;
 mod matrix_model;
 mod overturning;

@@ -8,6 +8,7 @@ use crate::error::{InputError, Result};
 use crate::study::pipeline::check_name;
 use mrbd_files::{load_wall, toml_file};
 use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::Accuracy;
 use mrbd_records::Pulse;
 
 /// The `kind` of a pipeline file that is such a study.
@@ -162,7 +163,7 @@ fn check(path: &Path, file: &StudyFile) -> Result<(), InputError> {
         ("samples_per_period", f64::from(file.samples_per_period), 20.0, 1e6),
         ("tail_over_period", file.tail_over_period, 0.0, 1e4),
         ("least_tail_times_p", file.least_tail_times_p, 0.0, 1e4),
-        ("tolerance", file.tolerance, 1e-12, 1e-2),
+        ("tolerance", file.tolerance, *Accuracy::TOLERANCES.start(), *Accuracy::TOLERANCES.end()),
     ];
     for (key, value, least, most) in limits {
         if !(least..=most).contains(&value) {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::id::Fingerprint;
 use super::level::Level;
 use super::motions::{Motions, RecordHash};
+use crate::study::ladder::Ladder;
 use crate::study::pipeline::{Limit, Parameter, Variant};
 use crate::survey::Configuration;
 use crate::survey::{Facade, ImpossibleFacade};
@@ -45,6 +46,13 @@ pub struct Growth {
     pub growth: f64,
     /// Lowest intensity that exceeded the limit over the highest below it that did not, at most.
     pub bracket: f64,
+}
+
+impl Growth {
+    /// The intensities to search.
+    pub fn ladder(&self) -> Ladder {
+        Ladder { range: self.range, growth: self.growth, bracket: self.bracket }
+    }
 }
 
 /// One run: a façade, the record that shakes it, and how the plan came to it.

@@ -171,6 +171,7 @@ impl Wall {
             None => alpha_1,
         };
         let alpha_i_rad = [alpha_1, alpha_2];
+        check_collapse(p.collapse_rotation_ratio, alpha_i_rad)?;
         Ok(Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad, width_m, effects, parameters })
     }
 
@@ -261,6 +262,13 @@ fn check(p: &WallParameters, effects: &EffectSums) -> Result<(), ImpossibleWall>
     positive("collapse.rotation_ratio", p.collapse_rotation_ratio)?;
     check_initial(p)?;
     effect::check(p, effects)
+}
+
+/// A body that turned by a quarter lies on the ground: the one with the smaller α_i must count as fallen by then.
+fn check_collapse(ratio: f64, [alpha_1, alpha_2]: [f64; 2]) -> Result<(), ImpossibleWall> {
+    let most = std::f64::consts::FRAC_PI_2 / alpha_1.min(alpha_2);
+    let allowed = || format!("above 0 and at most {most:.4}, which is a quarter turn");
+    require("collapse.rotation_ratio", ratio, ratio <= most, allowed)
 }
 
 fn check_initial(p: &WallParameters) -> Result<(), ImpossibleWall> {

@@ -1,5 +1,7 @@
 //! One run: a wall under a ground motion, from the first sample to the end of free motion.
 
+mod beyond_model;
+mod ensemble;
 mod events;
 mod ground_path;
 mod history;
@@ -10,6 +12,8 @@ mod side_by_side;
 mod simulator;
 mod totals;
 
+pub use beyond_model::{BeyondModel, beyond_model, floor_period_s};
+pub use ensemble::{Ensemble, MEMBERS, Verdict, simulate_ensemble, simulate_members};
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
 pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
@@ -50,6 +54,13 @@ impl Shaking {
 pub struct Accuracy {
     /// Error allowed in rotations relative to α_i, over a well-conditioned run.
     pub tolerance: f64,
+}
+
+impl Accuracy {
+    /// Tolerances that make sense, of every command and file. Below, rounding and not the step makes the error.
+    pub const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-13..=1e-2;
+    /// [`Accuracy::TOLERANCES`] in words.
+    pub const ALLOWED: &'static str = "1e-13 to 1e-2";
 }
 
 impl Default for Accuracy {

@@ -127,7 +127,7 @@ impl Simulator {
         self.prepared_from(start, end_s, observer)
     }
 
-    fn prepared_from<O: Observer>(&self, start: &Start, end_s: f64, observer: O) -> Prepared<O> {
+    pub(super) fn prepared_from<O: Observer>(&self, start: &Start, end_s: f64, observer: O) -> Prepared<O> {
         let run = Run::new(self, &self.placed(start), self.ground.until(end_s), observer);
         let State { theta, omega } = start.state;
         let finite = theta.iter().chain(&omega).all(|x| x.is_finite());

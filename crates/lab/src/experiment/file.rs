@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::toml_file;
 use mrbd_kernel::model::ImpactLaw;
+use mrbd_kernel::simulate::Accuracy;
 
 /// An experiment file as written; its paths are relative to its folder.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -264,8 +265,8 @@ impl CalibrateTable {
             let error = || InputError::key(path, format!("calibrate.{key}"), found, allowed);
             if holds { Ok(()) } else { Err(error()) }
         };
-        let tolerance_holds = (1e-12..=1e-2).contains(&self.tolerance);
-        require("tolerance", self.tolerance.to_string(), tolerance_holds, "1e-12 to 1e-2")?;
+        let tolerance_holds = Accuracy::TOLERANCES.contains(&self.tolerance);
+        require("tolerance", self.tolerance.to_string(), tolerance_holds, Accuracy::ALLOWED)?;
         let population_holds = (5..=10_000).contains(&self.population);
         require("population", self.population.to_string(), population_holds, "5 to 10000")?;
         let share_holds = (0.0..1.0).contains(&self.settle_share);
