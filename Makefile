@@ -3,6 +3,9 @@
 # The suite of accelerograms the sweep runs on; any other by SUITE=FILE.
 SUITE ?= inputs/records/emilia7/suite.toml
 
+# What `mrbd --version` says beside the version; empty where there is no git.
+export MRBD_COMMIT := $(shell git describe --always --dirty --exclude '*' 2>/dev/null)
+
 include make/records.mk
 include make/examples.mk
 include make/peers.mk

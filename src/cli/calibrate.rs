@@ -1,16 +1,18 @@
 //! `mrbd calibrate`: coefficients and other numbers of a wall from measured tests.
 
 use std::io::BufRead;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::output;
 use super::progress::Bar;
+use super::shell::shell_word;
 use super::threads::Threads;
+use super::{output, stop};
 use crate::error::{InputError, Result};
 use crate::results::calibration::{OutputNames, finished, write_results};
 use mrbd_lab::calibrate::{Archive, Calibration, Experiment, calibrate, print_parameters, simulate, summary};
+use mrbd_lab::diagnose::check_tests;
 
 /// Calibrate a wall to measured tests.
 ///
@@ -53,6 +55,8 @@ pub struct CalibrateArgs {
 pub fn execute(args: &CalibrateArgs) -> Result<()> {
     let experiment = Experiment::load(&args.experiment, args.seed)?;
     let pool = args.threads.pool()?;
+    pool.install(|| check_tests(&args.experiment, &experiment.given()?, &experiment.tests))?;
+    print_lost(&experiment);
     let Some(out) = args.out.as_ref().filter(|_| !args.evaluate) else { return evaluate(&experiment) };
     if args.resume
         && let Some(stored) = finished(out, &experiment)?
@@ -60,11 +64,29 @@ pub fn execute(args: &CalibrateArgs) -> Result<()> {
         return print(&stored);
     }
     let names = OutputNames::prepare(out, &experiment, args.resume)?;
+    stop::end_on_signals(format!("what was simulated is stored; to go on: {}", again(args, out)))?;
     let progress = Box::new(Bar::of_simulations());
     let archive = Archive::open(&names.journal, &experiment.request, args.resume, progress)?;
     let calibration = pool.install(|| calibrate(&experiment, &archive))?;
     write_results(&names, &experiment, &calibration, archive)?;
     print(&calibration)
+}
+
+/// The command that goes on where this one was stopped.
+fn again(args: &CalibrateArgs, out: &Path) -> String {
+    let seed = args.seed.map_or_else(String::new, |seed| format!(" --seed {seed}"));
+    format!("mrbd calibrate {} --out {}{seed} --resume", shell_word(&args.experiment), shell_word(out))
+}
+
+/// Says which channels are lost, and what their files have instead.
+fn print_lost(experiment: &Experiment) {
+    for test in &experiment.tests {
+        let names = ["theta1_rad", "theta2_rad"].into_iter().zip(&test.measured.theta_rad);
+        for (name, _) in names.filter(|(_, theta)| theta.is_none()) {
+            let columns = test.measured.columns.join(", ");
+            eprintln!("mrbd: note: test {:?} has no {name}: columns {columns}", test.name);
+        }
+    }
 }
 
 /// The summary for people, the parameters for programs.
@@ -81,7 +103,7 @@ fn evaluate(experiment: &Experiment) -> Result<()> {
         let values = line.split([',', ' ', '\t']).filter(|x| !x.is_empty()).map(str::parse::<f64>);
         let values = values.collect::<std::result::Result<Vec<_>, _>>().ok();
         let Some(values) = values.filter(|v| v.len() == count && v.iter().all(|x| x.is_finite())) else {
-            let path = std::path::Path::new("stdin");
+            let path = Path::new("stdin");
             let allowed = format!("{count} numbers, parted by commas or spaces");
             return Err(InputError::line(path, number + 1, format!("{line:?}"), allowed).into());
         };

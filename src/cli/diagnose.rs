@@ -4,10 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::output;
 use super::progress::Bar;
 use super::report::write_page;
+use super::shell::shell_word;
 use super::threads::Threads;
+use super::{output, stop};
 use crate::error::Result;
 use crate::results::diagnosis::{OutputNames, write_results};
 use mrbd_lab::diagnose::answer::{FoundEffect, Summary};
@@ -45,6 +46,10 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     let experiment = Experiment::load(&args.experiment)?;
     let pool = args.threads.pool()?;
     let names = OutputNames::prepare(&args.out)?;
+    let (file, out) = (shell_word(&args.experiment), shell_word(&args.out));
+    stop::end_on_signals(format!(
+        "a diagnosis stores nothing before it is done; to begin again: mrbd diagnose {file} --out {out}"
+    ))?;
     let bar = Bar::of_steps();
     let diagnosis = pool.install(|| -> Result<Diagnosis> {
         check_data(&experiment)?;

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::error::Result;
-use crate::starter::write_starter;
+use crate::starter::{Floor, write_starter};
+
+use super::shell::shell_word;
 
 /// Write a wall, a study and an experiment to begin with, commented, that run as they are.
 ///
@@ -15,12 +17,16 @@ use crate::starter::write_starter;
 /// Examples:
 ///   mrbd init
 ///   mrbd init my-street
+///   mrbd init my-street --floor parallel
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct InitCommand {
     /// Folder for the files; it is made where it is not there.
     #[arg(default_value = ".", value_name = "DIR")]
     folder: PathBuf,
+    /// Write facade.toml too: a façade with such a floor, at the typical values of docs/typical-values.md.
+    #[arg(long, value_enum)]
+    floor: Option<Floor>,
 }
 
 impl InitCommand {
@@ -29,7 +35,7 @@ impl InitCommand {
     /// # Errors
     /// An input error if a file is there already; [`crate::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
-        let files = write_starter(&self.folder)?;
+        let files = write_starter(&self.folder, self.floor)?;
         let names: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
         super::output::print(&names.join("\n"))?;
         eprint!("{}", next_steps(&self.folder));
@@ -39,7 +45,7 @@ impl InitCommand {
 
 fn next_steps(folder: &Path) -> String {
     let here = folder == Path::new(".");
-    let enter = if here { String::new() } else { format!("  cd {}\n", folder.display()) };
+    let enter = if here { String::new() } else { format!("  cd {}\n", shell_word(folder)) };
     format!(
         "\nThese run as they are:\n{enter}\
          \x20 mrbd simulate wall.toml --record records/generated_4_600ya.csv --scale 3.5 --plot run.html   # one wall, in motion\n\

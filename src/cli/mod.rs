@@ -8,6 +8,7 @@ mod check;
 mod check_tolerance;
 mod compare_models;
 mod completions;
+mod describe;
 mod diagnose;
 mod effects;
 mod examples;
@@ -21,11 +22,15 @@ mod records;
 mod replay;
 mod report;
 mod run;
+mod shell;
 mod simulate;
 mod slurm;
 mod status;
 mod stop;
+mod table_args;
 mod threads;
+
+use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand};
 
@@ -38,7 +43,7 @@ use crate::error::Result;
 ///   mrbd simulate wall.toml --record records/generated_4_600ya.csv --scale 3.5 --plot run.html
 ///   mrbd run pipeline.toml && mrbd report outputs/first
 #[derive(Debug, Parser)]
-#[command(name = "mrbd", version, arg_required_else_help = true, verbatim_doc_comment)]
+#[command(name = "mrbd", version = version(), arg_required_else_help = true, verbatim_doc_comment)]
 pub struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -47,6 +52,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Init(init::InitCommand),
+    Describe(describe::DescribeCommand),
     #[command(after_help = examples::RUN)]
     Run(run::RunCommand),
     #[command(after_help = examples::MERGE)]
@@ -74,6 +80,16 @@ enum Command {
     Completions(completions::CompletionsCommand),
 }
 
+/// Version, and the commit where the build knew it.
+fn version() -> &'static str {
+    static VERSION: LazyLock<String> = LazyLock::new(|| {
+        let version = env!("CARGO_PKG_VERSION");
+        let commit = option_env!("MRBD_COMMIT").filter(|commit| !commit.is_empty());
+        commit.map_or_else(|| version.to_owned(), |commit| format!("{version} ({commit})"))
+    });
+    &VERSION
+}
+
 impl Cli {
     /// Runs the command that was asked for.
     ///
@@ -82,6 +98,7 @@ impl Cli {
     pub fn execute(self) -> Result<()> {
         match self.command {
             Command::Init(command) => command.execute(),
+            Command::Describe(command) => command.execute(),
             Command::Run(command) => command.execute(),
             Command::Merge(command) => command.execute(),
             Command::Status(command) => command.execute(),

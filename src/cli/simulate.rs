@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 pub(super) use self::results::RunResults;
 use super::output;
+use super::table_args::TableArgs;
 use crate::error::{Error, InputError, Result};
 use crate::report::{PlotFile, RunPicture, Watch};
 use crate::store::write_history;
@@ -17,9 +18,6 @@ use mrbd_kernel::simulate::{
     Accuracy, Ensemble, MEMBERS, Outcome, Response, Shaking, simulate, simulate_members, simulate_observed,
 };
 use mrbd_records::{Accelerogram, ReadOptions, read};
-
-/// Densities of masonry with room to spare, from light blocks with holes to dense stone, kg/m³.
-const MASONRY_KG_M3: std::ops::RangeInclusive<f64> = 300.0..=3500.0;
 
 /// Simulate one wall under one record, or its free release.
 ///
@@ -34,6 +32,7 @@ const MASONRY_KG_M3: std::ops::RangeInclusive<f64> = 300.0..=3500.0;
 ///   mrbd simulate inputs/walls/table_wall.toml --record gilroy.AT2
 ///   mrbd simulate wall.toml --record east.csv --scale 1.2 --vertical up.csv --json
 ///   mrbd simulate wall.toml --record record.txt --dt 0.005 --history run.parquet
+///   mrbd simulate wall.toml --record logger.csv --columns Time,Acc --unit g --decimal-comma
 ///   mrbd simulate wall.toml --record record.AT2 --plot run.html
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment, allow_negative_numbers = true)]
@@ -46,6 +45,8 @@ pub struct SimulateArgs {
     /// Time between samples, for records that do not tell it; the step of the history of a free release.
     #[arg(long, value_name = "SECONDS")]
     dt: Option<f64>,
+    #[command(flatten)]
+    table: TableArgs,
     /// Factor on the horizontal record.
     #[arg(long, value_name = "X", default_value_t = 1.0)]
     scale: f64,
@@ -93,7 +94,7 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     let shaking = shaking(args)?;
     let accuracy = accuracy(args.tolerance)?;
     check_moves(&wall, args)?;
-    tell_odd_density(&wall);
+    super::describe::print_questions(&args.wall, &wall);
     let read = [Some(&args.wall), args.record.as_ref(), args.vertical.as_ref()];
     let read = read.into_iter().flatten().map(PathBuf::as_path).collect::<Vec<_>>();
     output::check_apart("--history", args.history.as_deref(), &read)?;
@@ -173,8 +174,9 @@ fn shaking(args: &SimulateArgs) -> Result<Shaking> {
     let any = "a finite number";
     let scale = number("--scale", args.scale, true, any)?;
     let vertical_scale = number("--vertical-scale", args.vertical_scale, true, any)?;
-    let horizontal = load(args.record.as_deref(), args.dt, scale)?;
-    let vertical = load(args.vertical.as_deref(), args.dt, vertical_scale)?;
+    let options = ReadOptions { step_s: args.dt, ..args.table.options() };
+    let horizontal = load(args.record.as_deref(), &options, scale)?;
+    let vertical = load(args.vertical.as_deref(), &options, vertical_scale)?;
     if let (Some(h), Some(v), Some(path)) = (&horizontal, &vertical, &args.vertical)
         && h.step_s() != v.step_s()
     {
@@ -184,9 +186,9 @@ fn shaking(args: &SimulateArgs) -> Result<Shaking> {
     Ok(Shaking { horizontal, vertical, tail_s })
 }
 
-fn load(path: Option<&Path>, step_s: Option<f64>, scale: f64) -> Result<Option<Accelerogram>> {
+fn load(path: Option<&Path>, options: &ReadOptions, scale: f64) -> Result<Option<Accelerogram>> {
     let Some(path) = path else { return Ok(None) };
-    let record = read(path, &ReadOptions { step_s, ..ReadOptions::default() })?;
+    let record = read(path, options)?;
     Ok(Some(record.accelerogram.scaled(scale)))
 }
 
@@ -213,17 +215,6 @@ fn check_moves(wall: &Wall, args: &SimulateArgs) -> Result<()> {
         eprintln!("mrbd: note: no record, so --scale has nothing to act on");
     }
     Ok(())
-}
-
-/// Lengths in millimetres or a mass in tonnes make a wall that can be, but is none of masonry.
-fn tell_odd_density(wall: &Wall) {
-    let p = wall.parameters();
-    let density_kg_m3 = p.mass_kg / (p.thickness_m * p.height_m * p.length_m);
-    if !MASONRY_KG_M3.contains(&density_kg_m3) {
-        eprintln!(
-            "mrbd: note: mass and lengths of the wall come to {density_kg_m3:.3} kg/m3; are they in kg and m?"
-        );
-    }
 }
 
 /// Time between rows of the history: the record's, or for a free release what was asked for.

@@ -15,16 +15,42 @@ pub struct Threads {
     count: Option<NonZero<usize>>,
 }
 
+/// Threads a processor that may be had: more only wait for each other, and a request to stop waits for all of them.
+const MOST_A_PROCESSOR: usize = 4;
+/// As many may be had on any machine, so that a command runs alike on a small one.
+const FEW: usize = 64;
+
 impl Threads {
     /// The threads.
     ///
     /// # Errors
-    /// An input error if they cannot be had.
+    /// An input error if they are too many, or cannot be had.
     pub fn pool(&self) -> Result<ThreadPool, InputError> {
-        let processors = || std::thread::available_parallelism().ok();
-        let count = self.count.or_else(processors).map_or(1, NonZero::get);
-        let refuse =
-            |found: String| InputError::option("--threads", found, "a number of threads the system grants");
+        let processors = std::thread::available_parallelism().map_or(1, NonZero::get);
+        let count = self.count.map_or(processors, NonZero::get);
+        let most = FEW.max(MOST_A_PROCESSOR * processors);
+        let refuse = |found: String| {
+            let allowed = format!("1 to {most} threads on this machine of {processors} processor(s)");
+            InputError::option("--threads", found, allowed)
+        };
+        if count > most {
+            return Err(refuse(count.to_string()));
+        }
         ThreadPoolBuilder::new().num_threads(count).build().map_err(|e| refuse(e.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rejects_more_threads_than_processors_can_serve() {
+        for count in [5000, 100_000] {
+            let message = Threads { count: NonZero::new(count) }.pool().expect_err("too many").to_string();
+            let begins = format!("command line: --threads: found {count}; allowed: 1 to ");
+            assert!(message.starts_with(&begins), "{message}");
+        }
+        assert!(Threads { count: NonZero::new(64) }.pool().is_ok());
     }
 }

@@ -79,6 +79,14 @@ pub struct Analysis {
 }
 
 impl Analysis {
+    /// Whether an interval to quote has an end that the data do not set.
+    pub fn has_open_ends(&self) -> bool {
+        let best = self.result.as_ref().ok().and_then(Known::best);
+        best.is_some_and(|(_, Bounds { median, beta, .. })| {
+            [median.lower, median.upper, beta.lower, beta.upper].contains(&None)
+        })
+    }
+
     /// Whether the median lies outside the intensities that were observed, so that it rests on the log-normal shape.
     pub fn extrapolates(&self) -> bool {
         match (&self.result, self.range) {

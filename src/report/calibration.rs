@@ -38,9 +38,15 @@ pub fn page(calibrated: &Calibrated) -> Page {
 fn lead(stored: &Calibration) -> String {
     let fit = stored.tests.iter().filter(|test| test.purpose == "fit").count();
     let held = stored.tests.len() - fit;
-    let told = stored.parameters.iter().filter(|p| p.identifiability == Identifiability::Identified).count();
+    let count = |is: Identifiability| stored.parameters.iter().filter(|p| p.identifiability == is).count();
+    let (told, distrusted) = (count(Identifiability::Identified), count(Identifiability::SearchesDisagree));
+    let told = if distrusted > 0 {
+        format!("the searches disagree, so {distrusted} of the values are to be distrusted.")
+    } else {
+        format!("{told} of them are told by the tests.")
+    };
     format!(
-        "{} numbers of a wall sought in {fit} shaking-table test{}, {held} held out; {told} of them are told by the tests.",
+        "{} numbers of a wall sought in {fit} shaking-table test{}, {held} held out; {told}",
         stored.parameters.len(),
         if fit == 1 { "" } else { "s" }
     )

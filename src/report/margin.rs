@@ -49,7 +49,6 @@ pub fn page(folder: &Path) -> Result<Page> {
         }],
         provenance: note.pairs(),
         files: ["margin.json", "margin.parquet"].map(Link::to).to_vec(),
-        ..Page::default()
     })
 }
 

@@ -40,9 +40,11 @@ mod provenance;
 mod rotations;
 mod run;
 mod sweep;
+mod wall;
 mod words;
 
 pub use run::{ImpactMark, PlotFile, RunPicture, Watch};
+pub use wall::wall_svg;
 
 use crate::error::Result;
 use crate::summary::{Summary, as_damage};

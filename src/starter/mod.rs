@@ -3,12 +3,15 @@
 //! Ground motions are the shipped generated suite; the "measured" tests of the experiment are simulated here with the
 //! coefficients of the wall and made noisy, and say so.
 
+mod facade;
 mod made_up;
 
 use std::path::{Path, PathBuf};
 
 use crate::error::{Error, InputError, Result};
 use crate::store::write_durably;
+
+pub use facade::Floor;
 
 /// A file and what stands in it.
 type StarterFile = (&'static str, &'static str);
@@ -21,6 +24,9 @@ macro_rules! record {
         (concat!("records/", $name), include_str!(concat!("../../inputs/records/emilia7/", $name)))
     };
 }
+
+/// Name of the façade with a floor.
+const FACADE: &str = "facade.toml";
 
 const FILES: [StarterFile; 13] = [
     WALL,
@@ -38,13 +44,16 @@ const FILES: [StarterFile; 13] = [
     record!("generated_7_151ya.csv"),
 ];
 
-/// Writes the files into a folder, which is made where it is not there; gives their paths in order.
+/// Writes the files into a folder, which is made where it is not there; gives their paths in order. A floor adds a
+/// façade with it.
 ///
 /// # Errors
 /// An input error if one of the files is there already, before anything is written; [`Error::Io`] if the disk refuses.
-pub fn write_starter(folder: &Path) -> Result<Vec<PathBuf>> {
+pub fn write_starter(folder: &Path, floor: Option<Floor>) -> Result<Vec<PathBuf>> {
     let made_up = made_up::tests()?;
-    let files = FILES.iter().map(|&(name, text)| (name.to_owned(), text.to_owned())).chain(made_up);
+    let facade = floor.map(|floor| (FACADE.to_owned(), floor.wall_file()));
+    let files =
+        FILES.iter().map(|&(name, text)| (name.to_owned(), text.to_owned())).chain(made_up).chain(facade);
     let files: Vec<(PathBuf, String)> = files.map(|(name, text)| (folder.join(name), text)).collect();
     if let Some((there, _)) = files.iter().find(|(path, _)| path.exists()) {
         let allowed = "a folder without it: nothing is written over";

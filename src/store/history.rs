@@ -3,11 +3,13 @@
 //! `theta1_rad` and `theta2_rad` are what the sensors read. Where that is not the rotation itself, the rotation stands
 //! beside it in `theta1_true_rad` and `theta2_true_rad`.
 
+use std::collections::HashMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray};
+use arrow_schema::{Field, Schema};
 use parquet::arrow::ArrowWriter;
 use tempfile::NamedTempFile;
 
@@ -76,6 +78,16 @@ fn tidy_s(time_s: f64) -> f64 {
 const COLUMNS: [&str; 6] =
     ["time_s", "theta1_rad", "theta2_rad", "pattern", "theta1_true_rad", "theta2_true_rad"];
 
+/// Unit and meaning of each column.
+const MEANINGS: [(&str, &str); 6] = [
+    ("s", "time from the beginning of the record"),
+    ("rad", "rotation of the lower body as its sensor reads it, clockwise positive"),
+    ("rad", "rotation of the upper body as its sensor reads it, clockwise positive"),
+    ("", "pattern of contact: rest, 1a to 4b"),
+    ("rad", "rotation of the lower body itself"),
+    ("rad", "rotation of the upper body itself"),
+];
+
 fn columns(reading: &Reading) -> &'static [&'static str] {
     &COLUMNS[..if reading.is_true() { 4 } else { 6 }]
 }
@@ -114,7 +126,14 @@ fn write_parquet(
         column(&|i| rows[i].theta_rad[0]),
         column(&|i| rows[i].theta_rad[1]),
     ];
-    let batch = RecordBatch::try_from_iter(columns(reading).iter().copied().zip(arrays))?;
+    let fields =
+        columns(reading).iter().zip(MEANINGS).zip(&arrays).map(|((name, (unit, meaning)), array)| {
+            let metadata = [("unit", unit), ("description", meaning)]
+                .map(|(key, value)| (key.to_owned(), value.to_owned()));
+            Field::new(*name, array.data_type().clone(), false).with_metadata(HashMap::from(metadata))
+        });
+    let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
+    let batch = RecordBatch::try_new(schema, arrays[..columns(reading).len()].to_vec())?;
     let mut writer = ArrowWriter::try_new(file, batch.schema(), None)?;
     writer.write(&batch)?;
     writer.close()?;

@@ -76,6 +76,26 @@ fn regress_results_are_the_same_on_any_threads_and_after_a_stop() {
 }
 
 #[test]
+fn regress_a_distrusted_search_calls_nothing_identified_and_gives_no_interval() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    // Noise, and far fewer vectors than either search needs.
+    let settings = "capture_study_rad_s = []\nmost_generations = 2\nrefine_vectors = 20\nreplicates = 5\n";
+    let experiment = Twin { settings: settings.into(), noise: 0.01, ..quick() }.write(folder.path());
+    let out = folder.path().join("out");
+    let done = calibrate(&experiment, &out, &[]);
+    let (table, csv) = (String::from_utf8_lossy(&done.stderr), String::from_utf8_lossy(&done.stdout));
+    assert!(done.status.success() && table.contains("Distrust the values"), "{table}");
+    assert!(![&table, &csv].iter().any(|text| text.contains("identified")), "{table}\n{csv}");
+    assert!(csv.contains("distrusted: the searches disagree"), "{csv}");
+    for parameter in json(&out)["parameters"].as_array().expect("a list") {
+        assert!(
+            parameter["interval_95"].is_null() && parameter["identifiability"] != "identified",
+            "{parameter}"
+        );
+    }
+}
+
+#[test]
 fn regress_a_finished_calibration_resumed_prints_its_result_again() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let experiment = quick().write(folder.path());
@@ -177,4 +197,61 @@ fn published_the_findings_of_figure_9_hold_in_most_cases() {
             assert!(of >= 30.0 && holds / of > 0.75, "{f}");
         }
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn regress_an_interrupt_says_how_to_go_on_and_ends_with_1() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    // Long enough to be interrupted.
+    let experiment = Twin { settings: "replicates = 40\n".into(), ..quick() }.write(folder.path());
+    for signal in ["INT", "TERM"] {
+        let out = folder.path().join(signal);
+        let child = Command::new(env!("CARGO_BIN_EXE_mrbd"))
+            .args(["calibrate", text(&experiment), "--out", text(&out)])
+            .stderr(Stdio::piped())
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("mrbd starts");
+        while !std::fs::metadata(out.join("journal.tsv")).is_ok_and(|m| m.len() > 0) {
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args(["-s", signal, &id]).status().expect("kill").success());
+        let output = child.wait_with_output().expect("ends");
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        let again = format!("to go on: mrbd calibrate {} --out {} --resume", text(&experiment), text(&out));
+        assert!(message.contains(&again), "{message}");
+    }
+}
+
+#[test]
+fn rejects_measured_files_that_are_wrong_in_a_way_that_shows() {
+    let degrees = |theta: f64| theta.to_degrees();
+    let spoil = |name: &str, header: &str, change: &dyn Fn([f64; 2]) -> [f64; 2]| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let experiment = Twin { noise: 0.01, ..quick() }.write(folder.path());
+        let measured = folder.path().join("measured_0.csv");
+        let text = std::fs::read_to_string(&measured).expect("measured");
+        let rows = text.lines().skip(1).map(|line| {
+            let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().expect("a number")).collect();
+            let [theta1, theta2] = change([cells[1], cells[2]]);
+            format!("{:?},{theta1:?},{theta2:?}", cells[0])
+        });
+        let text = std::iter::once(header.to_owned()).chain(rows).collect::<Vec<_>>().join("\n");
+        std::fs::write(&measured, text).expect("written");
+        let refused = calibrate(&experiment, &folder.path().join("out"), &[]);
+        let message = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{name}: {message}");
+        message
+    };
+    let header = "time_s,theta1_rad,theta2_rad";
+    let message = spoil("degrees", header, &|theta| theta.map(degrees));
+    assert!(message.contains("degrees"), "{message}");
+    let message = spoil("sign", header, &|[theta1, theta2]| [theta1, -theta2]);
+    assert!(message.contains("the sign of theta2_rad is wrong"), "{message}");
+    let message = spoil("name", "time_s,theta1_deg,theta2_rad", &|theta| theta);
+    assert!(message.contains("found columns time_s, theta1_deg, theta2_rad"), "{message}");
+    assert!(message.contains("did you mean \"theta1_deg\"?"), "{message}");
 }

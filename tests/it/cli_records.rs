@@ -197,3 +197,23 @@ fn rejects_what_makes_no_sense() {
         assert!(message.contains(word), "{arguments:?}: {message}");
     }
 }
+
+#[test]
+fn analytic_a_table_of_a_spreadsheet_is_read_by_its_columns() {
+    let folder = folder();
+    let (table, out) = (at(&folder, "logger.csv"), at(&folder, "out.csv"));
+    std::fs::write(&table, "Time;Acc\n0,00;0,1\n0,01;-0,2\n0,02;0,05\n").expect("written");
+    let message = refused(&["convert", &table, &out]);
+    assert!(message.contains("--columns 1,2 --unit g") && message.contains("--decimal-comma"), "{message}");
+    accepted(&["convert", &table, &out, "--columns", "Time,Acc", "--unit", "g", "--decimal-comma"]);
+    let text = std::fs::read_to_string(&out).expect("written");
+    let samples: Vec<f64> = text.lines().skip(1).map(|row| row[5..].parse().expect("a number")).collect();
+    // A product with g: one rounding each.
+    assert!(samples.iter().zip([0.1, -0.2, 0.05]).all(|(a, g)| (a / 9.81 - g).abs() < 1e-15), "{text}");
+    let suite = at(&folder, "suite.toml");
+    let keys = "columns = \"Time,Acc\"\ndecimal_comma = true\nunit = \"g\"\n";
+    std::fs::write(&suite, format!("name = \"mine\"\n{keys}[[records]]\nid = 1\nfile = \"logger.csv\"\n"))
+        .expect("written");
+    let of_suite = Suite::load(Path::new(&suite)).expect("a suite");
+    assert_eq!(of_suite.records[0].horizontal.acceleration_m_s2(), &samples[..]);
+}

@@ -71,6 +71,9 @@ fn columns_page() -> String {
          One row a run, in `runs/record=*/part-*.parquet` of a study's folder. Unit and meaning stand in the files too, in the \
          metadata of each field. A value that does not exist is null. This page is made from the program's own table by \
          `UPDATE_GUIDE=1 cargo test --release --locked --test it guide`.\n\n\
+         PyArrow takes the names of folders for a column: `pyarrow.dataset.dataset(folder, partitioning=None)` reads the files' own \
+         `record` (with `partitioning=\"hive\"` the two types differ, and it refuses). Counts are unsigned: make them signed before \
+         subtracting.\n\n\
          ## Known before the run\n\n{}\n## Results\n\n{}",
         table(Stage::Input),
         table(Stage::Result)

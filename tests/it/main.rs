@@ -15,6 +15,7 @@ mod check;
 mod cli_records;
 mod cli_simulate;
 mod convergence;
+mod describe;
 mod diagnose;
 mod diagnose_force;
 mod diagnose_twin;

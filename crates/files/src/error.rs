@@ -4,6 +4,7 @@
 //! everything else exits with 1.
 
 use std::fmt;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// What can go wrong with files: what is in them, or reading and writing them.
@@ -27,11 +28,16 @@ pub enum Error {
 /// Result of any fallible function of the library.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
+/// What the system says where the path is at fault, and no disk or right.
+const WRONG_PATH: [ErrorKind; 4] =
+    [ErrorKind::NotFound, ErrorKind::NotADirectory, ErrorKind::IsADirectory, ErrorKind::AlreadyExists];
+
 impl Error {
-    /// Exit code of the process: 2 for bad input, 1 for any other failure.
+    /// Exit code of the process: 2 for bad input, a path where nothing can be among it; 1 for any other failure.
     pub fn exit_code(&self) -> u8 {
         match self {
             Error::Input(_) => 2,
+            Error::Io { source, .. } if WRONG_PATH.contains(&source.kind()) => 2,
             Error::Io { .. } => 1,
         }
     }
@@ -118,3 +124,16 @@ impl fmt::Display for InputError {
 }
 
 impl std::error::Error for InputError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rejects_paths_where_nothing_can_be_as_bad_input() {
+        let code = |kind: ErrorKind| Error::io("write", Path::new("nodir/x.csv"), kind.into()).exit_code();
+        assert_eq!(WRONG_PATH.map(code), [2; 4]);
+        let of_the_disk = [ErrorKind::StorageFull, ErrorKind::PermissionDenied, ErrorKind::BrokenPipe];
+        assert_eq!(of_the_disk.map(code), [1; 3]);
+    }
+}

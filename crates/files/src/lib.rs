@@ -7,6 +7,8 @@
 //! | --- | --- |
 //! | [`toml_file`] | any TOML file, unknown keys refused, the nearest known name suggested ([`suggestion`]) |
 //! | [`wall_file`] | a wall: geometry, masses, restraint, effects; `[wall]` alone is enough |
+//! | [`slips`] | numbers of a wall file in another unit than their key's |
+//! | [`description`] | what a wall file means: weights, slenderness, what it takes to rock |
 //! | [`coefficients`] | bounds and best fit of the impact coefficients C_l (the paper's Table 2) |
 //! | [`checksum`] | any file, for the note that results keep of what they were made from |
 //!
@@ -28,11 +30,14 @@
 
 pub mod checksum;
 pub mod coefficients;
+pub mod description;
 pub mod error;
+pub mod slips;
 pub mod suggestion;
 pub mod toml_file;
 pub mod wall_file;
 
 pub use checksum::{FileNote, file_sha256};
+pub use description::Description;
 pub use error::{Error, InputError, Place, Result};
-pub use wall_file::{load_wall, parse_wall, wall_from_table};
+pub use wall_file::{load_block, load_wall, parse_block, parse_wall, wall_from_table};

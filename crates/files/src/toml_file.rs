@@ -44,16 +44,40 @@ fn fault(path: &Path, text: &str, key: &str, error: &toml::de::Error) -> Error {
         (key, None) => Place::Key(key.to_owned()),
         (key, Some(line)) => Place::KeyOnLine(key.to_owned(), line),
     };
+    let comma = line.and_then(|line| decimal_comma(text.lines().nth(line - 1)?));
+    if let (Some(number), true) = (comma, key.is_empty() || key == ".") {
+        let found = format!("`{number}`, with a decimal comma");
+        let allowed = format!("a decimal point: {}", number.replace(',', "."));
+        return InputError { origin: path.display().to_string(), place, found, allowed }.into();
+    }
     // serde words its messages "<found>, expected <allowed>".
     let message = error.message().trim();
     let (found, allowed) = match message.split_once(", expected ") {
-        Some((found, allowed)) => (found.to_owned(), suggested(found, allowed)),
+        Some((found, allowed)) => (found.to_owned(), suggested(found, in_words(allowed))),
         None if message.starts_with("missing field") => {
             (message.to_owned(), "this key must be given".to_owned())
         }
         None => (message.to_owned(), "valid TOML".to_owned()),
     };
     InputError { origin: path.display().to_string(), place, found, allowed }.into()
+}
+
+/// The number of a line `key = 0,291`, which TOML ends at the comma.
+fn decimal_comma(line: &str) -> Option<&str> {
+    let value = line.split_once('=')?.1.split('#').next()?.trim();
+    let (whole, decimals) = value.split_once(',')?;
+    let digits = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+    (digits(whole.trim_start_matches(['+', '-'])) && digits(decimals)).then_some(value)
+}
+
+/// What serde names after a type of this program, as people say it.
+fn in_words(allowed: &str) -> &str {
+    match allowed {
+        "f64" => "a number",
+        "u64" | "u32" | "usize" => "a whole number, 0 or more",
+        "i64" | "i32" => "a whole number",
+        other => other,
+    }
 }
 
 /// What serde allows, with the key or value that was likely meant: serde quotes names in backticks.
@@ -99,6 +123,9 @@ mod tests {
             wrong_type.starts_with("a.toml:2: inner.height_m: found invalid type: string"),
             "{wrong_type}"
         );
+        assert!(wrong_type.ends_with("; allowed: a number"), "{wrong_type}");
+        let comma = message("[inner]\nheight_m = 2,5 # m\n");
+        assert_eq!(comma, "a.toml:2: found `2,5`, with a decimal comma; allowed: a decimal point: 2.5");
         let unknown = message("[inner]\nheight_m = 1.0\nhieght = 2\n");
         assert!(
             unknown.contains("a.toml:3") && unknown.contains("hieght") && unknown.contains("`height_m`"),

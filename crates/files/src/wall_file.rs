@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::toml_file;
 use crate::error::{InputError, Result};
+use crate::slips::{self, Lengths};
 use mrbd_kernel::model::{Effect, ImpactLaw, Restitution, Wall, WallParameters, crushed_widths_m};
 
 /// A wall file as written.
@@ -95,7 +96,34 @@ pub fn load_wall(path: &Path) -> Result<Wall> {
 /// As [`load_wall`].
 pub fn parse_wall(path: &Path, text: &str) -> Result<Wall> {
     let file: WallFile = toml_file::parse(path, text)?;
+    check_slips(path, &file)?;
     Ok(wall(path, file)?)
+}
+
+/// Reads a block of a closed form, which may have sizes that no wall of masonry has.
+///
+/// # Errors
+/// As [`load_wall`], but for numbers that are taken for slips.
+pub fn load_block(path: &Path) -> Result<Wall> {
+    parse_block(path, &toml_file::read(path)?)
+}
+
+/// Checks the text of a block that came from `path`.
+///
+/// # Errors
+/// As [`load_block`].
+pub fn parse_block(path: &Path, text: &str) -> Result<Wall> {
+    Ok(wall(path, toml_file::parse(path, text)?)?)
+}
+
+/// Refuses numbers that no wall has: they are in another unit than their key's.
+fn check_slips(path: &Path, file: &WallFile) -> Result<(), InputError> {
+    let &Body { thickness_m, height_m, crack_height_m, length_m, mass_kg, density_kg_m3 } = &file.wall;
+    let widths_m = file.corners.as_ref().map_or([None; 2], |c| [c.lower_width_m, c.upper_width_m]);
+    slips::check_lengths(path, &Lengths { thickness_m, height_m, crack_height_m, length_m, widths_m })?;
+    density_kg_m3.map_or(Ok(()), |density_kg_m3| slips::check_density(path, density_kg_m3))?;
+    let volume_m3 = thickness_m * height_m * length_m;
+    mass_kg.map_or(Ok(()), |mass_kg| slips::check_mass(path, mass_kg, volume_m3))
 }
 
 /// Makes a wall from the table of a wall file, whose values a calibration has changed.

@@ -63,7 +63,8 @@ mod unit;
 
 pub use code_spectrum::{COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Site, Soil, SuiteCheck, Topography};
 pub use formats::{
-    FORMATS, Format, ReadOptions, Record, formats_in_words, read, read_bytes, write_two_columns,
+    ColumnChoice, FORMATS, Format, NoColumns, ReadOptions, Record, formats_in_words, read, read_bytes,
+    write_two_columns,
 };
 pub use generate::{STEP_S as GENERATED_STEP_S, generate, write_suite};
 pub use intensity::{IntensityMeasures, Motion};

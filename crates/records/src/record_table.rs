@@ -171,6 +171,8 @@ pub fn write_imports(folder: &Path, name: &str, table: &RecordTable, imports: &[
         source,
         unit: None,
         step_s: None,
+        columns: None,
+        decimal_comma: false,
         records,
     };
     let path = folder.join("suite.toml");

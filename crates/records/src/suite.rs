@@ -193,6 +193,8 @@ impl Entry<'_> {
             step_s: self.entry.step_s.or(self.file.step_s),
             unit: self.entry.unit.or(self.file.unit),
             channel,
+            columns: self.entry.columns.clone().or_else(|| self.file.columns.clone()),
+            decimal_comma: self.entry.decimal_comma || self.file.decimal_comma,
         };
         read(&path, &options)
     }

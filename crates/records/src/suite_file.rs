@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::record_table::TableRow;
-use super::{Pulse, ReadOptions, Selection, Suite, Unit};
+use super::{ColumnChoice, Pulse, ReadOptions, Selection, Suite, Unit};
 use mrbd_files::error::{Error, InputError, Result};
 use mrbd_files::toml_file;
 
@@ -25,6 +25,9 @@ pub(super) struct SuiteFile {
     pub source: String,
     pub unit: Option<Unit>,
     pub step_s: Option<f64>,
+    pub columns: Option<ColumnChoice>,
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub decimal_comma: bool,
     pub records: Vec<RecordEntry>,
 }
 
@@ -38,6 +41,9 @@ pub(super) struct RecordEntry {
     pub channel: Option<String>,
     pub unit: Option<Unit>,
     pub step_s: Option<f64>,
+    pub columns: Option<ColumnChoice>,
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub decimal_comma: bool,
     #[serde(default = "one")]
     pub scale: f64,
     pub vertical: Option<String>,
@@ -140,6 +146,8 @@ impl SuiteSource {
             source,
             unit: options.unit,
             step_s: options.step_s,
+            columns: options.columns.clone(),
+            decimal_comma: options.decimal_comma,
             records,
         };
         Ok(Self { path: path.join("suite.toml"), file })

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::error::{InputError, Result};
 use crate::study::pipeline::check_name;
-use mrbd_files::{load_wall, toml_file};
+use mrbd_files::{load_block, toml_file};
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::Accuracy;
 use mrbd_records::Pulse;
@@ -138,7 +138,7 @@ impl Study {
         let file: StudyFile = toml_file::parse(path, &text)?;
         check_name(path, &file.name)?;
         check(path, &file)?;
-        let wall = load_wall(&path.parent().unwrap_or(Path::new(".")).join(&file.wall))?;
+        let wall = load_block(&path.parent().unwrap_or(Path::new(".")).join(&file.wall))?;
         Ok(Some(Self {
             name: file.name,
             wall,

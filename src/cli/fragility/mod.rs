@@ -166,6 +166,13 @@ impl FragilityCommand {
         if !within {
             return Err(InputError::option("--level", self.level.to_string(), "above 0 and below 1").into());
         }
+        // The outermost rank of n replicates is 1/(n + 1) from the end: fewer promise too narrow an interval.
+        let least = (2.0 / (1.0 - self.level)).round() - 1.0;
+        if self.replicates > 0 && f64::from(self.replicates) < least {
+            let allowed =
+                format!("0 for intervals of the profile likelihood, or {least} or more at this --level");
+            return Err(InputError::option("--replicates", self.replicates.to_string(), allowed).into());
+        }
         let bootstrap = Bootstrap { replicates: self.replicates, seed: self.seed };
         Ok(Settings { method: self.method(incremental)?, bootstrap, level: self.level })
     }
@@ -184,7 +191,10 @@ impl FragilityCommand {
                 Ok(Method::Cloud { limit })
             }
             (MethodName::Cloud, demand, limit) => {
-                let found = format!("--demand {demand:?} and --limit {limit:?}");
+                let demand =
+                    demand.as_ref().map_or("no --demand".to_owned(), |column| format!("--demand {column}"));
+                let limit = limit.map_or("no --limit".to_owned(), |limit| format!("--limit {limit}"));
+                let found = format!("{demand} and {limit}");
                 let allowed = "for a cloud, --demand COLUMN and --limit X above 0";
                 Err(InputError::option("--method", found, allowed).into())
             }
@@ -271,6 +281,14 @@ impl FragilityCommand {
         if asked.lies_above() {
             eprintln!(
                 "mrbd: note: intensities are those at the upper end of each bracket; of the study's own measure the middle is taken"
+            );
+        }
+        let open = groups.iter().filter(|group| group.analysis.has_open_ends()).count();
+        if open > 0 {
+            eprintln!(
+                "mrbd: note: {open} intervals have an end `?`: so many replicates drew outcomes that tell no fragility \
+                 that they reach past it; more façades or records close it, and `--replicates 0` gives intervals of \
+                 the profile likelihood, which take outcomes as independent"
             );
         }
         if asked.clusters().is_empty() {

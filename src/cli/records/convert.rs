@@ -13,6 +13,7 @@ use mrbd_records::write_two_columns;
 /// Examples:
 ///   mrbd records convert gilroy.AT2 gilroy.csv
 ///   mrbd records convert wpws.V2A up.csv --channel Up
+///   mrbd records convert logger.csv record.csv --columns 1,3 --unit g --decimal-comma
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]
 pub struct ConvertArgs {

@@ -43,7 +43,8 @@ struct Description {
     name: String,
     format: Option<String>,
     channel: Option<String>,
-    generated: bool,
+    /// `None` of a file by itself: only a suite says it.
+    generated: Option<bool>,
     scale: f64,
     step_s: f64,
     samples: usize,
@@ -66,7 +67,7 @@ impl Description {
             name,
             format: None,
             channel: None,
-            generated: false,
+            generated: None,
             scale: 1.0,
             step_s: record.step_s(),
             samples: record.acceleration_m_s2().len(),
@@ -112,12 +113,12 @@ fn descriptions(args: &DescribeArgs) -> Result<Vec<Description>> {
     }
     let Some(path) = &args.suite else { return Ok(descriptions) };
     if args.read.options() != Default::default() {
-        let found = "--dt, --unit or --channel beside a suite";
+        let found = "--dt, --unit, --columns or --channel beside a suite";
         return Err(InputError::option("--suite", found, "the suite file states them").into());
     }
     for record in Suite::load(path)?.records {
         let mut description = Description::new(record.name, &record.horizontal);
-        (description.scale, description.generated) = (record.scale, record.generated);
+        (description.scale, description.generated) = (record.scale, Some(record.generated));
         descriptions.push(description);
     }
     Ok(descriptions)

@@ -14,9 +14,10 @@ use std::path::Path;
 use clap::{Args, Subcommand};
 
 use super::output::print;
+use super::table_args::TableArgs;
 use crate::error::{InputError, Result};
 use crate::text::aligned;
-use mrbd_records::{ReadOptions, Record, RecordTable, Unit, formats_in_words, read};
+use mrbd_records::{ReadOptions, Record, RecordTable, formats_in_words, read};
 
 /// The paper's Table 4, so that the commands work anywhere.
 const TABLE_4: &str = include_str!("../../../inputs/table4.toml");
@@ -79,9 +80,8 @@ struct ReadArgs {
     /// Time between samples, where files do not state it.
     #[arg(long, value_name = "SECONDS")]
     dt: Option<f64>,
-    /// Unit of the samples, where files do not state it: m/s2, g, cm/s2, gal or mm/s2.
-    #[arg(long)]
-    unit: Option<Unit>,
+    #[command(flatten)]
+    table: TableArgs,
     /// Channel of files of several: its number from 1, or its name.
     #[arg(long)]
     channel: Option<String>,
@@ -89,7 +89,7 @@ struct ReadArgs {
 
 impl ReadArgs {
     fn options(&self) -> ReadOptions {
-        ReadOptions { step_s: self.dt, unit: self.unit, channel: self.channel.clone() }
+        ReadOptions { step_s: self.dt, channel: self.channel.clone(), ..self.table.options() }
     }
 
     fn read(&self, path: &Path) -> Result<Record> {

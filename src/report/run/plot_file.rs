@@ -28,12 +28,16 @@ impl PlotFile {
     pub fn new(path: &Path) -> Result<Self> {
         let refuse =
             |found: String, allowed: &str| Err(InputError::key(path, "--plot", found, allowed).into());
-        let kind = match path.extension().and_then(|extension| extension.to_str()) {
-            Some("svg") => Kind::Svg,
-            Some("png") => Kind::Png,
-            Some("html") => Kind::Html,
-            other => return refuse(format!("extension {:?}", other.unwrap_or("")), ".svg, .png or .html"),
-        };
+        let kind =
+            match path.extension().and_then(|extension| extension.to_str()).map(str::to_lowercase).as_deref()
+            {
+                Some("svg") => Kind::Svg,
+                Some("png") => Kind::Png,
+                Some("html") => Kind::Html,
+                other => {
+                    return refuse(format!("extension {:?}", other.unwrap_or("")), ".svg, .png or .html");
+                }
+            };
         match path.parent() {
             Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => refuse(
                 format!("the folder {}, which is not there", folder.display()),

@@ -292,6 +292,7 @@ mod tests {
         let noise = |k: usize| [1e-3 * normal(k, 0), 2e-3 * normal(k, 1)];
         let theta = |i: usize| (0..=400).map(|k| 0.1 * (0.05 * k as f64).sin() + noise(k)[i]).collect();
         let measured = Measured {
+            columns: Vec::new(),
             time_s: (0..=400).map(|k| 0.005 * f64::from(k)).collect(),
             theta_rad: [Some(theta(0)), Some(theta(1))],
             gap_s: 0.01,

@@ -12,7 +12,8 @@ use super::identifiability::{BOOTSTRAP, Judge};
 use super::objective::{Objective, prior_factor};
 use super::paper::{PaperDe, most_similar};
 use super::parameters::ParameterSpace;
-use super::result::{Calibration, MethodResult, Vector};
+use super::report::disagreement;
+use super::result::{Calibration, Estimate, MethodResult, Vector};
 use super::search::{Draws, Found};
 use super::staged_search::{StagedSearch, stage_names};
 use crate::experiment::file::{CalibrateTable, ExperimentFile, Purpose};
@@ -60,6 +61,15 @@ impl Experiment {
     /// Numbers of the tests that the search sees.
     pub fn fit_tests(&self) -> Vec<usize> {
         (0..self.tests.len()).filter(|&k| self.tests[k].purpose == Purpose::Fit).collect()
+    }
+
+    /// The wall before the calibration.
+    ///
+    /// # Errors
+    /// An input error if it cannot be; [`Experiment::load`] has refused it then.
+    pub fn given(&self) -> Result<Wall, InputError> {
+        let parameters = self.space.base().clone();
+        Wall::new(parameters).map_err(|e| InputError::key(&self.path, e.key, e.found, e.allowed))
     }
 
     /// Accuracy of the simulations.
@@ -122,6 +132,14 @@ impl Flow<'_> {
         let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
         let per_test = self.better_of(&paper, &adaptive);
         let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
+        let (parameters, correlation) = match disagreement(&methods) {
+            None => (parameters, correlation),
+            // Correlations are those of the intervals, which are not given then.
+            Some(_) => (
+                parameters.into_iter().map(Estimate::distrusted).collect(),
+                vec![vec![None; correlation.len()]; correlation.len()],
+            ),
+        };
         let capture_study = capture_study(self.experiment, self.archive, &self.fit, &vector.values)?;
         let tests = evaluation.tests(&vector, &methods);
         let base = self.experiment.space.base();

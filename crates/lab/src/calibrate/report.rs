@@ -131,7 +131,7 @@ fn told(joint: f64, refined: f64) -> Option<String> {
     let [low, high] = [joint.min(refined), joint.max(refined)];
     (high > GOOD_ENOUGH && high > (1.0 + APART) * low).then(|| {
         format!(
-            "Distrust values and intervals: `joint` ended at a mean WME of {joint:.4} and `refined` at {refined:.4}, so at least \
+            "Distrust the values, which therefore have no intervals: `joint` ended at a mean WME of {joint:.4} and `refined` at {refined:.4}, so at least \
              one search has not arrived. More vectors (refine_vectors, most_generations) may bring them together."
         )
     })

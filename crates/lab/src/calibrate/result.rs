@@ -110,6 +110,8 @@ pub enum Identifiability {
     Identified,
     /// The interval reaches over nearly all of the bounds: it acts, but these tests do not tell its value.
     NotToldByTheTests,
+    /// It acts, but the searches ended apart: at least one has not arrived, and nothing is known of its value.
+    SearchesDisagree,
     /// Its transition never happens in a test to fit; left at 1.
     NeverActs,
     /// Its transition happens, but under this law there is nothing for it to scale; left at 1.
@@ -122,6 +124,7 @@ impl Identifiability {
         match self {
             Identifiability::Identified => "identified",
             Identifiability::NotToldByTheTests => "not told by these tests",
+            Identifiability::SearchesDisagree => "distrusted: the searches disagree",
             Identifiability::NeverActs => "never acts, left at 1",
             Identifiability::NothingToScale => "nothing to scale, left at 1",
         }
@@ -153,7 +156,7 @@ pub struct Estimate {
     /// Whether the tests tell it.
     pub identifiability: Identifiability,
     /// 2.5 and 97.5 % quantiles over bootstrap replicates, widened to the vectors that the misfit does not exclude; null
-    /// where it is left at 1.
+    /// where it is left at 1, and where the searches disagree.
     pub interval_95: Option<[f64; 2]>,
     /// Whether the value lies on a bound, which then decides it.
     pub on_bound: bool,
@@ -163,6 +166,18 @@ pub struct Estimate {
     pub spread_over_tests: Option<f64>,
     /// Lowest misfit by value.
     pub profile: Vec<ProfilePoint>,
+}
+
+impl Estimate {
+    /// The same where the searches ended apart: an interval about a vector that is not the best one promises what it
+    /// cannot hold.
+    #[must_use]
+    pub(super) fn distrusted(self) -> Self {
+        match self.identifiability {
+            Identifiability::NeverActs | Identifiability::NothingToScale => self,
+            _ => Self { identifiability: Identifiability::SearchesDisagree, interval_95: None, ..self },
+        }
+    }
 }
 
 /// A test under the joint vector.
@@ -207,4 +222,33 @@ pub struct CaptureRow {
     pub wme_of_best: Option<f64>,
     /// The vector that is best here.
     pub best: Vec<f64>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_a_distrusted_estimate_has_neither_interval_nor_the_word_identified() {
+        let estimate = |identifiability, interval_95| Estimate {
+            name: "C_1".into(),
+            lower_bound: 0.9,
+            upper_bound: 1.05,
+            value: 0.93,
+            identifiability,
+            interval_95,
+            on_bound: false,
+            by_test: Vec::new(),
+            spread_over_tests: None,
+            profile: Vec::new(),
+        };
+        for told in [Identifiability::Identified, Identifiability::NotToldByTheTests] {
+            let distrusted = estimate(told, Some([0.929, 0.931])).distrusted();
+            assert_eq!(distrusted, estimate(Identifiability::SearchesDisagree, None));
+            assert!(!distrusted.identifiability.words().contains("identified"));
+        }
+        // What is left at 1 by the model stays so, whatever the searches did.
+        let idle = estimate(Identifiability::NeverActs, None);
+        assert_eq!(idle.clone().distrusted(), idle);
+    }
 }

@@ -1,15 +1,19 @@
 //! Step 1: what laboratories get wrong in files, found before anything is fitted. Large rotations in degrees are found on
 //! reading.
 
+use std::path::Path;
+
 use rayon::prelude::*;
 
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Problem, windowed_error};
-use crate::diagnose::hypothesis::Hypothesis;
+use crate::diagnose::hypothesis::{Hypothesis, Scales};
 use crate::diagnose::trials::{Data, untouched};
-use crate::experiment::{TestData, rest_offset_rad, windows};
-use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER};
+use crate::experiment::test_data::check_radians;
+use crate::experiment::{ExperimentFile, Test, TestData, rest_offset_rad, windows};
+use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER, TOO_LARGE_RAD};
 use mrbd_files::error::{InputError, Result};
+use mrbd_kernel::model::Wall;
 
 type Misreading = (&'static str, fn(&mut TestData));
 
@@ -34,6 +38,15 @@ const MISREADINGS: [Misreading; 5] = [
     }),
 ];
 
+/// What is checked: a wall as given, and its tests as they were read, each with its number in the experiment.
+#[derive(Debug, Clone, Copy)]
+struct Readings<'a> {
+    path: &'a Path,
+    wall: &'a Wall,
+    scales: &'a Scales,
+    tests: &'a [(usize, &'a TestData)],
+}
+
 /// Windowed error of the wall as given in a test, and by every misreading put right.
 struct Errors {
     /// As it stands, or without a gain between its channels if that leaves less: a gain makes a closed crack look open, to the
@@ -44,14 +57,14 @@ struct Errors {
 
 impl Errors {
     /// `None` where nothing moves.
-    fn of(experiment: &Experiment, test: &TestData) -> Option<Self> {
+    fn of(readings: &Readings, test: &TestData) -> Option<Self> {
         let read = |change: fn(&mut TestData)| {
             let mut other = test.clone();
             change(&mut other);
             other.rest_offset_rad = rest_offset_rad(&other.theta_rad, other.noise_rad);
-            misfit(experiment, &other)
+            misfit(readings, &other)
         };
-        let as_it_stands = misfit(experiment, test)?;
+        let as_it_stands = misfit(readings, test)?;
         let as_it_stands = read(without_gain).map_or(as_it_stands, |other| other.min(as_it_stands));
         Some(Self { as_it_stands, put_right: MISREADINGS.map(|(_, put_right)| read(put_right)) })
     }
@@ -66,7 +79,47 @@ impl Errors {
 /// # Errors
 /// Input errors that name the test and what seems wrong with it.
 pub fn check_data(experiment: &Experiment) -> Result<()> {
-    let errors = experiment.tests.par_iter().map(|test| Errors::of(experiment, test)).collect::<Vec<_>>();
+    let Experiment { path, wall, scales, tests, .. } = experiment;
+    check(&Readings { path, wall, scales, tests: &tests.iter().enumerate().collect::<Vec<_>>() })
+}
+
+/// The same for the tests of a calibration, with the wall as it is before.
+///
+/// A calibration also takes what a diagnosis does not: one channel only, a few samples, no noise, a wall of one block.
+/// Of such tests the size of the rotations alone is checked.
+///
+/// # Errors
+/// As [`check_data`].
+pub fn check_tests(path: &Path, wall: &Wall, tests: &[Test]) -> Result<()> {
+    let file = ExperimentFile::load(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut readable = Vec::new();
+    for (number, (test, table)) in tests.iter().zip(&file.tests).enumerate() {
+        let measured = folder.join(&table.measured);
+        if !has_fallen(test) {
+            check_radians(test, &measured, table)?;
+        }
+        readable.extend(TestData::new(test, &measured, table, wall).ok().map(|data| (number, data)));
+    }
+    if readable.is_empty() || !wall.is_cracked() {
+        return Ok(());
+    }
+    let (numbers, data): (Vec<usize>, Vec<TestData>) = readable.into_iter().unzip();
+    let scales = Scales::of(wall, &data);
+    let tests = numbers.into_iter().zip(&data).collect::<Vec<_>>();
+    check(&Readings { path, wall, scales: &scales, tests: &tests })
+}
+
+/// Whether a wall lies at the end of a test: then its rotations may be as large as degrees.
+fn has_fallen(test: &Test) -> bool {
+    let lies = |theta: &Vec<f64>| {
+        theta.iter().rfind(|theta| theta.is_finite()).is_some_and(|last| last.abs() > TOO_LARGE_RAD)
+    };
+    test.measured.theta_rad.iter().flatten().any(lies)
+}
+
+fn check(readings: &Readings) -> Result<()> {
+    let errors = readings.tests.par_iter().map(|(_, test)| Errors::of(readings, test)).collect::<Vec<_>>();
     let refuse = |key: String, whose: String, (misreading, share): (usize, f64)| {
         let found = format!(
             "{whose}: it seems that {}, which leaves {:.0} % of the windowed error",
@@ -74,12 +127,12 @@ pub fn check_data(experiment: &Experiment) -> Result<()> {
             100.0 * share
         );
         let allowed = "radians: theta1_rad of the lower and theta2_rad of the upper body, clockwise positive";
-        Err(InputError::key(&experiment.path, key, found, allowed).into())
+        Err(InputError::key(readings.path, key, found, allowed).into())
     };
-    for (index, own) in errors.iter().enumerate() {
+    for (own, (number, test)) in errors.iter().zip(readings.tests) {
         if let Some(likeliest) = likeliest(|misreading| own.as_ref()?.share(misreading), MISREAD_TEST) {
-            let name = &experiment.tests[index].name;
-            return refuse(format!("tests[{index}].measured"), format!("test {name:?}"), likeliest);
+            let name = &test.name;
+            return refuse(format!("tests[{number}].measured"), format!("test {name:?}"), likeliest);
         }
     }
     let together = |misreading: usize| {
@@ -112,11 +165,11 @@ fn likeliest(share: impl Fn(usize) -> Option<f64>, limit: f64) -> Option<(usize,
 }
 
 /// Windowed error of the wall as given in one test; `None` where nothing moves.
-fn misfit(experiment: &Experiment, test: &TestData) -> Option<f64> {
+fn misfit(readings: &Readings, test: &TestData) -> Option<f64> {
     let tests = [test.clone()];
     let windows = windows(&tests);
     let all = Problem { tests: &tests, windows: &windows };
     let data = Data { fit: all, held_out: Problem { windows: &[], ..all } };
-    let h = Hypothesis::new(experiment.wall.parameters(), &experiment.scales, &[], &[]);
+    let h = Hypothesis::new(readings.wall.parameters(), readings.scales, &[], &[]);
     windowed_error(&untouched(&data, h)?.fit.windows).filter(|error| *error > 0.0)
 }

@@ -28,7 +28,7 @@ pub mod trials;
 pub mod verdict;
 
 pub use answer::Diagnosis;
-pub use check_data::check_data;
+pub use check_data::{check_data, check_tests};
 pub use experiment::Experiment;
 pub use flow::diagnose;
 pub use verdict::Verdict;

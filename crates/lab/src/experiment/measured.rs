@@ -17,6 +17,8 @@ const GAP_IN_STEPS: f64 = 2.5;
 /// Measured rotations of both bodies, in their own time until [`Measured::moved`] into the record's.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
+    /// Names of the columns of its file.
+    pub columns: Vec<String>,
     /// Times of the samples, s, increasing.
     pub time_s: Vec<f64>,
     /// θ_1 and θ_2 at the samples, rad; NaN where missing; `None`: the channel is lost.
@@ -56,12 +58,13 @@ impl Measured {
         let gap_s = test.gap_s.unwrap_or(GAP_IN_STEPS * step_s);
         let channels = Channels { path, columns: &columns, test, wall, time_s: &time_s };
         let theta_rad = channels.rotations()?;
+        channels.check_names(&theta_rad)?;
         if theta_rad.iter().all(Option::is_none) {
             let allowed = "theta1_rad, theta2_rad, or displacements with lower_reading and upper_reading";
             let found = format!("columns {}, in none of them a measured rotation", columns.names.join(", "));
             return Err(InputError::line(path, 1, found, allowed).into());
         }
-        Ok(Self { time_s, theta_rad, gap_s, collapse_s: None })
+        Ok(Self { time_s, theta_rad, gap_s, collapse_s: None, columns: columns.names })
     }
 
     /// The same in the record's time, of which `start_s` is the measurement's zero; the collapse is the one given, in the
@@ -170,6 +173,23 @@ impl Channels<'_> {
             _ => None,
         };
         Ok([lower, upper].map(|channel| channel.filter(|values| values.iter().any(|v| v.is_finite()))))
+    }
+
+    /// Refuses a column that was meant for a rotation which nothing gives: as a lost channel it would be passed over.
+    fn check_names(&self, theta_rad: &[Option<Vec<f64>>; 2]) -> Result<(), InputError> {
+        let lost = ["theta1_rad", "theta2_rad"].into_iter().zip(["theta1", "theta2"]).zip(theta_rad);
+        for ((name, begin), _) in lost.filter(|(_, theta)| theta.is_none()) {
+            let meant = |column: &&String| *column != name && column.to_lowercase().starts_with(begin);
+            if let Some(column) =
+                self.columns.names.iter().find(meant).filter(|_| self.columns.get(name).is_none())
+            {
+                let found = format!("columns {}", self.columns.names.join(", "));
+                let allowed =
+                    format!("{name} in radians, or no column that begins like it; did you mean {column:?}?");
+                return Err(InputError::line(self.path, 1, found, allowed));
+            }
+        }
+        Ok(())
     }
 
     fn upper(&self, key: &str, reading: &Reading, lower: &[f64]) -> Result<Vec<f64>, InputError> {

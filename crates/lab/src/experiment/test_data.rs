@@ -47,21 +47,11 @@ impl TestData {
     pub fn new(test: &Test, path: &Path, table: &TestTable, wall: &Wall) -> Result<Self, InputError> {
         let refuse = |found: String, allowed: &str| Err(InputError::file(path, found, allowed));
         let measured = &test.measured;
-        let [Some(lower), Some(upper)] = &measured.theta_rad else {
+        let [Some(_), Some(_)] = &measured.theta_rad else {
             let found = format!("one rotation only in test {:?}", test.name);
             return refuse(found, "theta1_rad and theta2_rad");
         };
-        let fell_s = table.collapse_s.unwrap_or(f64::INFINITY);
-        let standing = measured.time_s.iter().zip(lower.iter().zip(upper)).take_while(|(t, _)| **t < fell_s);
-        let rotations = standing.flat_map(|(_, (one, two))| [one.abs(), two.abs()]);
-        let largest_rad = rotations.filter(|theta| theta.is_finite()).fold(0.0, f64::max);
-        if largest_rad > TOO_LARGE_RAD {
-            let found = format!("a rotation of {largest_rad:.3} in test {:?}", test.name);
-            let allowed = format!(
-                "radians, below {TOO_LARGE_RAD} while the wall stands; are these degrees? A wall that fell: collapse_s"
-            );
-            return refuse(found, &allowed);
-        }
+        check_radians(test, path, table)?;
         let (time_s, theta_rad) = measured.counted(&table.windows_s);
         let record_s = test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
         let last_s = time_s.last().copied().unwrap_or(0.0);
@@ -111,4 +101,25 @@ impl TestData {
     pub fn samples_in(&self, seconds: f64) -> usize {
         (seconds / self.step_s).round().max(1.0) as usize
     }
+}
+
+/// Refuses rotations that no standing wall has: they are in degrees.
+///
+/// # Errors
+/// An input error on the measured file at `path`.
+pub(crate) fn check_radians(test: &Test, path: &Path, table: &TestTable) -> Result<(), InputError> {
+    let measured = &test.measured;
+    let fell_s = table.collapse_s.unwrap_or(f64::INFINITY);
+    let standing = measured.time_s.iter().take_while(|time_s| **time_s < fell_s).count();
+    let rotations = measured.theta_rad.iter().flatten().flat_map(|theta| &theta[..standing]);
+    let largest_rad =
+        rotations.map(|theta| theta.abs()).filter(|theta| theta.is_finite()).fold(0.0, f64::max);
+    if largest_rad <= TOO_LARGE_RAD {
+        return Ok(());
+    }
+    let found = format!("a rotation of {largest_rad:.3} in test {:?}", test.name);
+    let allowed = format!(
+        "radians, below {TOO_LARGE_RAD} while the wall stands; are these degrees? A wall that fell: collapse_s"
+    );
+    Err(InputError::file(path, found, allowed))
 }

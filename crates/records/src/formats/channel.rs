@@ -110,6 +110,8 @@ fn check_plausible(source: &Source, peak_g: f64) -> Result<(), InputError> {
     }
     let found = format!("a peak of {peak_g:.4} g when read as m/s2, and no unit given");
     let (low, high) = (PLAUSIBLE_PEAK_G.start(), PLAUSIBLE_PEAK_G.end());
-    let allowed = format!("{low} to {high} g; state the unit of the file if it is meant so");
+    let allowed = format!(
+        "{low} to {high} g; state the unit of the file if it is meant so: `--unit`, or `unit` in a suite"
+    );
     Err(source.fault_file(found, allowed))
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use csv::StringRecord;
 
 use super::channel::Channel;
+use super::chosen::HOW;
 use super::source::{Source, fields, is_blank_or_comment, number, quote, step};
 use super::{Format, ReadOptions};
 use crate::{Accelerogram, Unit};
@@ -61,7 +62,7 @@ fn two_columns(source: &Source, _options: &ReadOptions) -> Result<Vec<Channel>, 
 }
 
 fn unit(source: &Source, header: Option<csv::Result<StringRecord>>) -> Result<Unit, InputError> {
-    let allowed = "two columns headed `time_s,acceleration_m_s2` (or _g, _cm_s2, _mm_s2)";
+    let allowed = format!("two columns headed `time_s,acceleration_m_s2` (or _g, _cm_s2, _mm_s2); {HOW}");
     let (line, row) = row(source, header.unwrap_or_else(|| Ok(StringRecord::new())))?;
     let unit = HEADERS.iter().find(|(name, _)| row.get(1).is_some_and(|h| h.eq_ignore_ascii_case(name)));
     match (row.get(0), unit, row.len()) {
@@ -91,7 +92,11 @@ fn numbers(source: &Source, read: csv::Result<StringRecord>) -> Result<(usize, [
     Ok((line, [value(0)?, value(1)?]))
 }
 
-fn uniform_step(source: &Source, lines: &[usize], times: &[f64]) -> Result<f64, InputError> {
+/// The step between times on these lines.
+///
+/// # Errors
+/// Input errors for fewer than two times, or times that are not at equal steps.
+pub(super) fn uniform_step(source: &Source, lines: &[usize], times: &[f64]) -> Result<f64, InputError> {
     let [first, .., last] = times else {
         return Err(source.fault_file(format!("{} samples", times.len()), "at least 2"));
     };

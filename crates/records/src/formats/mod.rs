@@ -4,6 +4,7 @@
 //! entry stands in the file that reads the format; refusals, help texts and docs list what the table holds.
 
 mod channel;
+mod chosen;
 mod columns;
 mod cosmos;
 mod csmip;
@@ -19,10 +20,11 @@ use std::path::Path;
 use crate::{Accelerogram, Unit};
 use mrbd_files::error::{InputError, Result};
 
+pub use chosen::{ColumnChoice, NoColumns};
 pub use columns::write_two_columns;
 
 use channel::Channel;
-use source::{Source, fields, number};
+use source::{Source, step};
 
 /// Largest record file that is read, bytes: an hour of three channels at 200 samples a second is a tenth of it.
 const LARGEST_FILE_BYTES: u64 = 256 << 20;
@@ -84,6 +86,10 @@ pub struct ReadOptions {
     pub unit: Option<Unit>,
     /// Which channel of a file of several: its number from 1, its name, or the first word of its name.
     pub channel: Option<String>,
+    /// Columns of a table that is of no format: its unit must be given too.
+    pub columns: Option<ColumnChoice>,
+    /// Whether the numbers of such a table have a comma as their decimal sign.
+    pub decimal_comma: bool,
 }
 
 /// A record as it was read.
@@ -124,7 +130,10 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Record> {
 pub fn read_bytes(path: &Path, bytes: &[u8], options: &ReadOptions) -> Result<Record, InputError> {
     let text = source::decode(bytes);
     let source = Source::new(path, &text);
-    let format = recognise(&source)?;
+    if let Some(step_s) = options.step_s.filter(|step_s| step(Some(*step_s)).is_none()) {
+        return Err(source.fault_file(format!("a step of {step_s} s given for it"), "1e-6 to 10 s"));
+    }
+    let format = if options.columns.is_some() { &chosen::FORMAT } else { recognise(&source)? };
     let channels = (format.parse)(&source, options)?;
     let channel = channel::choose(&source, channels, options.channel.as_deref())?;
     channel.into_record(&source, format, options)
@@ -138,8 +147,9 @@ fn recognise(source: &Source) -> Result<&'static Format, InputError> {
     if let Some(format) = FORMATS.iter().find(|format| (format.recognise)(source)) {
         return Ok(format);
     }
-    let fields = fields(source.line(first));
-    let is_table = fields.len() > 1 && fields.iter().all(|field| number(field).is_some());
+    if !chosen::is_table(source) {
+        return Err(source.fault_line(first, known()));
+    }
     let columns = "one number a line, or two columns under the header line `time_s,acceleration_m_s2`";
-    Err(source.fault_line(first, if is_table { columns.to_owned() } else { known() }))
+    Err(source.fault_line(first, format!("{columns}; {}", chosen::HOW)))
 }

@@ -107,6 +107,8 @@ pub fn write_suite(
         source: format!("mrbd records generate --seed {seed}, after: {}", table.source),
         unit: None,
         step_s: None,
+        columns: None,
+        decimal_comma: false,
         records: entries,
     };
     suite.write(&folder.join("suite.toml"))
