@@ -39,7 +39,7 @@ pub fn counts(page: &mut Page) {
         &format!("As they are shipped they have {} rows.", drawn.join(", ")),
     );
     let first = tempfile::tempdir().expect("a temporary folder");
-    write_starter(first.path()).expect("the files to begin with");
+    write_starter(first.path(), None).expect("the files to begin with");
     page.put("rows of the first study", &rows(&first.path().join("pipeline.toml")));
 }
 
