@@ -87,8 +87,8 @@ mod tests {
                 (p.diaphragm_mass_kg / total_kg, survey(table, "diaphragm_mass_ratio")),
                 (p.carriage_mass_kg / total_kg, survey(table, "carriage_mass_ratio")),
             ] {
-                // Masses are written to a tenth of a kilogramme of some thousand.
-                assert!((found - expected).abs() <= 1e-4 * expected.abs(), "{table}: {found} for {expected}");
+                // Masses are written to a tenth of a kilogramme, of 190 for the least: half of it is 3e-4.
+                assert!((found - expected).abs() <= 3e-4 * expected.abs(), "{table}: {found} for {expected}");
             }
             assert_eq!(slips::questions(&wall), Vec::<String>::new());
         }

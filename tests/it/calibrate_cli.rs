@@ -79,7 +79,7 @@ fn regress_results_are_the_same_on_any_threads_and_after_a_stop() {
 fn regress_a_distrusted_search_calls_nothing_identified_and_gives_no_interval() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     // Noise, and far fewer vectors than either search needs.
-    let settings = "capture_study_rad_s = []\nmost_generations = 2\nrefine_vectors = 20\nreplicates = 5\n";
+    let settings = "capture_study_rad_s = []\nmost_generations = 2\nrefine_vectors = 20\nreplicates = 20\n";
     let experiment = Twin { settings: settings.into(), noise: 0.01, ..quick() }.write(folder.path());
     let out = folder.path().join("out");
     let done = calibrate(&experiment, &out, &[]);

@@ -265,9 +265,12 @@ fn check(p: &WallParameters, effects: &EffectSums) -> Result<(), ImpossibleWall>
 }
 
 /// A body that turned by a quarter lies on the ground: the one with the smaller α_i must count as fallen by then.
+///
+/// The default is allowed for squat bodies too.
 fn check_collapse(ratio: f64, [alpha_1, alpha_2]: [f64; 2]) -> Result<(), ImpossibleWall> {
-    let most = std::f64::consts::FRAC_PI_2 / alpha_1.min(alpha_2);
-    let allowed = || format!("above 0 and at most {most:.4}, which is a quarter turn");
+    let quarter_turn = std::f64::consts::FRAC_PI_2 / alpha_1.min(alpha_2);
+    let most = quarter_turn.max(WallParameters::DEFAULT_COLLAPSE_RATIO);
+    let allowed = || format!("above 0 and at most {most:.4}, a quarter turn or the default of 2");
     require("collapse.rotation_ratio", ratio, ratio <= most, allowed)
 }
 

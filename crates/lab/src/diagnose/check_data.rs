@@ -110,10 +110,15 @@ pub fn check_tests(path: &Path, wall: &Wall, tests: &[Test]) -> Result<()> {
     check(&Readings { path, wall, scales: &scales, tests: &tests })
 }
 
-/// Whether a wall lies at the end of a test: then its rotations may be as large as degrees.
+/// Whether a wall falls in a test and lies from then on: then its rotations may be as large as degrees.
+///
+/// Read in degrees a standing wall is as far off, but comes back.
 fn has_fallen(test: &Test) -> bool {
     let lies = |theta: &Vec<f64>| {
-        theta.iter().rfind(|theta| theta.is_finite()).is_some_and(|last| last.abs() > TOO_LARGE_RAD)
+        let far = |theta: &&f64| theta.abs() > TOO_LARGE_RAD;
+        let mut from_fall =
+            theta.iter().filter(|theta| theta.is_finite()).skip_while(|theta| !far(theta)).peekable();
+        from_fall.peek().is_some() && from_fall.all(|theta| far(&theta))
     };
     test.measured.theta_rad.iter().flatten().any(lies)
 }
