@@ -1,7 +1,7 @@
 //! `mrbd calibrate` as a user meets it: files, resuming, threads, another optimiser.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use mrbd_kernel::model::ImpactLaw;
@@ -75,12 +75,17 @@ fn regress_results_are_the_same_on_any_threads_and_after_a_stop() {
     assert_eq!(json(&one)["simulations"], json(&stopped)["simulations"], "a stop changes the count");
 }
 
+/// The experiment that `mrbd init` writes: a wall measured in three tests.
+fn first_experiment(folder: &Path) -> PathBuf {
+    mrbd::starter::write_starter(folder, None).expect("the files to begin with");
+    folder.join("experiment.toml")
+}
+
 #[test]
 fn regress_a_distrusted_search_calls_nothing_identified_and_gives_no_interval() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    // Noise, and far fewer vectors than either search needs.
-    let settings = "capture_study_rad_s = []\nmost_generations = 2\nrefine_vectors = 20\nreplicates = 20\n";
-    let experiment = Twin { settings: settings.into(), noise: 0.01, ..quick() }.write(folder.path());
+    // The first calibration of a new user has far fewer vectors than either search needs.
+    let experiment = first_experiment(folder.path());
     let out = folder.path().join("out");
     let done = calibrate(&experiment, &out, &[]);
     let (table, csv) = (String::from_utf8_lossy(&done.stderr), String::from_utf8_lossy(&done.stdout));
@@ -231,8 +236,8 @@ fn rejects_measured_files_that_are_wrong_in_a_way_that_shows() {
     let degrees = |theta: f64| theta.to_degrees();
     let spoil = |name: &str, header: &str, change: &dyn Fn([f64; 2]) -> [f64; 2]| {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let experiment = Twin { noise: 0.01, ..quick() }.write(folder.path());
-        let measured = folder.path().join("measured_0.csv");
+        let experiment = first_experiment(folder.path());
+        let measured = folder.path().join("tests/weak.csv");
         let text = std::fs::read_to_string(&measured).expect("measured");
         let rows = text.lines().skip(1).map(|line| {
             let cells: Vec<f64> = line.split(',').map(|cell| cell.parse().expect("a number")).collect();
