@@ -47,8 +47,7 @@ fn analytic_the_factor_found_exceeds_the_limit_and_the_one_below_does_not() {
     let pga_g = record["pga_g"].as_f64().expect("a number");
     let described = stdout(&mrbd(folder.path(), &["records", "describe", "generated_3_602ya.csv", "--json"]));
     let described: Value = serde_json::from_str(&described).expect("JSON");
-    let of_record = described.pointer("/pga_g").or(described.pointer("/intensity/pga_g"));
-    let of_record = of_record.and_then(Value::as_f64).expect("a number");
+    let of_record = described[0]["intensity"]["pga_g"].as_f64().expect("a number");
     // Rounding of one product.
     assert!((pga_g / (above * of_record) - 1.0).abs() < 1e-12, "{pga_g} {above} {of_record}");
 }
