@@ -105,7 +105,7 @@ impl Distributions {
     /// Writes the table to a Parquet file.
     ///
     /// # Errors
-    /// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
     pub fn write(&self, path: &Path) -> Result<()> {
         write_table(path, COLUMNS, &[], &self.rows)
     }

@@ -40,7 +40,7 @@ const COLUMNS: &[Column<Median>] = &[
 /// Writes the medians to a Parquet file.
 ///
 /// # Errors
-/// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
+/// [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
 pub fn write_medians(path: &Path, medians: &Medians) -> Result<()> {
     write_table(path, COLUMNS, &[], medians.rows())
 }

@@ -113,7 +113,7 @@ impl Baseline {
     /// Writes it.
     ///
     /// # Errors
-    /// [`Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn write(&self, path: &Path) -> Result<()> {
         let mut text = format!("# tolerance: {}\n", self.tolerance_source);
         self.accepted.iter().for_each(|why| text += &format!("{ACCEPTED}{why}\n"));

@@ -55,7 +55,7 @@ enum Aggregated {
 /// Aggregates the study in a folder, prints its medians with what they decide and writes them there.
 ///
 /// # Errors
-/// As [`AggregateCommand::execute`]; [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
+/// As [`AggregateCommand::execute`]; [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
 pub(super) fn aggregate_and_print(folder: &Path) -> Result<()> {
     let aggregated = read(folder)?;
     print(&aggregated)?;

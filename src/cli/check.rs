@@ -33,7 +33,7 @@ impl CheckCommand {
     ///
     /// # Errors
     /// [`Error::Moved`] if anything moved beyond its tolerance; input errors for a folder without results, a baseline
-    /// that is none or an empty reason; [`Error::Io`] if the disk refuses.
+    /// that is none or an empty reason; [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
         let (variants, figures) = match kind_of(&self.folder)? {
             Kind::Sweep => {

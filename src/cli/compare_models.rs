@@ -14,7 +14,7 @@ const FILES: [&str; 4] = ["manifest.json", "comparison.csv", "histories.parquet"
 /// Runs the comparison.
 ///
 /// # Errors
-/// Input errors of the pipeline and what it names, and of the output folder; [`Error::Io`] if the disk refuses.
+/// Input errors of the pipeline and what it names, and of the output folder; [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn execute(pipeline: &Path, suite: Option<&Path>, out: Option<&Path>, replace: bool) -> Result<()> {
     let started_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
     let default = Path::new("outputs").join(comparison::name(pipeline)?);

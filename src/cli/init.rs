@@ -33,7 +33,7 @@ impl InitCommand {
     /// Runs the command; prints the files.
     ///
     /// # Errors
-    /// An input error if a file is there already; [`crate::Error::Io`] if the disk refuses.
+    /// An input error if a file is there already; [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
         let files = write_starter(&self.folder, self.floor)?;
         let names: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();

@@ -20,7 +20,7 @@ impl MergeCommand {
     ///
     /// # Errors
     /// Input errors for a folder without a study, with runs missing or with a process at work in it;
-    /// [`crate::Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
         merge_and_print(&OutputFolder::take(&self.folder)?)
     }

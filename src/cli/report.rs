@@ -26,7 +26,7 @@ impl ReportCommand {
     /// Runs the command; prints where the page is.
     ///
     /// # Errors
-    /// An input error for a folder without results or with damaged ones; [`crate::Error::Io`] if the disk refuses.
+    /// An input error for a folder without results or with damaged ones; [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
         let site = self.site.as_deref().map(Site::load).transpose()?;
         let page = write_page(&self.results, site.as_ref())?;

@@ -59,7 +59,7 @@ impl RunCommand {
     /// Runs the command.
     ///
     /// # Errors
-    /// Input errors of the pipeline and what it names, and of the output folder; [`Error::Io`] if the disk refuses.
+    /// Input errors of the pipeline and what it names, and of the output folder; [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
         if let Some(study) = overturning::Study::load(&self.pipeline)? {
             return self.overturning(&study);

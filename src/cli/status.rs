@@ -22,7 +22,7 @@ impl StatusCommand {
     /// Runs the command.
     ///
     /// # Errors
-    /// An input error for a folder without a study; [`crate::Error::Io`] or [`crate::Error::Table`] if it cannot be read.
+    /// An input error for a folder without a study; [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if it cannot be read.
     pub fn execute(self) -> Result<()> {
         let folder = OutputFolder::look(&self.folder)?;
         let layout = Layout::of(folder.manifest());

@@ -21,7 +21,7 @@ const STOPPED: i32 = 1;
 /// For work that is stored as it goes, or not at all: nothing has to be finished first.
 ///
 /// # Errors
-/// [`Error::Io`] if the system has no such signals.
+/// [`mrbd_files::Error::Io`] if the system has no such signals.
 pub(super) fn end_on_signals(last_words: String) -> Result<()> {
     let mut signals = Signals::new([SIGINT, SIGTERM])
         .map_err(|e| Error::io("watch for signals", Path::new("process"), e))?;
@@ -38,7 +38,7 @@ pub(super) fn end_on_signals(last_words: String) -> Result<()> {
 /// A flag that is set when the process is asked to stop; asked again, it ends at once.
 ///
 /// # Errors
-/// [`Error::Io`] if the system has no such signals.
+/// [`mrbd_files::Error::Io`] if the system has no such signals.
 pub(super) fn on_signals() -> Result<Arc<AtomicBool>> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {

@@ -46,7 +46,7 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
 /// Writes every finding under every variant as CSV: answer, numbers, criterion.
 ///
 /// # Errors
-/// [`crate::Error::Io`] if the disk refuses.
+/// [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
     let failed = |e: csv::Error| Error::table(path, e);
     let mut csv = csv::Writer::from_writer(Vec::new());

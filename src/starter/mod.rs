@@ -48,7 +48,7 @@ const FILES: [StarterFile; 13] = [
 /// façade with it.
 ///
 /// # Errors
-/// An input error if one of the files is there already, before anything is written; [`Error::Io`] if the disk refuses.
+/// An input error if one of the files is there already, before anything is written; [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn write_starter(folder: &Path, floor: Option<Floor>) -> Result<Vec<PathBuf>> {
     let made_up = made_up::tests()?;
     let facade = floor.map(|floor| (FACADE.to_owned(), floor.wall_file()));

@@ -14,7 +14,7 @@ pub(crate) const UNFINISHED: &str = ".unfinished-";
 /// A temporary file in `folder`, to be filled and then [`put_in_place`] there.
 ///
 /// # Errors
-/// [`Error::Io`] if the folder cannot be written.
+/// [`mrbd_files::Error::Io`] if the folder cannot be written.
 pub(crate) fn unfinished_in(folder: &Path) -> Result<NamedTempFile> {
     tempfile::Builder::new()
         .prefix(UNFINISHED)
@@ -25,7 +25,7 @@ pub(crate) fn unfinished_in(folder: &Path) -> Result<NamedTempFile> {
 /// Brings a filled temporary file to the disk and gives it its name.
 ///
 /// # Errors
-/// [`Error::Io`] if the disk refuses.
+/// [`mrbd_files::Error::Io`] if the disk refuses.
 pub(crate) fn put_in_place(mut file: NamedTempFile, path: &Path) -> Result<()> {
     let failed = |e| Error::io("write", path, e);
     bring_to_disk(&mut file).map_err(failed)?;
@@ -47,7 +47,7 @@ fn bring_name_to_disk(path: &Path) -> std::io::Result<()> {
 /// Writes `contents` to `path`: the file is there whole, or as it was before.
 ///
 /// # Errors
-/// [`Error::Io`] if the folder cannot be written.
+/// [`mrbd_files::Error::Io`] if the folder cannot be written.
 pub fn write_durably(path: &Path, contents: &[u8]) -> Result<()> {
     let mut file = unfinished_in(folder_of(path))?;
     file.write_all(contents).map_err(|e| Error::io("write", path, e))?;

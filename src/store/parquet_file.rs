@@ -57,7 +57,7 @@ impl<R> ParquetFile<R> {
     /// whether the rows are of drawn façades.
     ///
     /// # Errors
-    /// [`Error::Io`] or [`Error::Table`] if the file cannot be begun.
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the file cannot be begun.
     pub fn create_in(
         folder: &Path,
         columns: &'static [Column<R>],
@@ -76,7 +76,7 @@ impl<R> ParquetFile<R> {
     /// Adds rows.
     ///
     /// # Errors
-    /// [`Error::Io`] or [`Error::Table`] if they cannot be written.
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if they cannot be written.
     pub fn write(&mut self, rows: &[R]) -> Result<()> {
         let arrays = self.columns.iter().map(|column| column.array(rows)).collect();
         let batch = RecordBatch::try_new(Arc::clone(&self.schema), arrays);
@@ -86,7 +86,7 @@ impl<R> ParquetFile<R> {
     /// Adds rows that were read from another file of the same columns.
     ///
     /// # Errors
-    /// [`Error::Io`] or [`Error::Table`] if they cannot be written, or are of other columns.
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if they cannot be written, or are of other columns.
     pub fn write_batch(&mut self, rows: &RecordBatch) -> Result<()> {
         self.writer.write(rows).map_err(|e| refused(&self.place, e))
     }
@@ -94,7 +94,7 @@ impl<R> ParquetFile<R> {
     /// Ends the file, brings it to the disk and gives it the name that `name` makes of its SHA-256, which is returned.
     ///
     /// # Errors
-    /// [`Error::Io`] or [`Error::Table`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
     pub fn finish_as(self, name: impl FnOnce(&str) -> PathBuf) -> Result<String> {
         // This writes the last row group and the footer too.
         let file = self.writer.into_inner().map_err(|e| refused(&self.place, e))?;
@@ -107,7 +107,7 @@ impl<R> ParquetFile<R> {
 /// Writes a table as one file, there whole or as it was before; `metadata` as for [`ParquetFile::create_in`].
 ///
 /// # Errors
-/// [`Error::Io`] or [`Error::Table`] if the disk refuses.
+/// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
 pub fn write_table<R>(
     path: &Path,
     columns: &'static [Column<R>],

@@ -17,7 +17,7 @@ impl<'a> WholeFolder<'a> {
     /// unless they are to be replaced.
     ///
     /// # Errors
-    /// Input errors for a folder that is not so; [`Error::Io`] if the disk refuses.
+    /// Input errors for a folder that is not so; [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn check(path: &'a Path, own: &[&str], replace: bool) -> Result<Self> {
         make_writable(path)?;
         for name in names(path)? {
@@ -40,7 +40,7 @@ impl<'a> WholeFolder<'a> {
     /// Removes what is there, once there is something to replace it; gives where to write.
     ///
     /// # Errors
-    /// [`Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn cleared(self) -> Result<&'a Path> {
         for name in names(self.path)? {
             let file = self.path.join(name);

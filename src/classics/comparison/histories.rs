@@ -99,7 +99,7 @@ fn history(case: &Case, model: usize, settings: &ComparisonTable) -> Vec<History
 /// Writes histories as Parquet.
 ///
 /// # Errors
-/// [`crate::Error::Table`] or [`crate::Error::Io`] if the disk refuses.
+/// [`crate::Error::Table`] or [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn write_histories(path: &Path, histories: &[HistoryPoint]) -> Result<()> {
     write_table(path, &COLUMNS, &[], histories)
 }

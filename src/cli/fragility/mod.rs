@@ -118,7 +118,7 @@ impl FragilityCommand {
     /// Runs the command.
     ///
     /// # Errors
-    /// Input errors of the options and the table; [`Error::Io`] if the disk refuses.
+    /// Input errors of the options and the table; [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
         check_apart("--out", self.out.as_deref(), &[&self.file])?;
         check_apart("--nrml", self.nrml.as_deref(), &[&self.file])?;

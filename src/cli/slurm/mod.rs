@@ -79,7 +79,7 @@ impl SlurmCommand {
     ///
     /// # Errors
     /// Input errors of the pipeline and what it names, and of options that the cluster or a script cannot take;
-    /// [`Error::Io`] if the scripts cannot be written.
+    /// [`mrbd_files::Error::Io`] if the scripts cannot be written.
     pub fn execute(self) -> Result<()> {
         let pipeline = Pipeline::load(&self.pipeline)?;
         // Better refused here than by every task of the array.

@@ -50,7 +50,7 @@ impl PlotFile {
     /// Draws and writes it.
     ///
     /// # Errors
-    /// [`crate::Error::Picture`] or [`crate::Error::Io`].
+    /// [`crate::Error::Picture`] or [`mrbd_files::Error::Io`].
     pub fn write(&self, picture: &RunPicture) -> Result<()> {
         let bytes = match self.kind {
             Kind::Svg => picture.svg().into_bytes(),

@@ -19,7 +19,7 @@ use mrbd_lab::experiment::Test;
 /// `steps` of the integration, and the numbers of impacts `impacts_C_1` … `impacts_C_8`.
 ///
 /// # Errors
-/// [`Error::Table`] or [`Error::Io`] if the file cannot be written.
+/// [`Error::Table`] or [`mrbd_files::Error::Io`] if the file cannot be written.
 pub fn write_candidates(path: &Path, rows: &[Row], parameters: &[Parameter], tests: &[Test]) -> Result<()> {
     let columns = columns(rows, parameters, tests);
     let fields = columns.iter().map(|(name, unit, about, array)| field(name, unit, about, array));

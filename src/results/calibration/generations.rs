@@ -44,7 +44,7 @@ static GENERATIONS: [Column<Generation>; 6] = [
 /// Writes the generations of the searches.
 ///
 /// # Errors
-/// [`crate::Error::Table`] or [`crate::Error::Io`] if the file cannot be written.
+/// [`crate::Error::Table`] or [`mrbd_files::Error::Io`] if the file cannot be written.
 pub(super) fn write_generations(path: &Path, methods: &[MethodResult]) -> Result<()> {
     let rows = methods.iter().flat_map(generations).collect::<Vec<_>>();
     write_table(path, &GENERATIONS, &[], &rows)

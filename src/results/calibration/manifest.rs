@@ -30,7 +30,7 @@ struct Manifest {
 /// Writes the manifest of a calibration.
 ///
 /// # Errors
-/// An input error for a file that cannot be read; [`crate::Error::Io`] if the disk refuses.
+/// An input error for a file that cannot be read; [`mrbd_files::Error::Io`] if the disk refuses.
 pub(super) fn write_manifest(path: &Path, experiment: &Experiment) -> Result<()> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let note = |(role, file): &(String, PathBuf)| Ok(FileNote::of(role, file)?.seen_from(folder));

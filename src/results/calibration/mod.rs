@@ -92,7 +92,7 @@ impl OutputNames {
 /// A journal beside it was left by a stop after the last result was written, and is removed.
 ///
 /// # Errors
-/// Input errors for results of other inputs, or that cannot be read; [`Error::Io`] if the disk refuses.
+/// Input errors for results of other inputs, or that cannot be read; [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn finished(folder: &Path, experiment: &Experiment) -> Result<Option<Calibration>> {
     let names = OutputNames::new(folder);
     if !names.calibration.exists() {
@@ -115,7 +115,7 @@ pub fn finished(folder: &Path, experiment: &Experiment) -> Result<Option<Calibra
 /// Writes everything a calibration found; the files are whole or absent.
 ///
 /// # Errors
-/// [`Error::Io`] or [`Error::Table`] if the disk refuses.
+/// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
 pub fn write_results(
     names: &OutputNames,
     experiment: &Experiment,

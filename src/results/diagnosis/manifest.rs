@@ -24,7 +24,7 @@ struct Manifest {
 /// Writes the manifest of a diagnosis that began at a time, seconds since 1970.
 ///
 /// # Errors
-/// [`crate::Error::Io`] if the disk refuses.
+/// [`mrbd_files::Error::Io`] if the disk refuses.
 pub(super) fn write_manifest(path: &Path, inputs: &[FileNote], started_unix_s: u64) -> Result<()> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let manifest = Manifest {

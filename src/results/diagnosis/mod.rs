@@ -26,7 +26,7 @@ use mrbd_lab::diagnose::answer::Summary;
 /// Writes a diagnosis and the files it was made from; every file is whole or absent.
 ///
 /// # Errors
-/// [`Error::Table`] or [`Error::Io`] if the disk refuses.
+/// [`Error::Table`] or [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn write_results(names: &OutputNames, inputs: &[FileNote], diagnosis: &Diagnosis) -> Result<()> {
     names.clear()?;
     write_manifest(&names.manifest, inputs, names.started_unix_s)?;

@@ -11,7 +11,7 @@ use crate::study::runs::OutputFolder;
 /// equal files. Blocks are removed only when the file that holds their runs is on the disk with its checksum.
 ///
 /// # Errors
-/// An input error if runs are missing; [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which
+/// An input error if runs are missing; [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which
 /// leaves every run in a whole file.
 pub fn compact(folder: &OutputFolder, standing: &Standing) -> Result<()> {
     let layout = Layout::of(folder.manifest());

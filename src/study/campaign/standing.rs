@@ -22,7 +22,7 @@ impl Standing {
     /// Reads and checks every file of a study.
     ///
     /// # Errors
-    /// [`crate::Error::Io`] if the folder cannot be read.
+    /// [`mrbd_files::Error::Io`] if the folder cannot be read.
     pub fn of(folder: &OutputFolder, layout: &Layout) -> Result<Self> {
         let mut standing = Self::default();
         for (index, record) in layout.records().iter().enumerate() {

@@ -38,7 +38,7 @@ pub struct Work<'a, S> {
 /// being killed loses these alone.
 ///
 /// # Errors
-/// [`crate::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which leaves what is stored as it is.
+/// [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which leaves what is stored as it is.
 pub fn run_missing<S: Simulate + Sync>(
     work: &Work<S>,
     standing: &Standing,

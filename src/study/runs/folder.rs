@@ -46,7 +46,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// Input errors for a folder that cannot be written, is being written or holds something else;
-    /// [`Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn prepare(path: &Path, manifest: &Manifest, pipeline_text: &str, earlier: Earlier) -> Result<Self> {
         make_writable(path)?;
         fit(path, manifest, earlier)?;

@@ -163,7 +163,7 @@ impl Manifest {
     /// Writes it.
     ///
     /// # Errors
-    /// [`Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn write(&self, path: &Path) -> Result<()> {
         write_durably(path, self.text(path).as_bytes())
     }
@@ -171,7 +171,7 @@ impl Manifest {
     /// Writes it unless another process did first; whether this one wrote.
     ///
     /// # Errors
-    /// [`Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub(super) fn write_if_absent(&self, path: &Path) -> Result<bool> {
         write_durably_if_absent(path, self.text(path).as_bytes())
     }

@@ -42,7 +42,7 @@ impl RunFile {
     /// Whether the file is there and holds what was written.
     ///
     /// # Errors
-    /// [`Error::Io`] if it is there and cannot be read.
+    /// [`mrbd_files::Error::Io`] if it is there and cannot be read.
     pub fn is_whole(&self) -> Result<bool> {
         match File::open(&self.path).and_then(sha256) {
             Ok(found) => Ok(found.starts_with(&self.checksum)),
@@ -59,7 +59,7 @@ impl OutputFolder {
     /// Stores the runs of a block; it is there whole when this returns.
     ///
     /// # Errors
-    /// [`Error::Io`] or [`Error::Table`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
     pub fn write_block(&self, record: &str, index: u64, runs: &[Finished]) -> Result<()> {
         let folder = make(&self.blocks_folder(record))?;
         let mut file = self.begin(&folder, Pages::Plain)?;
@@ -71,7 +71,7 @@ impl OutputFolder {
     /// The blocks of a record that are on the disk, by their positions; the last file of a position counts.
     ///
     /// # Errors
-    /// [`Error::Io`] if the folder cannot be read.
+    /// [`mrbd_files::Error::Io`] if the folder cannot be read.
     pub fn blocks(&self, record: &str) -> Result<Vec<(u64, RunFile)>> {
         block_files(&self.blocks_folder(record))
     }
@@ -88,7 +88,7 @@ impl OutputFolder {
     /// Puts blocks together into the file of a record, in their order.
     ///
     /// # Errors
-    /// [`Error::Io`] or [`Error::Table`] if the disk refuses; the blocks stay.
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses; the blocks stay.
     pub fn write_part<'a>(&self, record: &str, blocks: impl Iterator<Item = &'a PathBuf>) -> Result<()> {
         let folder = make(&self.path().join("runs").join(hive(record)))?;
         let mut part = self.begin(&folder, Pages::Small)?;
@@ -104,7 +104,7 @@ impl OutputFolder {
     /// Forgets a part that is damaged, so that its runs count as missing.
     ///
     /// # Errors
-    /// [`Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn discard_part(&self, record: &str) -> Result<()> {
         let mut checksums = read_checksums(self.path())?;
         checksums.remove(&hive(record));
@@ -118,7 +118,7 @@ impl OutputFolder {
     /// Removes the blocks of a record whose part is finished.
     ///
     /// # Errors
-    /// [`Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn remove_blocks(&self, record: &str) -> Result<()> {
         remove_folder(&self.blocks_folder(record))
     }
@@ -126,7 +126,7 @@ impl OutputFolder {
     /// Removes what killed processes left half-written, and the folder of blocks if it is empty.
     ///
     /// # Errors
-    /// [`Error::Io`] if the disk refuses.
+    /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn remove_leftovers(&self) -> Result<()> {
         remove_folder(&self.path().join("blocks"))?;
         let mut folders = vec![self.path().to_path_buf()];
@@ -159,7 +159,7 @@ impl OutputFolder {
 /// figures are not made of anything else.
 ///
 /// # Errors
-/// An input error for a folder without any, and for a file that is damaged or gone; [`Error::Io`] if one cannot be read.
+/// An input error for a folder without any, and for a file that is damaged or gone; [`mrbd_files::Error::Io`] if one cannot be read.
 pub fn run_files(path: &Path) -> Result<Vec<PathBuf>> {
     let files = listed(path)?;
     if files.is_empty() {

@@ -5,12 +5,12 @@
 //! | [`mod@file`] | the experiment file: wall, what was known of it, tests |
 //! | [`measured`] | measured rotations as laboratories have them |
 //! | [`alignment`] | clocks of record and measurement brought together |
-//! | [`test`] | one test: how the wall was shaken, what was measured, and a simulation held against it |
+//! | [`mod@test`] | one test: how the wall was shaken, what was measured, and a simulation held against it |
 //! | [`misfit`] | the weighted mean error over a whole run: the paper's Eq. 8 |
 //! | [`rotations`] | rotations of a run at the times of a measurement |
 //! | [`noise`] | white noise of a channel, and its offset at rest |
 //! | [`pattern`] | contact patterns beyond doubt, and what is free in them |
-//! | [`test_data`], [`windows`] | a test with noise and offsets, cut into the short windows of a diagnosis |
+//! | [`test_data`], [`mod@windows`] | a test with noise and offsets, cut into the short windows of a diagnosis |
 //! | `segments` | a test that starts anew from the measured motion, for a search by Eq. 8 |
 
 pub mod alignment;

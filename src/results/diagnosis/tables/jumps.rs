@@ -57,7 +57,7 @@ static COLUMNS: [Column<JumpRow>; 9] = [
 /// Writes the table.
 ///
 /// # Errors
-/// [`crate::Error::Table`] or [`crate::Error::Io`] if the disk refuses.
+/// [`crate::Error::Table`] or [`mrbd_files::Error::Io`] if the disk refuses.
 pub(super) fn write(path: &Path, rows: &[JumpRow]) -> Result<()> {
     write_table(path, &COLUMNS, &[], rows)
 }

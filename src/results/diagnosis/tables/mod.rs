@@ -34,7 +34,7 @@ pub const TABLES: [&str; 6] = [
 /// Writes all of them.
 ///
 /// # Errors
-/// [`crate::Error::Table`] or [`crate::Error::Io`] if the disk refuses.
+/// [`crate::Error::Table`] or [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn write_tables(folder: &Path, tables: &Tables) -> Result<()> {
     let [samples, windows, force, jumps, laws, rivals] = TABLES.map(|name| folder.join(name));
     histories::write(&samples, &tables.samples)?;

@@ -45,7 +45,7 @@ static COLUMNS: [Column<WindowRow>; 17] = [
 /// Writes the table.
 ///
 /// # Errors
-/// [`crate::Error::Table`] or [`crate::Error::Io`] if the disk refuses.
+/// [`crate::Error::Table`] or [`mrbd_files::Error::Io`] if the disk refuses.
 pub(super) fn write(path: &Path, rows: &[WindowRow]) -> Result<()> {
     write_table(path, &COLUMNS, &[], rows)
 }
