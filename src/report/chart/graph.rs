@@ -48,7 +48,7 @@ impl Format {
 
     fn most_ticks(self) -> MostTicks {
         match self {
-            Format::Half => MostTicks { x: Some(7), y: 6 },
+            Format::Half => MostTicks { x: Some(9), y: 6 },
             Format::Wide | Format::Low | Format::Strip => MostTicks { x: Some(12), y: 6 },
         }
     }

@@ -47,7 +47,7 @@ pub fn section(study: &Distributions, base: &str) -> Section {
                 row.configuration == *configuration && row.stratum(study.measure.as_deref()) == *stratum
             })
             .collect();
-        panel(study.kind, &format!("{configuration} floor {stratum}"), &own, &x)
+        panel(study.kind, &format!("{configuration} floor {}", in_words(stratum)), &own, &x)
     };
     let key = |(index, (_, label)): (usize, &(&str, &str))| Key::new(*label, PALETTE[index], Mark::Circle);
     let mut section = titled("quantiles", "The response");
@@ -69,6 +69,12 @@ pub fn section(study: &Distributions, base: &str) -> Section {
         ..Figure::default()
     });
     section
+}
+
+/// A stripe by the name of its measure, where it begins with that of a column.
+fn in_words(stratum: &str) -> String {
+    let (column, rest) = stratum.split_once(' ').unwrap_or((stratum, ""));
+    format!("{} {rest}", words::intensity(column)).trim_end().to_owned()
 }
 
 /// Of each floor, the stripes at a quarter of all and in the middle; at the strongest most walls have collapsed.

@@ -17,7 +17,7 @@ function drawStrip(view, data, run, state) {
   const last = Math.min(run.rows - 1, Math.ceil(to / data.step) + 1);
   const along = (row) => x(row * data.step);
   // A line of text above rotations and ground, so that no trace runs through it.
-  const line = width / 30;
+  const line = Math.max(14, width / 30);
   const top = Math.max(...data.alpha.map((alpha) => run.largest / alpha)) || 1;
   [data.theta1, data.theta2].slice(0, data.cracked ? 2 : 1).forEach((list, body) => {
     curve(g, list, 1 / data.perRad / data.alpha[body] / top, data.bodyColours[body], [parts[0] + line, parts[1]], [first, last], along);
