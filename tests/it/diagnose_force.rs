@@ -6,7 +6,7 @@ use mrbd_lab::diagnose::force::{
     Against, ForcePoint, acts_at_top, explained_by, force_points, jumps, median_share_off_top,
 };
 use mrbd_lab::diagnose::hypothesis::Physics;
-use mrbd_lab::diagnose::measured::TestData;
+use mrbd_lab::experiment::TestData;
 use mrbd_lab::experiment::file::Purpose;
 use rand_distr::{Distribution, Normal};
 

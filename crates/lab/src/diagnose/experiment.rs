@@ -1,15 +1,21 @@
-//! An experiment, read whole for a diagnosis.
+//! An experiment, read whole for a diagnosis, and what laboratories get wrong in files.
+//!
+//! Wrong files are found before anything is fitted. Large rotations in degrees are found on reading.
 
 use std::path::{Path, PathBuf};
 
-use crate::diagnose::hypothesis::{ACTING, Nuisance, Scales, WALL_NUMBERS, wall_number};
+use super::fit::{Problem, windowed_error};
+use super::hypothesis::{ACTING, Hypothesis, Nuisance, Scales, WALL_NUMBERS, wall_number};
+use super::trials::{Data, untouched};
 use crate::experiment::file::{ExperimentFile, TestTable};
-use crate::experiment::{Test, TestData, load_tests};
-use mrbd_files::FileNote;
+use crate::experiment::test_data::check_radians;
+use crate::experiment::{Test, TestData, load_tests, rest_offset_rad, windows};
+use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER, TOO_LARGE_RAD};
 use mrbd_files::error::{InputError, Result};
-use mrbd_files::{load_wall, toml_file};
+use mrbd_files::{FileNote, load_wall, toml_file};
 use mrbd_kernel::model::{Wall, WallParameters};
 use mrbd_kernel::simulate::Accuracy;
+use rayon::prelude::*;
 
 /// Wall, what was known of it, tests.
 #[derive(Debug)]
@@ -102,4 +108,168 @@ fn nuisances(path: &Path, file: &ExperimentFile, wall: &WallParameters) -> Resul
         }
     }
     Ok(found)
+}
+
+type Misreading = (&'static str, fn(&mut TestData));
+
+/// Ways in which a measured file is wrong, and what puts it right.
+const MISREADINGS: [Misreading; 5] = [
+    ("theta1_rad and theta2_rad are swapped", |test| {
+        test.theta_rad.iter_mut().for_each(|theta| theta.swap(0, 1));
+        test.noise_rad.swap(0, 1);
+    }),
+    ("both rotations have the wrong sign", |test| {
+        test.theta_rad.iter_mut().flatten().for_each(|theta| *theta = -*theta);
+    }),
+    ("the sign of theta1_rad is wrong", |test| {
+        test.theta_rad.iter_mut().for_each(|theta| theta[0] = -theta[0]);
+    }),
+    ("the sign of theta2_rad is wrong", |test| {
+        test.theta_rad.iter_mut().for_each(|theta| theta[1] = -theta[1]);
+    }),
+    ("rotations are in degrees", |test| {
+        test.theta_rad.iter_mut().flatten().for_each(|theta| *theta = theta.to_radians());
+        test.noise_rad = test.noise_rad.map(f64::to_radians);
+    }),
+];
+
+/// What is checked: a wall as given, and its tests as they were read, each with its number in the experiment.
+#[derive(Debug, Clone, Copy)]
+struct Readings<'a> {
+    path: &'a Path,
+    wall: &'a Wall,
+    scales: &'a Scales,
+    tests: &'a [(usize, &'a TestData)],
+}
+
+/// Windowed error of the wall as given in a test, and by every misreading put right.
+struct Errors {
+    /// As it stands, or without a gain between its channels if that leaves less: a gain makes a closed crack look open, to the
+    /// other side once they are swapped.
+    as_it_stands: f64,
+    put_right: [Option<f64>; MISREADINGS.len()],
+}
+
+impl Errors {
+    /// `None` where nothing moves.
+    fn of(readings: &Readings, test: &TestData) -> Option<Self> {
+        let read = |change: fn(&mut TestData)| {
+            let mut other = test.clone();
+            change(&mut other);
+            other.rest_offset_rad = rest_offset_rad(&other.theta_rad, other.noise_rad);
+            misfit(readings, &other)
+        };
+        let as_it_stands = misfit(readings, test)?;
+        let as_it_stands = read(without_gain).map_or(as_it_stands, |other| other.min(as_it_stands));
+        Some(Self { as_it_stands, put_right: MISREADINGS.map(|(_, put_right)| read(put_right)) })
+    }
+
+    fn share(&self, misreading: usize) -> Option<f64> {
+        Some(self.put_right[misreading]? / self.as_it_stands)
+    }
+}
+
+/// Refuses tests whose files are wrong in a way that shows: swapped channels, wrong signs, small rotations in degrees.
+///
+/// # Errors
+/// Input errors that name the test and what seems wrong with it.
+pub fn check_data(experiment: &Experiment) -> Result<()> {
+    let Experiment { path, wall, scales, tests, .. } = experiment;
+    check(&Readings { path, wall, scales, tests: &tests.iter().enumerate().collect::<Vec<_>>() })
+}
+
+/// The same for the tests of a calibration, with the wall as it is before.
+///
+/// A calibration also takes what a diagnosis does not: one channel only, a few samples, no noise, a wall of one block.
+/// Of such tests the size of the rotations alone is checked.
+///
+/// # Errors
+/// As [`check_data`].
+pub fn check_tests(path: &Path, wall: &Wall, tests: &[Test]) -> Result<()> {
+    let file = ExperimentFile::load(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut readable = Vec::new();
+    for (number, (test, table)) in tests.iter().zip(&file.tests).enumerate() {
+        let measured = folder.join(&table.measured);
+        if !has_fallen(test) {
+            check_radians(test, &measured, table)?;
+        }
+        readable.extend(TestData::new(test, &measured, table, wall).ok().map(|data| (number, data)));
+    }
+    if readable.is_empty() || !wall.is_cracked() {
+        return Ok(());
+    }
+    let (numbers, data): (Vec<usize>, Vec<TestData>) = readable.into_iter().unzip();
+    let scales = Scales::of(wall, &data);
+    let tests = numbers.into_iter().zip(&data).collect::<Vec<_>>();
+    check(&Readings { path, wall, scales: &scales, tests: &tests })
+}
+
+/// Whether a wall falls in a test and lies from then on: then its rotations may be as large as degrees.
+///
+/// Read in degrees a standing wall is as far off, but comes back.
+fn has_fallen(test: &Test) -> bool {
+    let lies = |theta: &Vec<f64>| {
+        let far = |theta: &&f64| theta.abs() > TOO_LARGE_RAD;
+        let mut from_fall =
+            theta.iter().filter(|theta| theta.is_finite()).skip_while(|theta| !far(theta)).peekable();
+        from_fall.peek().is_some() && from_fall.all(|theta| far(&theta))
+    };
+    test.measured.theta_rad.iter().flatten().any(lies)
+}
+
+fn check(readings: &Readings) -> Result<()> {
+    let errors = readings.tests.par_iter().map(|(_, test)| Errors::of(readings, test)).collect::<Vec<_>>();
+    let refuse = |key: String, whose: String, (misreading, share): (usize, f64)| {
+        let found = format!(
+            "{whose}: it seems that {}, which leaves {:.0} % of the windowed error",
+            MISREADINGS[misreading].0,
+            100.0 * share
+        );
+        let allowed = "radians: theta1_rad of the lower and theta2_rad of the upper body, clockwise positive";
+        Err(InputError::key(readings.path, key, found, allowed).into())
+    };
+    for (own, (number, test)) in errors.iter().zip(readings.tests) {
+        if let Some(likeliest) = likeliest(|misreading| own.as_ref()?.share(misreading), MISREAD_TEST) {
+            let name = &test.name;
+            return refuse(format!("tests[{number}].measured"), format!("test {name:?}"), likeliest);
+        }
+    }
+    let together = |misreading: usize| {
+        let shares = errors.iter().flatten().filter_map(|own| own.share(misreading)).collect::<Vec<_>>();
+        let mean = shares.iter().map(|share| share.ln()).sum::<f64>() / shares.len() as f64;
+        (shares.len() >= MISREAD_LEAST_TESTS).then(|| mean.exp())
+    };
+    match likeliest(together, MISREAD_TOGETHER) {
+        Some(likeliest) => refuse("tests".to_owned(), "all tests".to_owned(), likeliest),
+        None => Ok(()),
+    }
+}
+
+/// The upper channel over what it reads of the lower, in least squares.
+fn without_gain(test: &mut TestData) {
+    let both = test.theta_rad.iter().filter(|theta| theta.iter().all(|t| t.is_finite()));
+    let [own, across] =
+        both.fold([0.0; 2], |[own, across], [lower, upper]| [own + lower * lower, across + lower * upper]);
+    let gain = across / own;
+    if gain.is_finite() && gain > 0.0 {
+        test.theta_rad.iter_mut().for_each(|theta| theta[1] /= gain);
+        test.noise_rad[1] /= gain;
+    }
+}
+
+/// The misreading of least share, if that is below a limit.
+fn likeliest(share: impl Fn(usize) -> Option<f64>, limit: f64) -> Option<(usize, f64)> {
+    let shares = (0..MISREADINGS.len()).filter_map(|misreading| Some((misreading, share(misreading)?)));
+    shares.filter(|(_, share)| *share < limit).min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Windowed error of the wall as given in one test; `None` where nothing moves.
+fn misfit(readings: &Readings, test: &TestData) -> Option<f64> {
+    let tests = [test.clone()];
+    let windows = windows(&tests);
+    let all = Problem { tests: &tests, windows: &windows };
+    let data = Data { fit: all, held_out: Problem { windows: &[], ..all } };
+    let h = Hypothesis::new(readings.wall.parameters(), readings.scales, &[], &[]);
+    windowed_error(&untouched(&data, h)?.fit.windows).filter(|error| *error > 0.0)
 }

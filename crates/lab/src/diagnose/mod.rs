@@ -1,11 +1,11 @@
 //! Diagnosis: where model and measurement disagree, which effect would make them agree, and whether it does.
 //!
-//! In the order of the flow ([`mod@flow`]):
+//! In the order of the flow ([`diagnose`]):
 //!
 //! | module | idea |
 //! | --- | --- |
-//! | [`Experiment`], [`mod@check_data`] | what was measured and known beforehand, and what laboratories get wrong in files |
-//! | [`measured`] | tests cut into short windows that start where the measured pattern is beyond doubt |
+//! | [`Experiment`], [`check_data`] | what was measured and known beforehand, and what laboratories get wrong in files |
+//! | [`windows()`] | tests cut into short windows that start where the measured pattern is beyond doubt |
 //! | [`hypothesis`] | the wall, with what is uncertain of it and what is added to it |
 //! | [`fit`] | each window simulated from a fitted state, so that neither the past nor noisy derivatives enter; a hypothesis fitted to all windows together |
 //! | [`trials`] | the catalogue tried, and judged on tests held out |
@@ -17,18 +17,96 @@
 
 pub mod answer;
 pub mod certainty;
-pub mod check_data;
 pub mod experiment;
 pub mod fit;
-pub mod flow;
 pub mod force;
 pub mod hypothesis;
-pub mod measured;
+pub mod next_tests;
 pub mod trials;
 pub mod verdict;
 
+use crate::Progress;
+use crate::experiment::{TestData, Window, is_readable, windows};
+use crate::experiment_file::Purpose;
+use crate::limits::READ_AGAIN;
 pub use answer::Diagnosis;
-pub use check_data::{check_data, check_tests};
-pub use experiment::Experiment;
-pub use flow::diagnose;
+use answer::Findings;
+pub use experiment::{Experiment, check_data, check_tests};
+use mrbd_files::error::{InputError, Result};
+use trials::{Alone, Data, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain};
 pub use verdict::Verdict;
+use verdict::judge;
+
+/// Diagnoses an experiment: the verdict, everything it rests on, and the updated wall.
+///
+/// # Errors
+/// An input error if no window of a test to fit starts in a pattern beyond doubt.
+pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Diagnosis> {
+    Diagnosis::new(&findings(experiment, progress)?)
+}
+
+/// The hypotheses fitted, and the verdict; a sensor's gain that shows is kept with the tests, so that patterns are read
+/// without it.
+///
+/// # Errors
+/// As [`diagnose`].
+pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Result<Findings<'e>> {
+    let mut flow = Flow { experiment, progress, tests: experiment.tests.clone() };
+    let (mut windows, mut alone) = flow.try_alone()?;
+    for _ in 0..READ_AGAIN {
+        let Some(gain) = alone.singles.first().and_then(|best| gain_misread(&flow.tests, best)) else {
+            break;
+        };
+        let before = set_gain(&mut flow.tests, gain);
+        let (new_windows, new) = flow.try_alone()?;
+        if !reads_better(&alone.singles, &new.singles) {
+            set_gain(&mut flow.tests, before);
+            break;
+        }
+        (windows, alone) = (new_windows, new);
+    }
+    if let Some(new_windows) = opened_windows(&Data::new(&flow.tests, &windows), &alone) {
+        alone = flow.alone_in(&new_windows, Some(&alone.recalibrated.fit.values))?;
+        windows = new_windows;
+    }
+    let found = judge(&flow.trials(&windows), alone);
+    Ok(Findings { experiment, tests: flow.tests, windows, found })
+}
+
+/// An experiment, with its tests as they are read so far.
+struct Flow<'e, P> {
+    experiment: &'e Experiment,
+    progress: &'e P,
+    tests: Vec<TestData>,
+}
+
+impl<P: Progress> Flow<'_, P> {
+    /// Windows of the tests, and what effects do to them one by one.
+    fn try_alone(&self) -> Result<([Vec<Window>; 2], Alone)> {
+        let (fit, held_out) = windows(&self.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
+        let windows: [Vec<Window>; 2] = [fit, held_out];
+        let opened = opened_as_given(self.experiment, &Data::new(&self.tests, &windows));
+        let windows = opened.unwrap_or(windows);
+        let alone = self.alone_in(&windows, None)?;
+        Ok((windows, alone))
+    }
+
+    /// What effects do to windows one by one, where values of the wall's uncertain numbers may be known from other windows.
+    fn alone_in(&self, windows: &[Vec<Window>; 2], known: Option<&[f64]>) -> Result<Alone> {
+        let no_window = || {
+            let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
+            let found = "no window that starts in a pattern beyond doubt";
+            InputError::file(&self.experiment.path, found, allowed)
+        };
+        if !self.tests.iter().any(|test| test.purpose == Purpose::Fit && is_readable(test)) {
+            return Err(no_window().into());
+        }
+        Ok(self.trials(windows).alone(known).ok_or_else(no_window)?)
+    }
+
+    /// Where hypotheses are tried.
+    fn trials<'a>(&'a self, windows: &'a [Vec<Window>; 2]) -> Trials<'a, P> {
+        let Self { experiment, progress, tests } = self;
+        Trials { experiment, data: Data::new(tests, windows), progress }
+    }
+}

@@ -2,30 +2,27 @@
 //!
 //! | module | idea |
 //! | --- | --- |
+//! | [`Findings`] | fitted hypotheses and the windows they were fitted to, before anything is said of them |
 //! | [`summary`] | the types of `diagnosis.json`, written, read and scored as one struct |
-//! | [`rows`] | the rows of the tables beside it |
-//! | `findings` | fitted hypotheses and the windows they were fitted to, before anything is told of them |
-//! | `conclusion`, `whole_runs`, `missing_force`, `replays`, `updated_wall` | how the former follow from the latter |
+//! | [`rows`] | the rows of the tables beside it, and how they follow from the findings |
+//! | `conclusion`, `updated_wall` | how the summary and the updated wall file follow from the findings |
 
 mod conclusion;
-mod findings;
-mod missing_force;
-mod replays;
 pub mod rows;
 pub mod summary;
 mod updated_wall;
-mod whole_runs;
 
-pub use findings::Findings;
+use super::experiment::Experiment;
+use super::trials::{Data, Tried};
+use super::verdict::Found;
+use crate::experiment::{TestData, Window};
+use mrbd_files::error::{InputError, Result};
+use rows::ForceBeforeAfter;
 pub use rows::Tables;
 pub use summary::{
     Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, ForceSize, FoundEffect, KIND,
     MissingForce, Rival, Stages, Summary, TestErrors, WallFit, WindowCounts,
 };
-
-use crate::diagnose::trials::Tried;
-use missing_force::ForceBeforeAfter;
-use mrbd_files::error::{InputError, Result};
 
 /// A diagnosis: the verdict with everything it rests on.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,5 +61,36 @@ impl Diagnosis {
             },
             updated_wall_toml: findings.updated_wall_toml()?,
         })
+    }
+}
+
+/// What the search of a diagnosis leaves.
+#[derive(Debug)]
+pub struct Findings<'e> {
+    /// The experiment, as it was given.
+    pub experiment: &'e Experiment,
+    /// Its tests, read without the gains that were found.
+    pub tests: Vec<TestData>,
+    /// Windows to fit and held out.
+    pub windows: [Vec<Window>; 2],
+    /// The answer, and every hypothesis that was fitted.
+    pub found: Found,
+}
+
+impl Findings<'_> {
+    /// The windows as data of fits.
+    pub fn data(&self) -> Data<'_> {
+        Data::new(&self.tests, &self.windows)
+    }
+
+    /// The wall as given, and the wall of the answer: as given where there is none.
+    pub fn before_and_kept(&self) -> [&Tried; 2] {
+        [&self.found.before, self.found.kept()]
+    }
+
+    /// Windows to fit and held out, each with its fitted state under a hypothesis.
+    pub fn windows_of<'t>(&'t self, tried: &'t Tried) -> impl Iterator<Item = (&'t Window, &'t [f64])> {
+        let sides = self.windows.iter().zip([&tried.fit.windows, &tried.held_out.windows]);
+        sides.flat_map(|(windows, fits)| windows.iter().zip(fits.iter().map(|fit| &fit.x[..])))
     }
 }

@@ -1,9 +1,21 @@
-//! Rows of the tables of a diagnosis.
+//! Rows of the tables of a diagnosis, and how they follow from its findings.
+//!
+//! They hold measured against simulated rotations, by sample and by window. They hold the missing force at the top under
+//! the wall as given and as updated, with the laws and the jumps beside it.
 
-use crate::diagnose::force::{Against, ForcePoint, Jump};
-use crate::experiment::Purpose;
-use mrbd_kernel::model::{Contact, Pair};
-use mrbd_kernel::simulate::Impacts;
+use super::Findings;
+use super::summary::{ExplainedBy, ForceSize, MissingForce};
+use crate::diagnose::fit::{Replay, WindowFit, shaken};
+use crate::diagnose::force::{
+    Against, ForcePoint, Jump, LawCurve, explained_by, force_points, jumps, law_curves, median_share_off_top,
+    stretches,
+};
+use crate::diagnose::hypothesis::Physics;
+use crate::diagnose::trials::Tried;
+use crate::experiment::TestData;
+use crate::experiment::{Purpose, Sampled, Window};
+use mrbd_kernel::model::{Contact, Pair, Pivot, RockingWall};
+use mrbd_kernel::simulate::{Accuracy, Impacts, Simulator};
 
 /// The data behind the figures.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,4 +132,162 @@ pub struct RivalRow {
     pub error: [Option<f64>; 2],
     /// What speaks against it, in natural logarithms of likelihood.
     pub against: f64,
+}
+
+/// Both joints open: the arms of a force at the top are the heights of the crack and of the upper body.
+const UPRIGHT: Contact = Contact { ground: Pivot::Right, crack: Pivot::Right };
+
+/// The missing force in every stretch.
+#[derive(Debug)]
+pub(super) struct ForceBeforeAfter {
+    before: Vec<ForcePoint>,
+    after: Vec<ForcePoint>,
+}
+
+impl ForceBeforeAfter {
+    /// Measures it under the wall as given and as updated.
+    pub fn new(tests: &[TestData], [before, after]: &[Physics; 2]) -> Self {
+        Self { before: force_points(tests, before), after: force_points(tests, after) }
+    }
+
+    /// What it comes to.
+    pub fn summary(&self, [before, _]: &[Physics; 2]) -> MissingForce {
+        let direction = median_share_off_top(&self.before);
+        let [displacement_m, velocity_m_s, acceleration_m_s2] =
+            Against::ALL.map(|against| explained_by(&self.before, against));
+        MissingForce {
+            points: self.before.len(),
+            before: size(&self.before),
+            after: size(&self.after),
+            median_share_off_top: direction.map(|(share, _)| share),
+            explained_by: ExplainedBy { displacement_m, velocity_m_s, acceleration_m_s2 },
+            points_with_direction: direction.map_or(0, |(_, points)| points),
+            arms_of_top_m: RockingWall::new(&before.wall).top_arms_m(UPRIGHT, [0.0; 2]),
+        }
+    }
+
+    /// Its rows, with what the updated wall leaves of it.
+    pub fn rows(&self, tests: &[TestData]) -> Vec<ForceRow> {
+        let row = |point: &ForcePoint| {
+            // Sensors of the updated wall may move the stretches.
+            let same = |p: &&ForcePoint| p.test == point.test && p.time_s == point.time_s;
+            ForceRow {
+                test: tests[point.test].name.clone(),
+                purpose: tests[point.test].purpose,
+                point: point.clone(),
+                after_n: self.after.iter().find(same).map(|p| p.force_n),
+            }
+        };
+        self.before.iter().map(row).collect()
+    }
+}
+
+impl Findings<'_> {
+    /// The laws of the best hypotheses, to be drawn through the force.
+    pub(super) fn law_points(&self, force: &ForceBeforeAfter) -> Vec<LawPoint> {
+        let point = |curve: &LawCurve, &(x, force_n): &(f64, f64)| LawPoint {
+            name: curve.name.clone(),
+            against: curve.against,
+            x,
+            force_n,
+        };
+        let curves = law_curves(&self.experiment.wall, &self.found.tried, &force.before);
+        curves.iter().flat_map(|curve| curve.points.iter().map(|p| point(curve, p))).collect()
+    }
+
+    /// Velocities after impacts over those of the wall as given, then over those of the updated one.
+    pub(super) fn jump_rows(&self, physics: &[Physics; 2]) -> Vec<JumpRow> {
+        let rows = |(wall, physics): (&'static str, &Physics)| {
+            let jumps = jumps(&self.tests, physics).into_iter();
+            jumps
+                .map(|jump| JumpRow { test: self.tests[jump.test].name.clone(), wall, jump })
+                .collect::<Vec<_>>()
+        };
+        ["given", "updated"].into_iter().zip(physics).flat_map(rows).collect()
+    }
+}
+
+/// Size of a force over stretches; nothing where there are none.
+fn size(points: &[ForcePoint]) -> ForceSize {
+    let squares = points.iter().map(|p| p.force_n * p.force_n).sum::<f64>();
+    let noise = points.iter().map(|p| p.force_sd_n * p.force_sd_n).sum::<f64>();
+    let count = (points.len() as f64).max(1.0);
+    ForceSize { rms_n: (squares / count).sqrt(), noise_rms_n: (noise / count).sqrt() }
+}
+
+impl Findings<'_> {
+    /// Every sample, with whole runs before and after and errors over windows.
+    pub(super) fn samples(&self, physics: &[Physics; 2]) -> Vec<Sample> {
+        let replays = physics.each_ref().map(|physics| Replay::new(&self.tests, physics));
+        let of_test = |(index, test): (usize, &TestData)| {
+            let mut samples = whole_runs(test, physics);
+            for (which, (replay, tried)) in replays.iter().zip(self.before_and_kept()).enumerate() {
+                for (window, x) in self.windows_of(tried).filter(|(w, _)| w.test == index) {
+                    let residual = replay.residual(window, x);
+                    for (i, k) in window.samples.clone().enumerate() {
+                        let measured = test.theta_rad[k].iter().all(|t| t.is_finite());
+                        samples[k].residual[which] = measured.then(|| [residual[2 * i], residual[2 * i + 1]]);
+                    }
+                }
+            }
+            samples
+        };
+        self.tests.iter().enumerate().flat_map(of_test).collect()
+    }
+
+    /// Every window with its errors, and the impacts of the updated wall in it, in the order of tests and times.
+    pub(super) fn window_rows(&self, [_, updated]: &[Physics; 2]) -> Vec<WindowRow> {
+        let replay = Replay::new(&self.tests, updated);
+        let after = self.found.kept();
+        let fits = [&self.found.before, &self.found.recalibrated, after].map(fits_of);
+        let row = |(i, (window, x)): (usize, (&Window, &[f64]))| {
+            let test = &self.tests[window.test];
+            let row = WindowRow {
+                test: test.name.clone(),
+                purpose: test.purpose,
+                from_s: test.time_s[window.samples.start],
+                to_s: test.time_s[window.samples.end - 1],
+                contact: window.freedom.state(x).1,
+                impacts: replay.run(window, x, &mut ()).impacts,
+                error: fits.each_ref().map(|fits| Some(fits[i].reduced().sqrt()).filter(|e| e.is_finite())),
+            };
+            (window.test, row)
+        };
+        let mut rows = self.windows_of(after).enumerate().map(row).collect::<Vec<_>>();
+        rows.sort_by(|(a, one), (b, two)| a.cmp(b).then(one.from_s.total_cmp(&two.from_s)));
+        rows.into_iter().map(|(_, row)| row).collect()
+    }
+}
+
+/// Windows to fit, then those held out.
+fn fits_of(tried: &Tried) -> Vec<&WindowFit> {
+    tried.fit.windows.iter().chain(&tried.held_out.windows).collect()
+}
+
+/// The samples of a test with whole runs from rest, before and after.
+fn whole_runs(test: &TestData, physics: &[Physics; 2]) -> Vec<Sample> {
+    let runs = physics.each_ref().map(|physics| whole_run(test, physics));
+    let mut contacts = vec![None; test.time_s.len()];
+    for stretch in stretches(test) {
+        contacts[stretch.from..stretch.from + stretch.states.len()].fill(Some(stretch.contact));
+    }
+    let sample = |k: usize| Sample {
+        test: test.name.clone(),
+        purpose: test.purpose,
+        time_s: test.time_s[k],
+        measured_rad: test.theta_rad[k],
+        measured_contact: contacts[k],
+        simulated: runs.each_ref().map(|rows| rows.get(k).copied()),
+        residual: [None; 2],
+    };
+    (0..test.time_s.len()).map(sample).collect()
+}
+
+/// Rotations as sensors of a wall read them, rad, and contacts of a whole run, as far as it goes.
+fn whole_run(test: &TestData, physics: &Physics) -> Vec<(Pair, Contact)> {
+    let mut sampled = Sampled::at(&test.time_s);
+    let shaking = shaken(&test.shaking, physics.reversed_ratio);
+    Simulator::new(&physics.wall, &shaking, Accuracy::default()).run(&mut sampled);
+    let read = |(theta, contact): &(Pair, Contact)| (physics.wall.reading().of(*theta), *contact);
+    sampled.rows().iter().map(read).collect()
 }

@@ -2,7 +2,7 @@
 
 use toml::{Table, Value};
 
-use super::findings::Findings;
+use super::Findings;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{WALL_NUMBERS, WallNumber};
 use crate::diagnose::trials::Tried;

@@ -1,21 +1,191 @@
 //! Fits a hypothesis to windows: its numbers, and the state at the start of every window, together.
 //!
-//! Multiple shooting: the states are eliminated window by window (an orthogonal projection of residuals and
-//! sensitivities), which leaves normal equations in the few numbers of the hypothesis; after each step the states follow.
+//! Multiple shooting: the states are eliminated window by window, by an orthogonal projection of residuals and
+//! sensitivities. That leaves normal equations in the few numbers of the hypothesis. After each step the states follow.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | [`Problem`] | a hypothesis fitted to windows: coarsely, to the end, or by the states alone |
+//! | `descent` | steps of the numbers, and how every window changes with them |
+//! | `window_fit` | the state at the start of a window |
+//! | `replay` | a window simulated from a state |
+//! | `loss` | what a window costs, and how well windows are followed |
 
 mod descent;
-mod linear;
-mod memory;
-mod problem;
+mod loss;
 mod replay;
-mod robust;
-mod score;
 mod window_fit;
 
-pub use linear::WindowSlopes;
-pub use memory::SpringMemory;
-pub use problem::{Fit, Problem};
-pub use replay::{Replay, shaken};
-pub use robust::Loss;
-pub use score::{more_poor_held_out_sd, nats, poor_share, windowed_error};
+use super::hypothesis::Hypothesis;
+use crate::experiment::{TestData, Window};
+use crate::limits::MOST_MISSED;
+pub use descent::WindowSlopes;
+use descent::{COARSE, FINE, cost};
+pub use loss::{Loss, more_poor_held_out_sd, nats, poor_share, windowed_error};
+use nalgebra::DMatrix;
+pub use replay::{Replay, SpringMemory, shaken};
+use window_fit::{At, InState, in_chunks, newton_step, other_valleys, owned, state_jacobians, take_steps};
 pub use window_fit::{WindowFit, fit_windows};
+
+/// A fitted hypothesis.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    /// Its numbers, in the order of [`Hypothesis::unknowns`].
+    pub values: Vec<f64>,
+    /// Every window.
+    pub windows: Vec<WindowFit>,
+    /// Loss and prior together.
+    pub cost: f64,
+    /// Covariance of the numbers from the curvature; `None` where they leave no trace.
+    pub covariance: Option<DMatrix<f64>>,
+}
+
+impl Fit {
+    /// Squared error over squared noise of every window.
+    fn reduced(&self) -> Vec<f64> {
+        self.windows.iter().map(WindowFit::reduced).collect()
+    }
+
+    /// Whether many windows lie beyond what is felt by the losses that a fit is finished with.
+    pub fn is_far(&self) -> bool {
+        Loss::let_go_of_many(self.reduced())
+    }
+
+    /// Whether the model, and not the states it was given, is what misses the windows.
+    pub fn misses_many(&self) -> bool {
+        poor_share(&self.windows) > MOST_MISSED
+    }
+}
+
+/// Windows of some tests.
+#[derive(Debug, Clone, Copy)]
+pub struct Problem<'a> {
+    /// All tests of the experiment.
+    pub tests: &'a [TestData],
+    /// The windows that count.
+    pub windows: &'a [Window],
+}
+
+impl Problem<'_> {
+    /// The states as measured.
+    pub fn measured_states(&self) -> Vec<Vec<f64>> {
+        self.windows.iter().map(|w| w.measured.clone()).collect()
+    }
+
+    /// How the residuals of each window change with its state, for the values and states of a fit; `None` if there is no
+    /// such wall.
+    pub fn chords(&self, h: &Hypothesis, fit: &Fit) -> Option<Vec<DMatrix<f64>>> {
+        let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
+        let chords = |these: &[InState]| {
+            let at = At::all(&replay, owned(these));
+            state_jacobians(&replay, &at.iter().collect::<Vec<_>>())
+        };
+        Some(in_chunks(&self.states_of(fit), chords))
+    }
+
+    /// The windows with the states of a fit.
+    pub(super) fn states_of<'f>(&'f self, fit: &'f Fit) -> Vec<InState<'f>> {
+        self.windows.iter().zip(fit.windows.iter().map(|state| &state.x[..])).collect()
+    }
+
+    /// The states of a fit moved by one step with the chords of another hypothesis nearby, where that helps: a cheap look
+    /// at what values would do; `None` if there is no such wall.
+    pub fn glance(&self, h: &Hypothesis, values: &[f64], from: &Fit, chords: &[DMatrix<f64>]) -> Option<Fit> {
+        let replay = Replay::new(self.tests, &h.physics(values)?);
+        let look = |these: &[(InState, &DMatrix<f64>)]| {
+            let (states, chords): (Vec<_>, Vec<_>) = these.iter().copied().unzip();
+            let mut all = At::all(&replay, owned(&states));
+            let step =
+                |(at, chord): (&At, &&DMatrix<f64>)| newton_step(chord, &at.r).filter(|_| chord.ncols() > 0);
+            let steps = all.iter().zip(&chords).map(step).collect();
+            take_steps(&replay, &mut all, steps);
+            all.into_iter().map(At::fit).collect()
+        };
+        let these = self.states_of(from).into_iter().zip(chords).collect::<Vec<_>>();
+        let windows = in_chunks(&these, look);
+        let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
+        let loss = Loss::of_starts(from.reduced());
+        found.cost = cost(h, &found, loss);
+        Some(found)
+    }
+
+    /// Fits the states alone, from given ones; `None` if there is no such wall. `thorough` looks for other valleys of windows
+    /// that stay poor.
+    pub fn states(
+        &self,
+        h: &Hypothesis,
+        values: &[f64],
+        x: &[Vec<f64>],
+        steps: usize,
+        thorough: bool,
+    ) -> Option<Fit> {
+        let replay = Replay::new(self.tests, &h.physics(values)?);
+        let these = self.windows.iter().zip(x.iter().map(|x| &x[..])).collect::<Vec<_>>();
+        let windows = in_chunks(&these, |these| fit_windows(&replay, owned(these), steps));
+        let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
+        if thorough {
+            self.search(&replay, &mut found, steps);
+        }
+        found.cost = cost(h, &found, Loss::NEAR);
+        Some(found)
+    }
+
+    /// Looks for other states of the windows that are followed badly: those measured, for what was fitted under a model far
+    /// from the truth need not be near it; and others, unless the model misses most windows: then it is not in the wrong valley
+    /// of each.
+    fn search(&self, replay: &Replay, found: &mut Fit, steps: usize) {
+        self.retried(found, |poor| {
+            let measured = poor.iter().map(|(window, _)| (*window, window.measured.clone()));
+            fit_windows(replay, measured.collect(), steps)
+        });
+        if !found.misses_many() {
+            self.retried(found, |poor| other_valleys(replay, poor, steps));
+        }
+    }
+
+    /// Takes what is found for windows that are followed badly, where it is better.
+    fn retried(
+        &self,
+        found: &mut Fit,
+        find: impl Fn(&[(&Window, &WindowFit)]) -> Vec<WindowFit> + Send + Sync,
+    ) {
+        let poor = (0..self.windows.len()).filter(|k| found.windows[*k].is_poor()).collect::<Vec<_>>();
+        let these = poor.iter().map(|k| (&self.windows[*k], &found.windows[*k])).collect::<Vec<_>>();
+        let others = in_chunks(&these, find);
+        for (k, other) in poor.into_iter().zip(others) {
+            if other.squares < found.windows[k].squares {
+                found.windows[k] = other;
+            }
+        }
+    }
+
+    /// Fits numbers and states from given ones, coarsely: under the widest loss, states from where they are.
+    ///
+    /// Enough to tell what is far from the truth.
+    pub fn fit_coarsely(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
+        let widest = Loss::widest(start.reduced());
+        let fit = self.descend(h, start, widest, COARSE);
+        let mut fit = self.again(h, fit, false)?;
+        fit.cost = cost(h, &fit, Loss::Likelihood);
+        Some(fit)
+    }
+
+    /// Fits numbers and states to the end, from a coarse fit.
+    pub fn fit_finely(&self, h: &Hypothesis, coarse: Fit) -> Option<Fit> {
+        let mut fit = coarse;
+        for loss in Loss::NARROWING {
+            fit = self.descend(h, fit, loss, FINE);
+            // Other valleys are looked for once the numbers are about right.
+            fit = self.again(h, fit, loss != Loss::MIDDLE)?;
+        }
+        fit.cost = cost(h, &fit, Loss::Likelihood);
+        Some(fit)
+    }
+
+    /// The states fitted once more.
+    fn again(&self, h: &Hypothesis, fit: Fit, thorough: bool) -> Option<Fit> {
+        let x = fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
+        let again = self.states(h, &fit.values, &x, 2, thorough)?;
+        Some(Fit { covariance: fit.covariance, ..again })
+    }
+}

@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
 use super::replay::Replay;
-use crate::diagnose::measured::Window;
+use crate::experiment::Window;
 pub(super) use crate::least_squares::newton_step;
 use crate::limits::MISSED_SD;
 

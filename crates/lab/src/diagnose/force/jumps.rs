@@ -1,14 +1,48 @@
-//! Velocities after impacts over those the model gives from the state before them.
+//! Velocities after impacts over those that the model gives from the states before them.
+//!
+//! The states come from stretches of a test in one contact state, smoothed sample by sample and clear of impacts.
 
-use rayon::prelude::*;
-
-use super::stretch::{Stretch, stretches};
 use crate::diagnose::fit::{SpringMemory, shaken};
 use crate::diagnose::hypothesis::Physics;
-use crate::diagnose::measured::TestData;
+use crate::experiment::{Freedom, TestData, measured_state};
 use mrbd_kernel::model::{Contact, Pair, RockingWall, State};
 use mrbd_kernel::simulate::{Accuracy, Impacts, Observer, Simulator, Start};
 use mrbd_kernel::solver::Quintic;
+use rayon::prelude::*;
+
+/// Samples in a row whose contact state is beyond doubt and the same.
+#[derive(Debug, Clone)]
+pub struct Stretch {
+    /// The contact state.
+    pub contact: Contact,
+    /// What is free in it.
+    pub freedom: Freedom,
+    /// Its first sample.
+    pub from: usize,
+    /// Smoothed rotations and velocities of every sample.
+    pub states: Vec<State>,
+}
+
+/// All stretches of a test in order, rest included.
+pub fn stretches(test: &TestData) -> Vec<Stretch> {
+    let mut all: Vec<Stretch> = Vec::new();
+    let mut joined = false;
+    for k in 0..test.time_s.len() {
+        let Some(measured) = measured_state(test, k) else {
+            joined = false;
+            continue;
+        };
+        let (state, contact) = measured.freedom.state(&measured.numbers);
+        match all.last_mut().filter(|last| joined && last.contact == contact) {
+            Some(last) => last.states.push(state),
+            None => {
+                all.push(Stretch { contact, freedom: measured.freedom, from: k, states: vec![state] });
+            }
+        }
+        joined = true;
+    }
+    all
+}
 
 /// Longest stretch of doubt between two patterns that is taken for one impact or one burst, as a share of the wall's time
 /// of response.

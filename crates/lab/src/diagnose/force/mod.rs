@@ -1,25 +1,20 @@
-//! Step 4: the force that is missing, from the measured rotations alone.
+//! The force that is missing, from the measured rotations alone.
 //!
-//! Between impacts, the measured motion put into the equations of motion leaves a moment pair that no law of the wall
-//! explains. Its part along J_x = ∂x_C/∂θ is a horizontal force at the top; what lies off that direction is none. Nothing
-//! is differentiated: the equations are weighed with a test function over a short stretch of one pattern, which moves both
-//! derivatives onto the test function (the weak form). Over an impact, the velocities after it are compared with those
-//! the model gives from the state before it.
+//! Between impacts, the measured motion is put into the equations of motion. What remains is a moment pair that no law of
+//! the wall explains. Its part along J_x = ∂x_C/∂θ is a horizontal force at the top; what lies off that direction is not.
+//! Nothing is differentiated: the equations are weighed with a test function over a short stretch of one pattern. That
+//! moves both derivatives onto the test function (the weak form). Over an impact, the velocities after it are compared
+//! with those that the model gives from the state before it.
 
-mod at_top;
-mod curved;
-mod explained;
+mod curves;
 mod jumps;
-mod kernel;
-mod law_curves;
 mod points;
-mod stretch;
 
-pub use at_top::acts_at_top;
-pub use curved::curve_left;
-pub use explained::explained_by;
+pub use curves::acts_at_top;
+pub use curves::curve_left;
+pub use curves::explained_by;
+pub use curves::{Against, LawCurve, law_curves};
 pub use jumps::{Jump, jumps};
-pub use kernel::Kernel;
-pub use law_curves::{Against, LawCurve, law_curves};
+pub use jumps::{Stretch, stretches};
+pub use points::Kernel;
 pub use points::{ForcePoint, force_points, median_share_off_top};
-pub use stretch::{Stretch, stretches};

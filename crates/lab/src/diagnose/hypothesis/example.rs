@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::Hypothesis;
-use super::candidates::candidates;
-use super::scale::Scales;
+use super::addition::candidates;
+use super::unknown::Scales;
 use mrbd_files::parse_wall;
 
 /// Sizes as in a test of some strength.

@@ -1,20 +1,16 @@
 //! A model that might be true: the wall, what is uncertain of it, and what is added to it.
 
 mod addition;
-mod candidates;
 #[cfg(test)]
 pub mod example;
-mod nuisance;
-mod scale;
 mod unknown;
-mod wall_number;
 
+pub use addition::candidates;
 pub use addition::{ACTING, Addition};
-pub use candidates::candidates;
-pub use nuisance::Nuisance;
-pub use scale::Scales;
+pub use unknown::Nuisance;
+pub use unknown::Scales;
 pub use unknown::Unknown;
-pub use wall_number::{WALL_NUMBERS, WallNumber, wall_number};
+pub use unknown::{WALL_NUMBERS, WallNumber, wall_number};
 
 use nalgebra::{DMatrix, DVector};
 

@@ -2,36 +2,27 @@
 //!
 //! | module | idea |
 //! | --- | --- |
-//! | `starts`, `search` | one hypothesis: where its fit may start, the fit, and the tests held out |
-//! | `criteria` | when it follows the tests within noise, closes a gap, does something |
-//! | `alone` | the wall as given, its own numbers, and effects one by one |
-//! | `pairs` | two effects together |
-//! | `imitation`, `rivals` | candidates that could imitate the best |
+//! | `search` | one hypothesis: where its fit may start, the fit, and whether it is worth fitting to the end |
+//! | `tried` | what came of it: whether it follows the tests within noise, closes a gap, does something |
+//! | `effects` | the wall as given, its own numbers, effects one by one and in pairs, an answer fitted again |
+//! | `imitation` | hypotheses that could imitate the best |
 //! | `friction` | friction that gives a little first |
-//! | `refine` | an answer fitted again from starts about it, until that gains nothing |
-//! | `misread_gain`, `opened_joints` | patterns read again, without a sensor's gain and with joints open by less than the noise |
+//! | `patterns` | patterns read again, without a sensor's gain and with joints open by less than the noise |
 
-mod alone;
-mod criteria;
-mod finishing;
+mod effects;
 mod friction;
 mod imitation;
-mod misread_gain;
-mod opened_joints;
-mod pairs;
-mod refine;
-mod rivals;
+mod patterns;
 mod search;
-mod starts;
 mod tried;
 
-pub use alone::Alone;
-pub use criteria::{against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds};
+pub use effects::Alone;
 pub use friction::{FRICTION, giving_friction, kind_of};
-pub use misread_gain::{gain_misread, reads_better, set_gain};
-pub use opened_joints::{opened_as_given, opened_windows};
+pub use patterns::{gain_misread, reads_better, set_gain};
+pub use patterns::{opened_as_given, opened_windows};
 pub use search::untouched;
 pub use tried::{Data, Tried};
+pub use tried::{against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds};
 
 use rayon::prelude::*;
 
@@ -39,7 +30,7 @@ use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
 use crate::limits::{POLISHED, WORTH_POLISH};
-use finishing::{Coarse, worth_finishing};
+use search::{Coarse, worth_finishing};
 use search::{finish, refit, try_coarsely};
 
 /// Where hypotheses are tried.

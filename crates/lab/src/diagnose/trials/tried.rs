@@ -1,8 +1,18 @@
 //! A hypothesis, fitted, and judged on tests that the fit has not seen.
+//!
+//! It is judged by whether it follows the tests within noise, closes a gap, and does something.
 
-use crate::diagnose::fit::{Fit, Problem, nats, windowed_error};
+use super::kind_of;
+use crate::diagnose::fit::{
+    Fit, Problem, WindowFit, more_poor_held_out_sd, nats, poor_share, windowed_error,
+};
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::measured::{TestData, Window};
+use crate::experiment::{TestData, Window};
+use crate::limits::{
+    HELD_OUT_ERROR, LEAST_SIZE, LEFT_OF_GAP, MISSED_HELD_OUT_SD, MISSED_SHARE, MISSED_SHARE_SD, NOISE,
+    NOISE_AFTER, SIGNIFICANT_SD,
+};
+use mrbd_kernel::model::EffectKind;
 
 /// A hypothesis, fitted, and judged on tests that the fit has not seen.
 #[derive(Debug, Clone)]
@@ -64,4 +74,69 @@ impl Tried {
     fn prior(&self) -> f64 {
         0.5 * self.hypothesis.prior_penalty(&self.fit.values)
     }
+}
+
+/// Windowed error over fitted and held-out windows together; `None` where there are none.
+pub fn joint_error(tried: &Tried) -> Option<f64> {
+    windowed_error(&all_windows(tried))
+}
+
+/// Fitted and held-out windows together.
+pub fn all_windows(tried: &Tried) -> Vec<WindowFit> {
+    [&tried.fit.windows[..], &tried.held_out.windows].concat()
+}
+
+/// Whether what is left is noise.
+pub fn is_noise(tried: &Tried) -> bool {
+    let fits = all_windows(tried);
+    windowed_error(&fits).is_some_and(|error| error < NOISE) && !too_many_poor(&fits)
+}
+
+/// Whether more windows are followed badly than may be.
+fn too_many_poor(fits: &[WindowFit]) -> bool {
+    let count = fits.len() as f64;
+    let sd = (MISSED_SHARE * (1.0 - MISSED_SHARE) / count).sqrt();
+    poor_share(fits) > MISSED_SHARE + MISSED_SHARE_SD * sd
+}
+
+/// What speaks against a hypothesis in all windows.
+pub fn against(data: &Data, tried: &Tried) -> f64 {
+    tried.against(data).iter().sum()
+}
+
+/// Whether what a hypothesis leaves is near enough to noise to be the truth, for a gap that was `before`.
+pub fn closes(tried: &Tried, before: f64) -> bool {
+    let Some(after) = joint_error(tried) else { return false };
+    let held_out = tried.errors()[1].is_none_or(|error| error < HELD_OUT_ERROR)
+        && more_poor_held_out_sd(&tried.fit.windows, &tried.held_out.windows) < MISSED_HELD_OUT_SD;
+    let left = (after * after - 1.0) / (before * before - 1.0).max(f64::MIN_POSITIVE);
+    held_out && !too_many_poor(&all_windows(tried)) && (after < NOISE_AFTER || left < LEFT_OF_GAP)
+}
+
+/// Kinds of a hypothesis' additions, sorted; `None` if one is no answer.
+pub fn kinds(tried: &Tried) -> Option<Vec<EffectKind>> {
+    let h = &tried.hypothesis;
+    let kind = |index| kind_of(h, &tried.fit.values, index);
+    let mut kinds = (0..h.additions.len()).map(kind).collect::<Option<Vec<_>>>()?;
+    kinds.sort_unstable_by_key(|kind| kind.name());
+    Some(kinds)
+}
+
+/// Whether every addition of a hypothesis does something: a number of it differs from doing nothing by more than chance,
+/// and by more than a size too small to matter.
+pub fn does_something(tried: &Tried) -> bool {
+    let h = &tried.hypothesis;
+    let acts = |i: usize| {
+        let unknown = &h.unknowns[i];
+        let size = (tried.fit.values[i] - unknown.start).abs();
+        let sd = tried.fit.covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].max(0.0).sqrt());
+        size > SIGNIFICANT_SD * sd && size > LEAST_SIZE * unknown.scale
+    };
+    let all = h.nuisances..h.unknowns.len();
+    (0..h.additions.len()).all(|index| all.clone().any(|i| h.unknowns[i].belongs_to(index) && acts(i)))
+}
+
+/// The first of hypotheses in order that is an answer and does something.
+pub fn best_answer<'t>(tried: impl IntoIterator<Item = &'t Tried>) -> Option<&'t Tried> {
+    tried.into_iter().find(|t| kinds(t).is_some() && does_something(t))
 }

@@ -1,10 +1,10 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
-use super::names::{name_of_number, names};
-use super::place::place;
-use super::power::could_show;
-use super::second::worth_two;
+use super::worth_naming::could_show;
+use super::worth_naming::place;
+use super::worth_naming::worth_two;
 use super::{OtherLaw, Verdict};
+use super::{name_of_number, names};
 use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::force::{acts_at_top, force_points};

@@ -1,20 +1,21 @@
 //! From fitted hypotheses to a verdict.
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | `judge` | nothing missing, the wall's own numbers, one effect, two, or a place |
+//! | `worth_naming` | whether tests could show an effect, whether a second one shows, and where a force is missing |
+//! | `other_law` | whether a law outside the catalogue is behind a name |
 
-mod amplitude;
 mod judge;
-mod names;
 mod other_law;
-mod place;
-mod power;
-mod second;
+mod worth_naming;
 
-pub use amplitude::Trend;
+use super::hypothesis::{Addition, WallNumber};
+use super::trials::{Tried, kind_of};
 pub use judge::{Found, judge};
-pub use names::names;
-pub use other_law::OtherLaw;
-pub use power::power;
-
+pub use other_law::{OtherLaw, Trend};
 use serde::{Deserialize, Serialize};
+pub use worth_naming::power;
 
 /// The answer of a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -49,4 +50,21 @@ impl Verdict {
             Self::NoPower => "no_power",
         }
     }
+}
+
+/// Names by which equivalent hypotheses go in answers: kinds, and last words of keys of the wall.
+pub fn names(tried: &Tried) -> Vec<String> {
+    let h = &tried.hypothesis;
+    let name = |(index, addition): (usize, &Addition)| match addition {
+        Addition::Number(number) => name_of_number(number),
+        addition => kind_of(h, &tried.fit.values, index)
+            .map_or_else(|| addition.name(), |kind| kind.name().to_owned()),
+    };
+    h.additions.iter().enumerate().map(name).collect()
+}
+
+/// Last word of the key of a number of the wall, without its unit.
+pub fn name_of_number(number: &WallNumber) -> String {
+    let last = number.key.rsplit('.').next().unwrap_or(number.key);
+    last.trim_end_matches("_n_per_m").trim_end_matches("_kg").trim_end_matches("_m").to_owned()
 }

@@ -1,12 +1,102 @@
 //! What speaks for another law than the one that is about to be named, though it closes the gap.
+//!
+//! An effect has one size in small and in large motion; a law that it imitates has not.
 
-use serde::{Deserialize, Serialize};
-
-use super::amplitude::{Trend, trends_with_amplitude};
 use super::names;
+use crate::diagnose::fit::{Fit, Loss, Problem, WindowSlopes};
 use crate::diagnose::force::{curve_left, force_points};
+use crate::diagnose::hypothesis::Hypothesis;
 use crate::diagnose::trials::{Data, Tried};
 use crate::limits::{BENT_FORCE, TREND_NATS, TREND_SHARE};
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+/// What an added number would be, were it free to grow or shrink steadily with the largest rotation of a window.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Trend {
+    /// Gain in natural logarithms of likelihood, over the windows fitted and held out.
+    pub nats: f64,
+    /// By how much the number is larger or smaller than in the middle where the wall turns most, over its size.
+    pub share: f64,
+}
+
+/// The trends of the added numbers of a fitted hypothesis.
+///
+/// Linear about the fit. Factors of impacts are not asked: they come in sixes. `None` where the slopes cannot be told.
+fn trends_with_amplitude(data: &Data, tried: &Tried) -> Option<Vec<Trend>> {
+    let h = &tried.hypothesis;
+    let sides = [(data.fit, &tried.fit), (data.held_out, &tried.held_out)];
+    let slopes = slopes(h, &tried.fit, sides)?;
+    let rank = ranks(&slopes.iter().map(|s| s.amplitude).collect::<Vec<_>>());
+    let asked = (h.nuisances..h.unknowns.len()).filter(|&i| h.unknowns[i].prior_sd.is_none());
+    Some(asked.filter_map(|i| trend(h, &tried.fit, &slopes, &rank, i)).collect())
+}
+
+/// A window with how far the wall turns in it, and the weight it has in the fit.
+struct Sloped {
+    amplitude: f64,
+    weight: f64,
+    slopes: WindowSlopes,
+}
+
+fn slopes(h: &Hypothesis, fit: &Fit, sides: [(Problem, &Fit); 2]) -> Option<Vec<Sloped>> {
+    let mut all = Vec::new();
+    let mut changes = None;
+    for (problem, states) in sides {
+        if problem.windows.is_empty() {
+            continue;
+        }
+        // The states of tests held out, the values of the fit.
+        let at = Fit { values: fit.values.clone(), ..states.clone() };
+        let (slopes, used) = problem.slopes(h, &at, changes.as_deref())?;
+        changes = Some(used);
+        let windows = problem.windows.iter().zip(&at.windows).zip(slopes);
+        all.extend(windows.map(|((window, state), slopes)| {
+            let rows = &problem.tests[window.test].theta_rad[window.samples.clone()];
+            let amplitude =
+                rows.iter().flatten().filter(|x| x.is_finite()).fold(0.0, |m: f64, x| m.max(x.abs()));
+            Sloped { amplitude, weight: Loss::Likelihood.weight(state), slopes }
+        }));
+    }
+    Some(all)
+}
+
+/// Ranks from -1 for the smallest to 1 for the largest.
+fn ranks(x: &[f64]) -> Vec<f64> {
+    let mut order = (0..x.len()).collect::<Vec<_>>();
+    order.sort_by(|&a, &b| x[a].total_cmp(&x[b]));
+    let mut ranks = vec![0.0; x.len()];
+    for (place, index) in order.into_iter().enumerate() {
+        ranks[index] = 2.0 * place as f64 / (x.len().max(2) - 1) as f64 - 1.0;
+    }
+    ranks
+}
+
+/// The trend of the number `i`; its gain is what goes beyond that of another step of all numbers.
+fn trend(h: &Hypothesis, fit: &Fit, slopes: &[Sloped], rank: &[f64], i: usize) -> Option<Trend> {
+    let count = h.unknowns.len();
+    let (mut a, mut g) = (DMatrix::zeros(count + 1, count + 1), DVector::zeros(count + 1));
+    for (window, rank) in slopes.iter().zip(rank) {
+        let trend = window.slopes.by_values.column(i) * *rank;
+        let columns = window.slopes.by_values.clone().insert_column(count, 0.0);
+        let mut columns: DMatrix<f64> = columns;
+        columns.set_column(count, &trend);
+        a += columns.transpose() * &columns * window.weight;
+        g += columns.transpose() * &window.slopes.residual * window.weight;
+    }
+    h.add_prior(&fit.values, &mut a, &mut g);
+    for (k, unknown) in h.unknowns.iter().enumerate() {
+        // A number without a trace stays where it is.
+        a[(k, k)] += 1e-12 / (unknown.scale * unknown.scale);
+    }
+    a[(count, count)] += 1e-12 / (h.unknowns[i].scale * h.unknowns[i].scale);
+    let step = |a: DMatrix<f64>, g: &DVector<f64>| Some(a.cholesky()?.solve(g));
+    let (first, own) = (a.view((0, 0), (count, count)).into_owned(), g.rows(0, count).into_owned());
+    let without = 0.5 * own.dot(&step(first, &own)?);
+    let all = step(a, &g)?;
+    let size = (fit.values[i] - h.unknowns[i].start).abs();
+    Some(Trend { nats: 0.5 * g.dot(&all) - without, share: all[count].abs() / size.max(f64::MIN_POSITIVE) })
+}
 
 /// Signs of a law outside the catalogue.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,16 +1,50 @@
-//! Patterns read again where a joint may be open by less than the noise.
+//! Patterns read again: where a sensor reads with a gain, and where a joint is open by less than the noise.
 //!
-//! A joint that is open by less than the noise reads as closed. What it does soon shows, so that a window that starts so is
-//! followed by no wall; it may be once its bodies are free.
-
-use rayon::prelude::*;
+//! Two channels that differ by a few percent look like an open crack. Windows then start in patterns the wall was not in,
+//! and not even the true gain follows them. The gain itself is found all the same: without it patterns are read again.
+//!
+//! A joint that is open by less than the noise reads as closed. What it does soon shows, so no wall follows a window that
+//! starts so. A wall may, once the bodies are free.
 
 use super::{Alone, Data, Tried, best_answer, untouched};
 use crate::diagnose::experiment::Experiment;
-use crate::diagnose::fit::{Fit, Problem, Replay, WindowFit, fit_windows};
+use crate::diagnose::fit::{Fit, Problem, Replay, WindowFit, fit_windows, nats};
 use crate::diagnose::hypothesis::{Hypothesis, Physics};
-use crate::diagnose::measured::{Freedom, TestData, Window};
+use crate::experiment::{Freedom, TestData, Window};
 use crate::limits::{GAINED_BY_OPENING, READS_CLOSED, WORTH_OPENING};
+use mrbd_kernel::model::{EffectKind, Pair};
+use rayon::prelude::*;
+
+/// The gain of each channel that the best single effect names, where taking it out could change how a pattern is read.
+pub fn gain_misread(tests: &[TestData], best: &Tried) -> Option<Pair> {
+    let gain = best.hypothesis.physics(&best.fit.values)?.wall.reading().gain;
+    let shows = |test: &TestData| {
+        let change = [0, 1].map(|i| gain[i] / test.read_gain[i] - 1.0);
+        let largest = |i: usize| test.theta_rad.iter().map(|t| t[i].abs()).fold(0.0, f64::max);
+        (0..2).any(|i| change[i].abs() * largest(i) > test.noise_rad[i])
+    };
+    tests.iter().any(shows).then_some(gain)
+}
+
+/// Reads the tests with these gains; those before.
+pub fn set_gain(tests: &mut [TestData], gain: Pair) -> Pair {
+    let before = tests.first().map_or([1.0; 2], |test| test.read_gain);
+    tests.iter_mut().for_each(|test| test.read_gain = gain);
+    before
+}
+
+/// Whether the best single effect is a gain again, and leaves less of its windows than it left of those before.
+pub fn reads_better(before: &[Tried], after: &[Tried]) -> bool {
+    let is_gain = |t: &Tried| t.hypothesis.additions.iter().any(|a| a.kind() == Some(EffectKind::SensorGain));
+    let [Some(before), Some(after)] = [before, after].map(<[Tried]>::first) else { return false };
+    is_gain(after) && left(after) < left(before)
+}
+
+/// What speaks against it, by window: the windows are others once patterns are read anew.
+fn left(tried: &Tried) -> f64 {
+    let windows = [&tried.fit.windows[..], &tried.held_out.windows].concat();
+    nats(&windows) / windows.len() as f64
+}
 
 /// Steps by which the state of a window with its bodies free is fitted.
 const STEPS: usize = 6;
@@ -107,13 +141,12 @@ fn openings(test: &TestData, freedom: Freedom, closed: &[f64]) -> impl Iterator<
 mod tests {
     use std::path::Path;
 
-    use rand::SeedableRng;
-    use rand_distr::{Distribution, Normal};
-
     use super::*;
     use crate::experiment_file::Purpose;
     use mrbd_files::parse_wall;
     use mrbd_kernel::simulate::Shaking;
+    use rand::SeedableRng;
+    use rand_distr::{Distribution, Normal};
 
     const NOISE_RAD: f64 = 3e-4;
     const COUNT: usize = 120;

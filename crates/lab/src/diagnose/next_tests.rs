@@ -4,22 +4,21 @@
 //! fitted to that together with the tests there are. What then speaks more against it than against the first would part
 //! them.
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, Normal};
-use serde::{Deserialize, Serialize};
-
-use crate::diagnose::answer::Findings;
-use crate::diagnose::fit::{Fit, Problem, nats, shaken, windowed_error};
-use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::measured::{TestData, Window, windows};
-use crate::diagnose::trials::{Tried, against, kinds};
-use crate::diagnose::verdict::Verdict;
+use super::answer::Findings;
+use super::fit::{Fit, Problem, nats, shaken, windowed_error};
+use super::hypothesis::Addition;
+use super::trials::{Tried, against, kinds};
+use super::verdict::Verdict;
 use crate::experiment::Sampled;
+use crate::experiment::{TestData, Window, windows};
 use crate::limits::{EQUIVALENT, NEXT_FACTORS, NEXT_FITTED, NEXT_PULLS};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Contact, RockingWall};
 use mrbd_kernel::simulate::{Accuracy, Shaking, Simulator};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Normal};
+use serde::{Deserialize, Serialize};
 
 /// Seed of the noise.
 const SEED: u64 = 7;

@@ -1,0 +1,280 @@
+//! How sure an answer is: intervals of its numbers, errors over whole runs, and what could hardly be told apart.
+//!
+//! Effects are told apart by their traces: how the windows change with a little of an effect. Another effect, what is
+//! uncertain of the wall, and the states at the starts of the windows may imitate a share of a trace. The tests cannot
+//! tell that share.
+
+use super::fit::{Fit, Loss, WindowSlopes};
+use super::hypothesis::Addition;
+pub use super::next_tests::{NextPull, NextShaking, NextTests, next_tests};
+use super::trials::{Data, Tried};
+use crate::limits::{DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
+use mrbd_kernel::model::Wall;
+use nalgebra::{DMatrix, DVector};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Half width of a 90 % interval of a normal variable, in standard deviations.
+const NINETY_PERCENT: f64 = 1.644_853_626_951_472_2;
+
+/// 90 % intervals of the values of a fitted hypothesis; all that a number may be where the tests do not tell.
+///
+/// From the curvature of the loss at the fit, and from how far the tests pull it apart (an infinitesimal jackknife over
+/// tests): the first does not know that the windows of a test err together.
+pub fn intervals(data: &Data, tried: &Tried) -> Vec<[f64; 2]> {
+    let variance = variances(data, tried);
+    let interval = |(i, value): (usize, &f64)| {
+        let half = NINETY_PERCENT * variance.as_ref().map_or(f64::INFINITY, |v| v[i].sqrt());
+        let unknown = &tried.hypothesis.unknowns[i];
+        [(value - half).max(unknown.lower), (value + half).min(unknown.upper)]
+    };
+    tried.fit.values.iter().enumerate().map(interval).collect()
+}
+
+/// `None` where the curvature cannot be told; infinite where a number leaves no trace.
+fn variances(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
+    let count = tried.fit.values.len();
+    if count == 0 {
+        return Some(Vec::new());
+    }
+    let (slopes, _) = data.fit.slopes(&tried.hypothesis, &tried.fit, None)?;
+    let mut curvature = DMatrix::zeros(count, count);
+    let mut pulls: Vec<(usize, DVector<f64>)> = Vec::new();
+    for ((window, state), WindowSlopes { residual, by_values, .. }) in
+        data.fit.windows.iter().zip(&tried.fit.windows).zip(&slopes)
+    {
+        let weight = Loss::Likelihood.weight(state);
+        curvature += by_values.transpose() * by_values * weight;
+        let pull = by_values.transpose() * residual * weight;
+        match pulls.iter_mut().find(|(test, _)| *test == window.test) {
+            Some((_, sum)) => *sum += pull,
+            None => pulls.push((window.test, pull)),
+        }
+    }
+    tried.hypothesis.add_prior(&tried.fit.values, &mut curvature, &mut DVector::zeros(count));
+    let pulls = pulls.into_iter().map(|(_, pull)| pull).collect::<Vec<_>>();
+    let covariance = covariance_of(&curvature)?;
+    let scatter = scatter(&covariance, &pulls);
+    Some((0..count).map(|i| covariance[(i, i)] + scatter[i]).collect())
+}
+
+/// The covariance that a curvature means, infinite for numbers without a trace; `None` where two leave the same.
+fn covariance_of(curvature: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let traced = (0..curvature.nrows()).filter(|i| curvature[(*i, *i)] > 0.0).collect::<Vec<_>>();
+    // Numbers of different units: each by its own trace.
+    let size = |k: usize| curvature[(traced[k], traced[k])].sqrt();
+    let of = |k: usize, l: usize| curvature[(traced[k], traced[l])] / (size(k) * size(l));
+    let inverse = DMatrix::from_fn(traced.len(), traced.len(), of).cholesky()?.inverse();
+    let mut covariance = DMatrix::zeros(curvature.nrows(), curvature.nrows());
+    covariance.fill_diagonal(f64::INFINITY);
+    for k in 0..traced.len() {
+        for l in 0..traced.len() {
+            covariance[(traced[k], traced[l])] = inverse[(k, l)] / (size(k) * size(l));
+        }
+    }
+    Some(covariance)
+}
+
+/// Variances over tests: how far each would move the values by its own pull, beyond the mean of all; none of one test.
+fn scatter(covariance: &DMatrix<f64>, pulls: &[DVector<f64>]) -> Vec<f64> {
+    let n = pulls.len() as f64;
+    if pulls.len() < 2 {
+        return vec![0.0; covariance.nrows()];
+    }
+    let mean = pulls.iter().fold(DVector::zeros(covariance.nrows()), |sum, pull| sum + pull) / n;
+    // A number without a trace is not pulled.
+    let known = covariance.map(|c| if c.is_finite() { c } else { 0.0 });
+    let moves = pulls.iter().map(|pull| &known * (pull - &mean)).collect::<Vec<_>>();
+    let variance = |i: usize| n / (n - 1.0) * moves.iter().map(|m| m[i] * m[i]).sum::<f64>();
+    (0..covariance.nrows()).map(variance).collect()
+}
+
+/// Draws beside the fitted numbers.
+const DRAWS: usize = 8;
+/// Seed of the draws.
+const SEED: u64 = 11;
+
+/// The wall as fitted, and walls drawn from the covariance of the fit, within bounds; the fitted one alone where the fit
+/// leaves no covariance. `None` if the fitted numbers are no wall.
+///
+/// An impact system is nearly chaotic: the error of one whole run says little without those of its neighbours.
+pub fn ensemble(tried: &Tried) -> Option<Vec<Wall>> {
+    let h = &tried.hypothesis;
+    let fitted = DVector::from_column_slice(&tried.fit.values);
+    let mut walls = vec![h.physics(&tried.fit.values)?.wall];
+    let Some(factor) = tried.fit.covariance.clone().and_then(|c| c.cholesky()) else { return Some(walls) };
+    let mut random = ChaCha8Rng::seed_from_u64(SEED);
+    for _ in 0..DRAWS {
+        let normal = DVector::from_fn(fitted.len(), |_, _| StandardNormal.sample(&mut random));
+        let drawn = &fitted + factor.l() * normal;
+        let within = h.unknowns.iter().zip(drawn.iter()).map(|(u, value)| value.clamp(u.lower, u.upper));
+        walls.extend(h.physics(&within.collect::<Vec<_>>()).map(|physics| physics.wall));
+    }
+    Some(walls)
+}
+
+/// Changes over which slopes are taken, in standard deviations of a number: well inside what the tests can tell.
+const CHANGE_SD: f64 = 1.0;
+/// A window whose change over half of that differs from half its change by more than this share is not linear there: an impact
+/// that is met on one side of the change only is no trace of anything. Chosen.
+const BENT: f64 = 0.25;
+
+/// An effect that another imitates in these tests.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Confused {
+    /// The effect.
+    pub effect: String,
+    /// What imitates it.
+    pub imitated_by: String,
+    /// Share of its trace that the other imitates, beyond what the wall's own uncertain numbers do.
+    pub share: f64,
+    /// Its number, with unit.
+    pub parameter: String,
+    /// Unit.
+    pub unit: String,
+    /// Smallest size told from nothing ...
+    pub told_from_nothing: f64,
+    /// ... and from the other.
+    pub told_apart: f64,
+    /// A size that matters.
+    pub matters: f64,
+    /// The measurement that tells the effect by itself.
+    pub told_by: String,
+}
+
+/// How the windows change with the numbers of one addition.
+struct Trace<'t> {
+    tried: &'t Tried,
+    /// Of every window; `None` where it is not linear.
+    slopes: Vec<Option<WindowSlopes>>,
+}
+
+/// Every effect of one number with what imitates most of it, the best imitated first.
+///
+/// Linear about the wall with its own numbers fitted. Effects of several numbers stand only as imitators; those that leave
+/// no trace when they are small, such as a spring that yields at once, do not stand at all.
+pub fn confused(data: &Data, recalibrated: &Tried, tried: &[Tried]) -> Vec<Confused> {
+    let singles = tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
+    let real = singles.filter(|t| t.hypothesis.additions[0] != Addition::Placebo).collect::<Vec<_>>();
+    let traces = real.par_iter().filter_map(|t| trace(data, recalibrated, t)).collect::<Vec<_>>();
+    let one = |t: &&Trace| t.tried.hypothesis.unknowns.len() == t.tried.hypothesis.nuisances + 1;
+    let effects = traces.iter().filter(|t| t.tried.hypothesis.additions[0].kind().is_some()).filter(one);
+    let mut all = effects.filter_map(|effect| most_confused(effect, &traces)).collect::<Vec<_>>();
+    all.sort_by(|a, b| b.share.total_cmp(&a.share));
+    all
+}
+
+fn trace<'t>(data: &Data, recalibrated: &Tried, tried: &'t Tried) -> Option<Trace<'t>> {
+    let h = &tried.hypothesis;
+    // The wall's own numbers as they were fitted, and nothing added.
+    let values = h.values_from(&recalibrated.hypothesis, &recalibrated.fit.values);
+    let at = Fit { values, windows: recalibrated.fit.windows.clone(), cost: 0.0, covariance: None };
+    let covariance = tried.fit.covariance.as_ref()?;
+    let change = |i: usize| {
+        let sd = covariance[(i, i)].max(0.0).sqrt();
+        (sd.is_finite() && sd > 0.0).then_some((CHANGE_SD * sd).min(h.unknowns[i].scale))
+    };
+    let changes = (0..h.unknowns.len()).map(change).collect::<Option<Vec<_>>>()?;
+    let (slopes, _) = data.fit.slopes(h, &at, Some(&changes))?;
+    let (near, _) = data.fit.slopes(h, &at, Some(&changes.iter().map(|c| c / 2.0).collect::<Vec<_>>()))?;
+    let linear = |(far, near): (WindowSlopes, WindowSlopes)| is_linear(&far, &near).then_some(far);
+    Some(Trace { tried, slopes: slopes.into_iter().zip(near).map(linear).collect() })
+}
+
+/// Whether a window is linear over a change and over half of it, with the same slopes.
+fn is_linear(far: &WindowSlopes, near: &WindowSlopes) -> bool {
+    let columns = far.by_values.column_iter().zip(near.by_values.column_iter());
+    let same = columns.into_iter().all(|(far, near)| (far - near).norm() <= BENT * near.norm());
+    far.holds && near.holds && same
+}
+
+fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
+    let alone = information(effect, effect, 0)?;
+    let kind = |t: &Trace| t.tried.hypothesis.additions[0].kind();
+    let others = all.iter().filter(|other| kind(other).is_none() || kind(other) != kind(effect));
+    let shares = others.filter_map(|other| {
+        let added = other.tried.hypothesis.unknowns.len() - other.tried.hypothesis.nuisances;
+        let left = information(effect, other, added)?;
+        Some((1.0 - left / information(effect, other, 0)?, left, other))
+    });
+    let (share, left, other) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    if share < IMITATED_SHARE {
+        return None;
+    }
+    let h = &effect.tried.hypothesis;
+    let Addition::Effect(variant) = h.additions[0] else { return None };
+    let unknown = &h.unknowns[h.nuisances];
+    Some(Confused {
+        effect: h.additions[0].name(),
+        imitated_by: other.tried.hypothesis.additions[0].name(),
+        share,
+        parameter: unknown.key.clone(),
+        unit: unknown.unit.to_owned(),
+        told_from_nothing: DETECTED_SD / alone.sqrt(),
+        // Half the square of the size over its standard deviation is what speaks for one and against the other.
+        told_apart: (2.0 * EQUIVALENT / left).sqrt(),
+        matters: unknown.scale,
+        told_by: variant.entry().told_by.to_owned(),
+    })
+}
+
+/// Inverse variance of an effect's number beside the wall's own uncertain numbers and the first few of another addition, in
+/// the windows in which both are linear; `None` where it leaves no trace.
+fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
+    let h = &effect.tried.hypothesis;
+    let (own, at) = (h.nuisances, h.nuisances);
+    let size = own + 1 + added;
+    let mut a = DMatrix::zeros(size, size);
+    for (w, window) in effect.slopes.iter().enumerate() {
+        let (Some(window), Some(theirs)) = (window, &other.slopes[w]) else { continue };
+        let mut columns = window.by_values.clone().resize_horizontally(size, 0.0);
+        for k in 0..added {
+            let theirs = theirs.by_values.column(other.tried.hypothesis.nuisances + k);
+            columns.set_column(own + 1 + k, &theirs);
+        }
+        a += columns.transpose() * &columns;
+    }
+    let scale = |k: usize| if a[(k, k)] > 0.0 { a[(k, k)].sqrt() } else { 1.0 };
+    let scales = (0..size).map(scale).collect::<Vec<_>>();
+    if a[(at, at)] <= 0.0 {
+        return None;
+    }
+    // Columns of length one; a number without a trace, or one that is another's double, must not stop the inverse.
+    let mut unit = DMatrix::from_fn(size, size, |i, j| a[(i, j)] / (scales[i] * scales[j]));
+    for k in 0..size {
+        unit[(k, k)] += 1e-9;
+        if let Some(sd) = h.unknowns.get(k).filter(|_| k < own).and_then(|u| u.prior_sd) {
+            unit[(k, k)] += 1.0 / (sd * scales[k]).powi(2);
+        }
+    }
+    let inverse = unit.cholesky()?.inverse();
+    Some(scales[at].powi(2) / inverse[(at, at)])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_tests_of_a_mean_scatter_as_their_means_do() {
+        // The mean of four numbers known to 1, one a test: curvature 4, pulls are the residuals. Leaving one out moves the mean
+        // by a third of its residual: (n - 1)/n of the sum of their squares is sum r²/(n (n - 1)).
+        let residuals = [0.3, -1.1, 0.5, 0.3];
+        let pulls = residuals.map(|r| DVector::from_element(1, r));
+        let covariance = covariance_of(&DMatrix::from_element(1, 1, 4.0)).expect("a trace");
+        let expected = residuals.iter().map(|r| r * r).sum::<f64>() / 12.0;
+        assert!((covariance[(0, 0)] - 0.25).abs() < 1e-15);
+        assert!((scatter(&covariance, &pulls)[0] - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn analytic_a_number_without_a_trace_is_not_known_and_two_with_one_trace_are_not_told_apart() {
+        let one = covariance_of(&DMatrix::from_row_slice(2, 2, &[4.0, 0.0, 0.0, 0.0])).expect("a trace");
+        assert!((one[(0, 0)] - 0.25).abs() < 1e-15 && one[(1, 1)] == f64::INFINITY);
+        assert_eq!(scatter(&one, &[[1.0, 0.0], [-1.0, 0.0]].map(|p| DVector::from_column_slice(&p)))[1], 0.0);
+        assert!(covariance_of(&DMatrix::from_element(2, 2, 1.0)).is_none());
+    }
+}

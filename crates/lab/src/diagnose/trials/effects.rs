@@ -1,0 +1,270 @@
+//! Effects tried: one by one, in pairs, and an answer once more from about where it was found.
+//!
+//! A pair is the best single effects with every other, as far as a first look promises something.
+//!
+//! Windows near an impact that the noise decides have several local minima. The one that a window lies in holds the numbers
+//! of a hypothesis where they are. Fits that start from other numbers find other minima. The best of all of them is the
+//! answer, and its intervals mean something.
+
+use super::imitation::seconds;
+use super::search::{promise, refit, shared_states, try_hypothesis, try_second};
+use super::{Trials, Tried, against, kinds, untouched};
+use crate::Progress;
+use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
+use crate::limits::{
+    ANSWER_ROUNDS, ANSWER_SHARES, BESIDE_THE_BEST, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME,
+    PAIRS_WITHOUT_A_NAME, REFITTED_FROM, STATES_FOR_WALL, WORTH_A_ROUND, WORTH_POLISH,
+};
+use mrbd_kernel::model::Role;
+use rayon::prelude::*;
+
+/// The wall as given, its numbers fitted, and single effects, best first; none of these where too little moves.
+pub struct Alone {
+    /// The wall as it was given.
+    pub before: Tried,
+    /// Its uncertain numbers fitted.
+    pub recalibrated: Tried,
+    /// Single effects.
+    pub singles: Vec<Tried>,
+}
+
+impl<P: Progress> Trials<'_, P> {
+    /// Everything that is tried alone; `None` if there is no window to start in. The wall's uncertain numbers are fitted from
+    /// values `known` from elsewhere too.
+    pub fn alone(&self, known: Option<&[f64]>) -> Option<Alone> {
+        let nuisances = &self.experiment.nuisances;
+        self.progress.begin("the wall as given", 2);
+        let before = untouched(&self.data, self.hypothesis(&[], &[]))?;
+        self.progress.advance(1);
+        if self.data.fit.windows.len() < LEAST_MOVING {
+            let recalibrated = before.clone();
+            return Some(Alone { before, recalibrated, singles: Vec::new() });
+        }
+        let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before)?;
+        let known = known.and_then(|v| refit(&self.data, self.hypothesis(nuisances, &[]), &before, v));
+        let better = known.filter(|known| against(&self.data, known) < against(&self.data, &recalibrated));
+        let recalibrated = better.unwrap_or(recalibrated);
+        self.progress.advance(1);
+        let (recalibrated, singles) = self.singles(&before, recalibrated);
+        let best = singles.iter().take(STATES_FOR_WALL).collect::<Vec<_>>();
+        let [before, recalibrated] =
+            [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
+        Some(Alone { before, recalibrated, singles })
+    }
+
+    /// Single effects, best first, and the wall without effects, each fitted again from what the other found.
+    fn singles(&self, before: &Tried, recalibrated: Tried) -> (Tried, Vec<Tried>) {
+        let nuisances = &self.experiment.nuisances;
+        let additions = candidates(self.experiment.wall.parameters());
+        let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
+        let singles = self.try_all("single effects", nuisances, &self.starts(before, &recalibrated), &sets);
+        let nearest = singles.iter().take(REFITTED_FROM);
+        let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, whole));
+        if against(&self.data, &recalibrated) - against(&self.data, &better) < WORTH_POLISH {
+            let singles = self.polished(nuisances, before, singles, &better);
+            return (better, self.with_giving(singles));
+        }
+        // What was tried before had missed the same; the best need not have.
+        let starts = [Some(&better), singles.first()].into_iter().flatten().collect::<Vec<_>>();
+        let again = self.try_all("single effects again", nuisances, &starts, &sets);
+        let best = self.best_of_each([singles, again].concat());
+        let singles = self.polished(nuisances, before, best, &better);
+        (better, self.with_giving(singles))
+    }
+
+    /// Where single effects start: from the wall as given, and where one of its numbers was not known, with that fitted.
+    fn starts<'t>(&self, before: &'t Tried, recalibrated: &'t Tried) -> Vec<&'t Tried> {
+        let wide = self.experiment.nuisances.iter().any(Nuisance::is_wide);
+        if wide { vec![before, recalibrated] } else { vec![before] }
+    }
+}
+
+impl<P: Progress> Trials<'_, P> {
+    /// Pairs with the best single effects, where one of them closes a gap by its `name` or where none does.
+    pub fn pairs(
+        &self,
+        singles: &[Tried],
+        single: &Tried,
+        before: &Tried,
+        gap: f64,
+        name: bool,
+    ) -> Vec<Tried> {
+        let answers = singles.iter().filter(|t| kinds(t).is_some()).collect::<Vec<_>>();
+        let count = if name { PAIRS_BESIDE_A_NAME } else { PAIRS_WITHOUT_A_NAME };
+        let pairs = self.promising(&bases(&answers, name), &answers, count);
+        self.progress.begin("pairs of effects", pairs.len());
+        let try_one = |(h, first): &(Hypothesis, &Tried)| {
+            let tried = try_second(&self.data, h.clone(), first, before);
+            self.progress.advance(1);
+            tried
+        };
+        let tried = pairs.par_iter().filter_map(try_one).collect();
+        let tried = self.finished(self.ordered(tried));
+        let nearest = self.beside(answers.first().copied().unwrap_or(single));
+        let tried = self.best_of_each([tried, nearest].concat());
+        let tried = self.polished(&self.experiment.nuisances, before, tried, single);
+        self.with_imitations(self.with_giving(tried), gap)
+    }
+
+    /// The best single effect with those that take away most beside it, as far as a linear look tells.
+    fn beside(&self, first: &Tried) -> Vec<Tried> {
+        let hypothesis = |additions: &[Addition]| self.hypothesis(&self.experiment.nuisances, additions);
+        let effects = candidates(self.experiment.wall.parameters());
+        // Factors on the coefficients of impact would free these of what was known of them.
+        let known = self.experiment.nuisances.iter().any(|n| matches!(n, Nuisance::Coefficient(..)));
+        let effect = |a: &Addition| a.role().is_some_and(|role| !known || role != Role::Impact);
+        let effects = effects.into_iter().filter(effect).collect::<Vec<_>>();
+        let Some(found) = seconds(&self.data, first, &effects, hypothesis) else { return Vec::new() };
+        let found = found.into_iter().take(BESIDE_THE_BEST).collect::<Vec<_>>();
+        self.progress.begin("second effects beside the best", found.len());
+        found.par_iter().filter_map(|imitation| self.fit_from(imitation, first)).collect()
+    }
+
+    /// Of each base the pairs that promise most at a glance, and those of which only a fit would tell: bases that follow the
+    /// windows differently are looked at in different losses.
+    fn promising<'t>(
+        &self,
+        bases: &[&'t Tried],
+        answers: &[&Tried],
+        count: usize,
+    ) -> Vec<(Hypothesis, &'t Tried)> {
+        let sets = sets(bases, answers);
+        self.progress.begin("pairs of effects, a first look", sets.iter().map(Vec::len).sum());
+        let look = |first: &'t Tried, set: &[Addition; 2]| {
+            let h = self.hypothesis(&self.experiment.nuisances, set);
+            let cost = promise(&self.data, &h, first).unwrap_or(f64::NEG_INFINITY);
+            self.progress.advance(1);
+            (cost, h, first)
+        };
+        let best = |(first, sets): (&&'t Tried, Vec<[Addition; 2]>)| {
+            let mut pairs = sets.par_iter().map(|set| look(first, set)).collect::<Vec<_>>();
+            pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+            pairs.into_iter().take(count).map(|(_, h, first)| (h, first)).collect::<Vec<_>>()
+        };
+        bases.iter().zip(sets).flat_map(best).collect()
+    }
+}
+
+/// Single effects that are paired with all others: the best; where none closes the gap, the second best too, and that which
+/// follows the windows with the least error, for of a gap far above the noise likelihood tells little.
+fn bases<'t>(answers: &[&'t Tried], name: bool) -> Vec<&'t Tried> {
+    let mut bases = answers.iter().copied().take(if name { 1 } else { PAIRED }).collect::<Vec<_>>();
+    let follows = answers.iter().copied().min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+    bases.extend(follows.filter(|t| !name && !bases.iter().any(|b| std::ptr::eq(*b, *t))));
+    bases
+}
+
+/// Of each base its pairs with all others of another kind, each pair once.
+fn sets(bases: &[&Tried], answers: &[&Tried]) -> Vec<Vec<[Addition; 2]>> {
+    let addition = |t: &&Tried| t.hypothesis.additions[0];
+    let bases = bases.iter().map(addition).collect::<Vec<_>>();
+    let of = |(i, one): (usize, &Addition)| {
+        let new = |two: &Addition| two.kind() != one.kind() && !bases[..i].contains(two);
+        answers.iter().map(addition).filter(new).map(|two| [*one, two]).collect()
+    };
+    bases.iter().enumerate().map(of).collect()
+}
+
+impl<P: Progress> Trials<'_, P> {
+    /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one
+    /// refined: what such windows say is at its bound, and a fit ends before the numbers of the right law.
+    pub fn with_far_refined(&self, tried: Vec<Tried>) -> Vec<Tried> {
+        let answers = tried.iter().filter(|t| kinds(t).is_some());
+        let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+        let Some(far) = follows.filter(|t| t.fit.is_far()).cloned() else { return tried };
+        let refined = self.refined(far);
+        self.best_of_each([tried, vec![refined]].concat())
+    }
+
+    /// The same additions with the numbers and states that speak least against them.
+    pub fn refined(&self, answer: Tried) -> Tried {
+        let mut best = answer;
+        for _ in 0..ANSWER_ROUNDS {
+            let next = self.once_more(&best);
+            let gain = against(&self.data, &best) - against(&self.data, &next);
+            if gain > 0.0 {
+                best = next;
+            }
+            if gain < WORTH_A_ROUND {
+                break;
+            }
+        }
+        best
+    }
+
+    fn once_more(&self, best: &Tried) -> Tried {
+        let against = |tried: &Tried| against(&self.data, tried);
+        let starts = starts(best);
+        self.progress.begin("the answer, from starts about it", starts.len());
+        let fit = |values: Vec<f64>| {
+            let found = refit(&self.data, best.hypothesis.clone(), best, &values);
+            self.progress.advance(1);
+            found
+        };
+        let mut all = starts.into_par_iter().filter_map(fit).collect::<Vec<_>>();
+        all.push(best.clone());
+        let others = all.iter().collect::<Vec<_>>();
+        let shared = all.par_iter().map(|one| shared_states(&self.data, one, &others)).collect::<Vec<_>>();
+        let lowest = shared.into_iter().min_by(|a, b| against(a).total_cmp(&against(b)));
+        let lowest = lowest.unwrap_or_else(|| best.clone());
+        let again = refit(&self.data, lowest.hypothesis.clone(), &lowest, &lowest.fit.values);
+        again.filter(|again| against(again) < against(&lowest)).unwrap_or(lowest)
+    }
+}
+
+/// The values with one added number after the other moved; of an addition of more than two, all of them together.
+fn starts(best: &Tried) -> Vec<Vec<f64>> {
+    let h = &best.hypothesis;
+    let of =
+        |index: usize| (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index)).collect::<Vec<_>>();
+    let together = |numbers: Vec<usize>| match numbers.len() {
+        0..=2 => numbers.into_iter().map(|i| vec![i]).collect(),
+        _ => vec![numbers],
+    };
+    let moved = |numbers: &[usize], share: f64| {
+        let mut values = best.fit.values.clone();
+        for i in numbers {
+            values[*i] = h.unknowns[*i].with_share(share, values[*i]);
+        }
+        values
+    };
+    let sets = (0..h.additions.len()).flat_map(|index| together(of(index)));
+    sets.flat_map(|numbers| ANSWER_SHARES.map(|share| moved(&numbers, share))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::fit::{Fit, WindowFit};
+    use crate::diagnose::hypothesis::example::starter_with;
+
+    /// One effect, followed to a squared error over squared noise.
+    fn followed(name: &str, reduced: f64) -> Tried {
+        let window = WindowFit { x: vec![0.0; 4], squares: 200.0 * reduced, freedom: 200.0 };
+        let of = |windows| Fit { values: vec![0.0], windows, cost: 0.0, covariance: None };
+        Tried { hypothesis: starter_with(&[name]), fit: of(vec![window; 10]), held_out: of(Vec::new()) }
+    }
+
+    #[test]
+    fn analytic_the_best_and_what_follows_best_are_paired_where_none_closes_the_gap() {
+        let all = ["gap", "cubic_stiffness", "carriage_mass", "record_gain"];
+        let singles =
+            all.iter().zip([4.0, 9.0, 2.0, 16.0]).map(|(name, r)| followed(name, r)).collect::<Vec<_>>();
+        let answers = singles.iter().collect::<Vec<_>>();
+        let names =
+            |tried: &[&Tried]| tried.iter().map(|t| t.hypothesis.additions[0].name()).collect::<Vec<_>>();
+        assert_eq!(names(&bases(&answers, true)), ["gap"]);
+        let three = bases(&answers, false);
+        assert_eq!(names(&three), ["gap", "cubic_stiffness", "carriage_mass"]);
+        let pairs = |sets: &Vec<[Addition; 2]>| {
+            sets.iter().map(|set| set.map(|a| a.name()).join(" + ")).collect::<Vec<_>>()
+        };
+        let sets = sets(&three, &answers).iter().map(pairs).collect::<Vec<_>>();
+        assert_eq!(sets[0], ["gap + cubic_stiffness", "gap + carriage_mass", "gap + record_gain"]);
+        assert_eq!(sets[1], ["cubic_stiffness + carriage_mass", "cubic_stiffness + record_gain"]);
+        assert_eq!(sets[2], ["carriage_mass + record_gain"]);
+        // The best that follows best is one base.
+        let nearer = [followed("gap", 1.0), followed("cubic_stiffness", 2.0)];
+        assert_eq!(names(&bases(&[&nearer[0], &nearer[1]], false)), ["gap", "cubic_stiffness"]);
+    }
+}

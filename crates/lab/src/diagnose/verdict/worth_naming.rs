@@ -1,0 +1,225 @@
+//! What is worth naming: how large an effect must be to show, whether a second one shows, and at which place.
+
+use crate::diagnose::fit::{Fit, nats};
+use crate::diagnose::trials::{Data, Tried, against, all_windows, joint_error, kinds};
+use crate::limits::{
+    DETECTED_SD, LEAST_SIZE, PLACE_NATS, PLACE_SQUARED_ERROR, WORTH_A_NAME, WORTH_A_SECOND,
+    WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
+};
+
+/// What the tests can tell of a single effect, by its first number and in its unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Power {
+    /// Standard deviation.
+    pub sd: f64,
+    /// Smallest size that differs from nothing by more than chance.
+    pub detected_from: f64,
+    /// Smallest size that would be named: what is smaller may be there all the same.
+    pub named_from: f64,
+    /// Size that would matter.
+    pub matters: f64,
+}
+
+/// Whether at least half of the effects would have been named at a size that matters.
+pub fn could_show(data: &Data, without: &Tried, singles: &[Tried]) -> bool {
+    let powers = singles.iter().filter_map(|t| power(data, without, t)).collect::<Vec<_>>();
+    2 * powers.iter().filter(|power| power.named_from < power.matters).count() >= powers.len()
+}
+
+/// What the tests can tell of a single effect, beside the wall `without` it; `None` where its fit leaves no covariance, or it is
+/// no effect.
+pub fn power(data: &Data, without: &Tried, tried: &Tried) -> Option<Power> {
+    let h = &tried.hypothesis;
+    let i = h.nuisances;
+    kinds(tried)?;
+    let variance = tried.fit.covariance.as_ref()?[(i, i)];
+    let unknown = h.unknowns.get(i)?;
+    let size = tried.fit.values[i] - unknown.start;
+    let gain = (h.unknowns.len() == i + 1).then(|| without.unpriced() - tried.unpriced());
+    let sd = spread(variance.max(0.0).sqrt(), size, gain);
+    // An effect gains half of its squared size in standard deviations.
+    let named = (2.0 * (WORTH_A_NAME + tried.price(data))).sqrt();
+    let named_from = (named * sd).max(LEAST_SIZE * unknown.scale);
+    Some(Power { sd, detected_from: DETECTED_SD * sd, named_from, matters: unknown.scale })
+}
+
+/// The standard deviation of a size from the curvature of likelihood at it, and from what it gains over nothing, where it is
+/// one number alone and gains too little to be named. Near impacts that the noise decides likelihood has many valleys, each of
+/// them sharp: how wide they lie shows in a size that gains less than its curvature says.
+fn spread(curved: f64, size: f64, gain: Option<f64>) -> f64 {
+    match gain {
+        // One more, for by chance a size of one standard deviation is found where there is none.
+        Some(gain) if gain < WORTH_A_NAME => curved.max(size.abs() / (2.0 * gain.max(0.0) + 1.0).sqrt()),
+        _ => curved,
+    }
+}
+
+/// What a hypothesis leaves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Left {
+    /// What speaks against it, in natural logarithms of likelihood.
+    nats: f64,
+    /// Its windowed error, in standard deviations of the noise.
+    error: f64,
+}
+
+impl Left {
+    fn of(data: &Data, tried: &Tried) -> Option<Self> {
+        Some(Self { nats: against(data, tried), error: joint_error(tried)? })
+    }
+
+    /// Whether another hypothesis takes away a good part of it.
+    fn shrinks_to(self, best: Self) -> bool {
+        let of_nats = (self.nats - best.nats) / self.nats;
+        let excess = |error: f64| error * error - 1.0;
+        let of_squared_error = 1.0 - excess(best.error) / excess(self.error);
+        of_nats > PLACE_NATS || (self.error > 1.0 && of_squared_error > PLACE_SQUARED_ERROR)
+    }
+}
+
+/// The place whose effects take away a good part of what speaks against the wall, if there is one.
+pub fn place(data: &Data, recalibrated: &Tried, tried: &[Tried]) -> Option<&'static str> {
+    let answers = tried.iter().filter(|t| kinds(t).is_some());
+    let best = answers.min_by(|a, b| against(data, a).total_cmp(&against(data, b)))?;
+    let shrinks = Left::of(data, recalibrated)?.shrinks_to(Left::of(data, best)?);
+    shrinks.then(|| best.hypothesis.additions[0].place())
+}
+
+/// Whether a second effect is worth naming beside the first.
+pub fn worth_two(data: &Data, one: &Tried, two: &Tried) -> bool {
+    let gain: [f64; 2] = std::array::from_fn(|i| one.against(data)[i] - two.against(data)[i]);
+    // A damper in a crack that stays shut in the tests held out is neither seen nor refuted there.
+    let seen = gain[1] > WORTH_A_SECOND_HELD_OUT;
+    let least = match (leaves_noise(two), seen) {
+        (true, true) => WORTH_A_SECOND_SEEN,
+        (true, false) => WORTH_A_SECOND_TO_NOISE,
+        (false, _) => WORTH_A_SECOND,
+    };
+    gain.iter().sum::<f64>() > least && (seen || !shows_held_out(data, one, two))
+}
+
+/// Whether what a hypothesis leaves is what noise would, to a standard deviation: the squared error of noise has twice its
+/// freedom as variance.
+fn leaves_noise(tried: &Tried) -> bool {
+    let windows = all_windows(tried);
+    let freedom = windows.iter().map(|window| window.freedom).sum::<f64>();
+    nats(&windows) < (0.5 * freedom).sqrt()
+}
+
+/// Whether the tests held out could show each effect that one of two hypotheses has more; not known: they could.
+fn shows_held_out(data: &Data, one: &Tried, two: &Tried) -> bool {
+    if data.held_out.windows.is_empty() {
+        return false;
+    }
+    let Some(traces) = traces_held_out(data, two) else { return true };
+    let additions = two.hypothesis.additions.iter().zip(traces);
+    let mut new = additions.filter(|(addition, _)| !one.hypothesis.additions.contains(addition));
+    new.all(|(_, trace)| trace > WORTH_A_SECOND_HELD_OUT)
+}
+
+/// What each addition of a hypothesis does to the windows held out beyond what their states can do, half its squared size over
+/// the noise: about what taking it away would cost, in natural logarithms of likelihood. Linear; `None` where slopes cannot be
+/// told.
+fn traces_held_out(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
+    let h = &tried.hypothesis;
+    let at = Fit { values: tried.fit.values.clone(), ..tried.held_out.clone() };
+    let (slopes, _) = data.held_out.slopes(h, &at, None)?;
+    let trace = |index: usize| {
+        let own = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
+        let own = own.map(|i| (i, at.values[i] - h.unknowns[i].start)).collect::<Vec<_>>();
+        let change = |by_values: &nalgebra::DMatrix<f64>| {
+            own.iter()
+                .map(|(i, size)| by_values.column(*i) * *size)
+                .sum::<nalgebra::DVector<f64>>()
+                .norm_squared()
+        };
+        0.5 * slopes.iter().map(|window| change(&window.by_values)).sum::<f64>()
+    };
+    Some((0..h.additions.len()).map(trace).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::fit::{Problem, WindowFit};
+    use crate::diagnose::hypothesis::example::starter_with;
+
+    #[test]
+    fn analytic_a_size_that_gains_less_than_its_curvature_says_is_less_sure() {
+        // Two standard deviations gain two natural logarithms, and one by chance half of one.
+        assert_eq!(spread(0.1, 0.2, Some(2.0)), 0.1);
+        assert_eq!(spread(0.1, 0.05, Some(0.0)), 0.1);
+        // Thirty of them that gain 12: a fifth of the size.
+        assert_eq!(spread(0.1, -3.0, Some(12.0)), 0.6);
+        assert_eq!(spread(0.1, 3.0, Some(-4.0)), 3.0);
+        // What is named, whose windows are at their bound, and what has other numbers too.
+        assert_eq!(spread(0.1, 30.0, Some(300.0)), 0.1);
+        assert_eq!(spread(0.1, 3.0, None), 0.1);
+    }
+
+    const fn left(nats: f64, error: f64) -> Left {
+        Left { nats, error }
+    }
+
+    #[test]
+    fn analytic_a_place_shows_by_likelihood_or_where_that_is_at_its_bound_by_error() {
+        // 31 and 29 % of the logarithms.
+        assert!(left(1000.0, 1.2).shrinks_to(left(690.0, 1.19)));
+        assert!(!left(1000.0, 1.2).shrinks_to(left(710.0, 1.19)));
+        // Far above the noise: from 12² to 8² − 55 %, and to 9² − 44 %.
+        assert!(left(10_700.0, 12.0).shrinks_to(left(10_000.0, 8.0)));
+        assert!(!left(10_700.0, 12.0).shrinks_to(left(10_000.0, 9.0)));
+        // No more than noise, by error: nothing to take away, and no share of it.
+        assert!(!left(300.0, 0.99).shrinks_to(left(290.0, 0.97)));
+        assert!(!left(300.0, 0.99).shrinks_to(left(290.0, 0.999)));
+    }
+
+    /// No windows to price a number by, and none held out.
+    const DATA: Data<'static> = Data { fit: NOTHING, held_out: NOTHING };
+    const NOTHING: Problem<'static> = Problem { tests: &[], windows: &[] };
+    const WINDOWS: usize = 20;
+    const FREEDOM: f64 = 200.0;
+
+    /// The starter's wall with these effects, followed so that all windows together speak against it by `nats` and each by
+    /// as much: those fitted, and those held out.
+    fn tried(names: &[&str], [fit, held_out]: [f64; 2]) -> Tried {
+        let window = |nats: f64| {
+            // The bounded loss of a window, turned about: 40 (1 − exp(−excess/40)) at most.
+            let excess = -40.0 * (1.0 - nats / WINDOWS as f64 / 40.0).ln();
+            WindowFit { x: vec![0.0; 4], squares: FREEDOM + 2.0 * excess, freedom: FREEDOM }
+        };
+        let of = |nats| Fit {
+            values: vec![0.0; names.len()],
+            windows: vec![window(nats); WINDOWS],
+            cost: 0.0,
+            covariance: None,
+        };
+        Tried { hypothesis: starter_with(names), fit: of(fit), held_out: of(held_out) }
+    }
+
+    fn worth(of_one: [f64; 2], of_two: [f64; 2]) -> bool {
+        worth_two(
+            &DATA,
+            &tried(&["carriage_mass"], of_one),
+            &tried(&["carriage_mass", "record_gain"], of_two),
+        )
+    }
+
+    #[test]
+    fn analytic_a_second_effect_must_gain_more_where_both_leave_more_than_noise() {
+        // Noise leaves √(½ · 40 · 200) = 63 nats. Over the tests held out nothing is gained, and they could show nothing.
+        let fitted = |of_one: f64, of_two: f64| worth([of_one, 0.0], [of_two, 0.0]);
+        assert!(fitted(226.0, 0.0) && fitted(270.0, 60.0), "gains of 226 and 210, to noise");
+        assert!(!fitted(149.0, 0.0), "a gain of 149, to noise");
+        assert!(!fitted(302.0, 66.0) && !fitted(365.0, 66.0), "gains of 236 and 299, with 66 left");
+        assert!(fitted(367.0, 66.0), "a gain of 301, with 66 left");
+    }
+
+    #[test]
+    fn analytic_a_second_effect_must_gain_less_where_the_tests_held_out_see_it() {
+        assert!(worth([41.0, 50.0], [0.0, 0.0]), "a gain of 91, 50 of it held out, to noise");
+        assert!(!worth([19.0, 50.0], [0.0, 0.0]), "a gain of 69");
+        assert!(!worth([86.0, 3.0], [0.0, 0.0]), "a gain of 89, 3 of it held out");
+        assert!(!worth([107.0, 50.0], [66.0, 0.0]), "a gain of 91, with 66 left");
+    }
+}
