@@ -64,6 +64,11 @@ impl Rotations {
     pub fn new(theta: Pair) -> Self {
         Self(theta.map(sin_cos))
     }
+
+    /// The rotations themselves, rad.
+    pub fn angles(&self) -> Pair {
+        self.0.map(|(sin, cos)| sin.atan2(cos))
+    }
 }
 
 impl TurnedArms {

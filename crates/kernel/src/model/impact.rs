@@ -164,7 +164,7 @@ impl RockingWall {
         let jump = arms.velocities(omega).minus(collision.v_before);
         let impulses = self.masses.impulses(arms, &jump);
         self.joints()
-            .filter(|joint| to.at(*joint).is_closed())
+            .filter(|joint| to.at(*joint).is_closed() && self.bed(*joint).is_none())
             .flat_map(|joint| impulses.at(joint).corners(self.width_m(joint)))
             .fold(f64::INFINITY, f64::min)
             / collision.impulse_size

@@ -72,11 +72,17 @@ impl Masses {
 
     /// Impulses through the joints that make the mass points' velocities jump so.
     pub fn impulses(&self, arms: &TurnedArms, jump: &PointVelocities) -> JointForces {
+        self.through_joints(arms, jump, 0.0)
+    }
+
+    /// Forces through the joints at these accelerations of the mass points, gravity's in them, m/s², beside a
+    /// horizontal force at the top, N. Or impulses by jumps of their velocities.
+    pub fn through_joints(&self, arms: &TurnedArms, jump: &PointVelocities, at_top: f64) -> JointForces {
         let p = arms;
         let lower = jump.g1 * self.m[0];
         let upper = jump.g2 * self.m[1];
         // The carriage counts in x only.
-        let top = Vector::new((self.m_d + self.m_dp) * jump.c.x, self.m_d * jump.c.y);
+        let top = Vector::new((self.m_d + self.m_dp) * jump.c.x - at_top, self.m_d * jump.c.y);
         let through_crack = upper + top;
         let about_q = p.r_2.moment_of(upper) + self.i[1] * jump.theta[1] + p.r_c.moment_of(top);
         let about_middle = about_q + p.q_from_middle.moment_of(through_crack);
@@ -89,6 +95,12 @@ impl Masses {
             ground: JointForce { shear: through_ground.x, normal: through_ground.y, moment: about_origin },
             crack: JointForce { shear: in_crack.x, normal: in_crack.y, moment: about_middle },
         }
+    }
+
+    /// Power of a uniform acceleration on the masses, W: Σ m v · a, of the carriage in x only.
+    pub fn power(&self, v: &PointVelocities, a: Vector) -> f64 {
+        let momentum = v.g1 * self.m[0] + v.g2 * self.m[1] + v.c * self.m_d;
+        momentum.dot(a) + self.m_dp * v.c.x * a.x
     }
 
     /// Sum of the masses times the magnitudes of their velocities, N s.
@@ -138,6 +150,10 @@ impl Motion {
 
     /// The same at a state.
     pub fn rate_and_reactions_at(&self, theta: Pair, omega: Pair, ground: Vector) -> (MotionRate, Reactions) {
+        if let Some(bedded) = &self.bedded {
+            let (rate, reactions) = bedded.reactions(&self.laws, self.held, [theta, omega], None, ground);
+            return (rate.into(), reactions);
+        }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
         let (rate, reactions) =
             dispatch!(self.level, _ => self.rate_and_reactions(&self.configuration(theta), omega, ground));
@@ -146,6 +162,9 @@ impl Motion {
 
     /// Joint forces and motion of the top at a state with these angular accelerations.
     pub fn reactions(&self, theta: Pair, omega: Pair, theta_dd: Pair, ground: Vector) -> Reactions {
+        if let Some(bedded) = &self.bedded {
+            return bedded.reactions(&self.laws, self.held, [theta, omega], Some(theta_dd), ground).1;
+        }
         let [theta, omega, theta_dd] = [theta, omega, theta_dd].map(f64x2::new);
         dispatch!(self.level, _ => {
             let t = self.configuration(theta);

@@ -124,6 +124,7 @@ impl PiecewiseLaws {
             lanes: _,
             // In the widths, at impacts, in the ground motion, in the reading.
             indentation_m: _,
+            beds: _,
             impact_factors: _,
             ground: _,
             reading: _,

@@ -57,6 +57,10 @@ impl MassMatrix {
         }
     }
 
+    fn plus(&self, other: &Self) -> Self {
+        Self { m11: self.m11 + other.m11, m12: self.m12 + other.m12, m22: self.m22 + other.m22 }
+    }
+
     /// Trace of M⁻¹ S in the rotations that are free.
     pub fn trace_of_inverse_times(&self, freedom: Freedom, s: &Self) -> f64 {
         match freedom {
@@ -68,6 +72,11 @@ impl MassMatrix {
                 (self.m22 * s.m11 - 2.0 * self.m12 * s.m12 + self.m11 * s.m22) / determinant
             }
         }
+    }
+
+    /// aᵀ M b.
+    pub fn product(&self, a: Pair, b: Pair) -> f64 {
+        a[0] * (self.m11 * b[0] + self.m12 * b[1]) + a[1] * (self.m12 * b[0] + self.m22 * b[1])
     }
 
     /// Twice the kinetic energy, ωᵀ M ω, J.
@@ -96,6 +105,11 @@ impl Motion {
         damping.m11 += c_ground + c_crack;
         damping.m12 -= c_crack;
         damping.m22 += c_crack;
+        if let Some(bedded) = &self.bedded {
+            let [of_beds, of_dampers] = bedded.stiffness_and_damping();
+            stiffness = stiffness.plus(&of_beds);
+            damping = damping.plus(&of_dampers);
+        }
         let mass = self.mass_matrix(Rotations::new([0.0; 2]));
         mass.trace_of_inverse_times(self.freedom, &stiffness).sqrt()
             + mass.trace_of_inverse_times(self.freedom, &damping)

@@ -6,6 +6,7 @@
 //! ([`RockingWall::next_contact`]) and after an impact ([`RockingWall::impact`]). Axes: x out of the wall's
 //! plane, y up; rotations are absolute, clockwise positive, zero at rest.
 
+mod bed;
 mod contact;
 mod effect;
 mod geometry;
@@ -21,6 +22,7 @@ mod top;
 mod vector;
 mod wall;
 
+pub use bed::Bed;
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub(crate) use effect::GroundChange;
 pub use effect::{

@@ -13,6 +13,7 @@
 use fearless_simd::{Level, dispatch};
 use wide::f64x2;
 
+use super::bed::{BeddedMotion, BeddedRate};
 use super::contact::Contact;
 use super::geometry::{Arms, Pair, Rotations};
 use super::laws::Laws;
@@ -37,6 +38,13 @@ pub struct MotionRate {
 pub(crate) struct RatePair {
     pub theta_dd: f64x2,
     pub powers_w: f64x2,
+}
+
+impl From<BeddedRate> for MotionRate {
+    fn from(rate: BeddedRate) -> Self {
+        let [ground_power_w, loss_power_w] = rate.powers_w;
+        Self { theta_dd: rate.theta_dd, ground_power_w, loss_power_w }
+    }
 }
 
 impl From<RatePair> for MotionRate {
@@ -79,6 +87,8 @@ pub(crate) struct Motion {
     pub(super) whole_inertia: f64,
     /// s_2 b_2/2.
     pub(super) q_x: f64,
+    /// The equations in place of these, where joints give.
+    pub(super) bedded: Option<Box<BeddedMotion>>,
     /// Instructions that this processor has, which change nothing but the time it takes.
     pub level: Level,
 }
@@ -122,8 +132,9 @@ impl Motion {
         let inertia_2 = wall.inertia_kg_m2[1] + m2 * arms.g2.dot(arms.g2) + m_d * arms.c.dot(arms.c);
         let v = arms.g1 * m1 + arms.q * upper_mass;
         let u = arms.g2 * m2 + arms.c * m_d;
+        let bedded = wall.gives().then(|| Box::new(BeddedMotion::new(wall, contact, laws.carriage_mass_kg)));
         Self {
-            freedom: Freedom::of(contact),
+            freedom: bedded.as_ref().map_or(Freedom::of(contact), |bedded| bedded.freedom()),
             held: false,
             o_x: arms.o_x,
             o_c: arms.o_x - wall.parameters().eccentricity_m,
@@ -142,6 +153,7 @@ impl Motion {
             whole_moment: v + u,
             whole_inertia: inertia_1 + 2.0 * arms.q.dot(u) + inertia_2,
             q_x: arms.q_x,
+            bedded,
             level: Level::new(),
         }
     }
@@ -161,7 +173,7 @@ impl Motion {
     /// Whether [`Motion::monolithic_rate`] gives the rate.
     #[inline(always)]
     pub fn turns_as_one(&self) -> bool {
-        self.freedom == Freedom::Monolithic && !self.held
+        self.freedom == Freedom::Monolithic && !self.held && self.bedded.is_none()
     }
 
     /// Everything turned by the rotations, outside of a step.
@@ -199,14 +211,34 @@ impl Motion {
     }
 
     /// Mass matrix Jᵀ M J at these rotations, whether they are free or not.
-    pub fn mass_matrix(&self, Rotations([(sin_1, cos_1), (sin_2, cos_2)]): Rotations) -> MassMatrix {
+    pub fn mass_matrix(&self, rotations: Rotations) -> MassMatrix {
+        if let Some(bedded) = &self.bedded {
+            return bedded.mass_matrix(rotations);
+        }
+        let Rotations([(sin_1, cos_1), (sin_2, cos_2)]) = rotations;
         self.mass_matrix_of(&self.configuration_from(f64x2::new([sin_1, sin_2]), f64x2::new([cos_1, cos_2])))
     }
 
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
+        if let Some(rate) = self.bedded_rate(theta, omega, ground) {
+            return rate.into();
+        }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
         dispatch!(self.level, _ => self.rate_at(&self.configuration(theta), omega, ground)).into()
+    }
+
+    /// Whether a joint gives.
+    #[inline]
+    pub fn is_bedded(&self) -> bool {
+        self.bedded.is_some()
+    }
+
+    /// The rate where joints give; `None` where all are sharp.
+    #[inline]
+    pub fn bedded_rate(&self, theta: Pair, omega: Pair, ground: Vector) -> Option<BeddedRate> {
+        let bedded = self.bedded.as_ref()?;
+        Some(bedded.rate(&self.laws, self.held, theta, omega, ground))
     }
 
     /// The same in a configuration that is known.
@@ -301,6 +333,10 @@ impl Motion {
 
     /// Kinetic, gravity and spring energy at a state, J; gravity is zero at rest.
     pub fn energy_j(&self, theta: Pair, omega: Pair) -> f64 {
+        if let Some(bedded) = &self.bedded {
+            let at_top = self.laws.spring_energy_j(self.top_displacement_m(theta));
+            return bedded.energy_j(theta, omega) + at_top;
+        }
         let t = self.configuration_at(theta);
         let kinetic = 0.5 * self.mass_matrix_of(&t).quadratic(omega);
         let [v_y, u_y] = t.s_y.to_array();
@@ -315,6 +351,10 @@ impl Motion {
 
     /// Horizontal displacement s_Cx of the top, m.
     pub fn top_displacement_m(&self, theta: Pair) -> f64 {
+        if let Some(bedded) = &self.bedded {
+            let [x_c, _, _] = bedded.top(theta, [0.0; 2], [0.0; 2]);
+            return x_c;
+        }
         let t = self.configuration_at(theta);
         let [x_q, x_c] = t.x.to_array();
         (x_q + x_c) + self.o_c

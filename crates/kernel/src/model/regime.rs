@@ -164,7 +164,7 @@ impl RockingWall {
     pub(crate) fn smallest_reserve(&self, contact: Contact, reactions: &Reactions) -> Option<f64> {
         let corners = self.smallest_corner_force(contact, &reactions.forces);
         match &self.piecewise_laws {
-            Some(piecewise_laws) if self.is_held() && contact != Contact::REST => {
+            Some(piecewise_laws) if self.is_held() && !self.rests_in(contact) => {
                 let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
                 let left = (piecewise_laws.friction_n() - reactions.holding_n.abs()) / weight;
                 Some(corners.map_or(left, |least| least.min(left)))
@@ -236,7 +236,7 @@ impl RockingWall {
             self.enter_regime(Regime { slides, ..turned });
             let theta_dd = self.rate(contact, state, ground).theta_dd;
             let reactions = self.motion(contact).reactions(state.theta, state.omega, theta_dd, ground);
-            let hold = if contact == Contact::REST {
+            let hold = if self.rests_in(contact) {
                 Some(rest_reserve)
             } else {
                 self.smallest_reserve(contact, &reactions)
@@ -259,7 +259,7 @@ impl RockingWall {
         starts: bool,
         rest_reserve: f64,
     ) -> bool {
-        if candidate == Contact::REST {
+        if self.rests_in(candidate) {
             return !starts && rest_reserve >= 0.0;
         }
         if starts {

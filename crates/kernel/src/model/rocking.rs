@@ -1,6 +1,7 @@
 //! The nine contact states of one wall, each with its arms and equations of motion.
 
 use super::MechanicsError;
+use super::bed::Bed;
 use super::contact::{Contact, Joint, Pivot, Touching};
 use super::geometry::{Arms, Pair, Rotations, TurnedArms};
 use super::joint_forces::{JointForces, Masses, Reactions};
@@ -35,6 +36,8 @@ pub struct RockingWall {
     pub(super) masses: Masses,
     pub(super) arms: [Arms; 9],
     pub(super) motions: [Motion; 9],
+    /// The same wall on sharp edges, where joints give: whose impacts stiff beds have.
+    pub(super) edges: Option<Box<RockingWall>>,
     /// Relative velocity below which a joint that would open stays closed, rad/s.
     pub(super) capture_rad_s: f64,
     /// C_1 … C_8 with the factors of effects.
@@ -61,6 +64,7 @@ impl RockingWall {
             arms: Contact::ALL.map(|contact| Arms::new(wall, contact)),
             motions: Contact::ALL.map(|contact| Motion::new(wall, contact, laws)),
             capture_rad_s: p.restitution.capture_velocity_rad_s,
+            edges: wall.gives().then(|| Box::new(Self::new(&wall.with_sharp_edges()))),
             wall: wall.clone(),
         };
         let least = LEAST_CAPTURE * wall.alpha_rad() / rocking.response_time_s();
@@ -81,7 +85,10 @@ impl RockingWall {
     }
 
     pub(super) fn turned_arms(&self, contact: Contact, rotations: Rotations) -> TurnedArms {
-        TurnedArms::new(&self.arms[contact.index()], rotations)
+        match &self.motion(contact).bedded {
+            Some(bedded) => bedded.turned_arms(rotations),
+            None => TurnedArms::new(&self.arms[contact.index()], rotations),
+        }
     }
 
     /// Angular accelerations and powers in a contact state under a ground acceleration in m/s².
@@ -102,6 +109,11 @@ impl RockingWall {
     /// Horizontal displacement of the middle of the crack, relative to the ground, m, at a rotation of the
     /// lower body. Of an uncracked wall it is that of the top.
     pub fn crack_displacement_m(&self, theta_1: f64) -> f64 {
+        let on_bed = self.bed(Joint::Ground).map(|bed| bed.pivot(theta_1));
+        let contact = Contact { ground: on_bed.unwrap_or(Pivot::of_angle(theta_1)), crack: Pivot::Closed };
+        if let Some(bedded) = &self.motion(contact).bedded {
+            return bedded.crack_displacement_m(theta_1);
+        }
         let o_x = Pivot::of_angle(theta_1).sign() * self.width_m(Joint::Ground) / 2.0;
         o_x + Vector::new(-o_x, self.wall.height_m[0]).rotated(theta_1.sin_cos()).x
     }
@@ -156,13 +168,54 @@ impl RockingWall {
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
         let mut smallest = None;
         for joint in self.joints() {
-            if contact.at(joint).is_closed() {
+            if contact.at(joint).is_closed() && self.bed(joint).is_none() {
                 let [left, right] = forces.at(joint).corners(self.width_m(joint));
                 let least = left.min(right) / weight;
                 smallest = Some(smallest.map_or(least, |s: f64| s.min(least)));
             }
         }
         smallest
+    }
+
+    /// The bed of a joint that gives.
+    #[inline]
+    pub(crate) fn bed(&self, joint: Joint) -> Option<&Bed> {
+        self.wall.beds[joint as usize].as_ref()
+    }
+
+    /// The contact state of a wall with these rotations, joints on beds by the width of their contact.
+    pub(crate) fn with_beds_as_at(&self, mut contact: Contact, theta: Pair) -> Contact {
+        for joint in self.joints() {
+            if let Some(bed) = self.bed(joint) {
+                contact = contact.with(joint, bed.pivot(opening(joint, theta)));
+            }
+        }
+        contact
+    }
+
+    /// Whether nothing moves in a contact state: both joints closed on edges that do not give.
+    #[inline]
+    pub(crate) fn rests_in(&self, contact: Contact) -> bool {
+        contact == Contact::REST && !self.wall.gives()
+    }
+
+    /// The contact state as far as sharp edges go: joints on beds count as closed.
+    #[inline]
+    pub(crate) fn edges_of(&self, mut contact: Contact) -> Contact {
+        if self.wall.gives() {
+            for joint in [Joint::Ground, Joint::Crack] {
+                if self.bed(joint).is_some() {
+                    contact = contact.with(joint, Pivot::Closed);
+                }
+            }
+        }
+        contact
+    }
+
+    /// The joints on sharp edges that are closed.
+    pub(crate) fn closed_edges(&self, contact: Contact) -> Touching {
+        let closed = |joint: Joint| contact.at(joint).is_closed() && self.bed(joint).is_none();
+        Touching { ground: closed(Joint::Ground), crack: closed(Joint::Crack) }
     }
 
     /// The joints the wall has: an uncracked wall has no crack.
@@ -215,7 +268,7 @@ impl RockingWall {
 
     /// States that open `count` of the closed joints of `contact` and leave the others as they are.
     pub(super) fn states_opening(&self, contact: Contact, count: usize) -> impl Iterator<Item = Contact> {
-        self.states_touching(contact, Touching::closed_in(contact))
+        self.states_touching(contact, self.closed_edges(contact))
             .filter(move |c| c.open_joints() == contact.open_joints() + count)
     }
 

@@ -34,6 +34,9 @@ impl Motion {
 
     /// Displacement (m), velocity (m/s) and acceleration (m/s²) of the top, all relative to the ground.
     pub fn top(&self, theta: Pair, omega: Pair, theta_dd: Pair) -> [f64; 3] {
+        if let Some(bedded) = &self.bedded {
+            return bedded.top(theta, omega, theta_dd);
+        }
         let t = self.configuration_at(theta);
         let omega = f64x2::new(omega);
         let sum = |pair: f64x2| pair.to_array().iter().sum::<f64>();
@@ -46,7 +49,10 @@ impl Motion {
         if self.freedom != Freedom::Both {
             return [0.0; 2];
         }
-        let [y_q, y_c] = self.configuration_at(theta).y.to_array();
+        let [y_q, y_c] = match &self.bedded {
+            Some(bedded) => bedded.top_levers_m(theta),
+            None => self.configuration_at(theta).y.to_array(),
+        };
         let share = (y_q * omega[0] + y_c * omega[1]) / (y_q * y_q + y_c * y_c);
         [omega[0] - share * y_q, omega[1] - share * y_c]
     }

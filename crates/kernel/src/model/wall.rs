@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-use super::effect::{self, Effect, EffectSums, Reading};
+use super::bed::Bed;
+use super::effect::{self, Effect, EffectKind, EffectSums, Reading};
 
 /// Acceleration of gravity, m/s².
 pub const G_M_S2: f64 = 9.81;
@@ -144,6 +145,8 @@ pub struct Wall {
     pub(crate) alpha_i_rad: [f64; 2],
     /// Widths b_1, b_2 between the rocking corners, m, as the effects leave them.
     pub(crate) width_m: [f64; 2],
+    /// Beds of the joints that give, at the ground and at the crack.
+    pub(crate) beds: [Option<Bed>; 2],
     /// The sums of the effects.
     pub(crate) effects: EffectSums,
 }
@@ -172,7 +175,40 @@ impl Wall {
         };
         let alpha_i_rad = [alpha_1, alpha_2];
         check_collapse(p.collapse_rotation_ratio, alpha_i_rad)?;
-        Ok(Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad, width_m, effects, parameters })
+        let upper_kg = mass_kg[1] + p.diaphragm_mass_kg;
+        let above_kg = [mass_kg[0] + upper_kg, upper_kg];
+        let beds = [0, 1].map(|j| {
+            let bedding = effects.beds[j]?;
+            Some(Bed {
+                stiffness_pa_per_m: bedding.stiffness_pa_per_m,
+                damping_s: bedding.damping_s,
+                width_m: width_m[j],
+                length_m: p.length_m,
+                load_n: above_kg[j] * G_M_S2,
+            })
+        });
+        Ok(Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad, width_m, beds, effects, parameters })
+    }
+
+    /// Whether a joint lies on a bed.
+    #[inline]
+    pub fn gives(&self) -> bool {
+        self.beds.iter().any(Option::is_some)
+    }
+
+    /// Beds of the joints that give, at the ground and at the crack.
+    pub fn beds(&self) -> [Option<Bed>; 2] {
+        self.beds
+    }
+
+    /// This wall with sharp edges in place of its beds.
+    #[must_use]
+    pub(crate) fn with_sharp_edges(&self) -> Self {
+        let mut sharp = self.clone();
+        sharp.parameters.effects.retain(|effect| effect.kind() != EffectKind::CompliantJoint);
+        sharp.beds = [None; 2];
+        sharp.effects = EffectSums::of(&sharp.parameters.effects);
+        sharp
     }
 
     /// The parameters the wall was made from.

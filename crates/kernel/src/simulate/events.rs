@@ -1,5 +1,6 @@
 //! What happens first inside a step: a joint closes or opens, a law has a kink, a body collapses.
 
+use super::bed_events::BedChange;
 use crate::model::{Contact, Joint, Kink, Pair, RockingWall, Touching, opening};
 use crate::solver::{Bernstein, Point, Quintic, hermite};
 
@@ -14,6 +15,8 @@ pub(super) enum Event {
     Opening,
     /// A law at the top has a kink.
     Kink(Kink),
+    /// The contact of a joint on a bed changes.
+    Bed(BedChange),
 }
 
 impl Event {
@@ -36,7 +39,7 @@ const SAME_INSTANT: f64 = 1e-12;
 /// anyway.
 const NEAR_ENOUGH: f64 = 1e-9;
 /// Roundings a rotation gathers over a step of some ten operations.
-const ROUNDINGS: f64 = 8.0;
+pub(super) const ROUNDINGS: f64 = 8.0;
 /// Corner forces are looked at inside a step where one at an end is small beside its size and change. Between
 /// ends that are farther away a smooth force cannot dip below zero. The motion turns by less than a tenth of
 /// a radian of its own period within a step.
@@ -213,7 +216,7 @@ fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h:
 
 /// Share at which what is left to a kink turns negative. Where it begins at zero, its first coefficient
 /// beyond roundings decides: it turns negative at once, or later.
-fn first_end<const N: usize>(mut left: Bernstein<N>, rounding: f64) -> Option<f64> {
+pub(super) fn first_end<const N: usize>(mut left: Bernstein<N>, rounding: f64) -> Option<f64> {
     let first = left.0.iter().position(|c| c.abs() > rounding)?;
     if left.0[first] < 0.0 {
         return Some(0.0);

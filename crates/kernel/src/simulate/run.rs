@@ -1,6 +1,7 @@
 //! The loop of one run: rest, motion, openings and impacts, until the end.
 
 mod event;
+mod bed;
 mod rest;
 mod step;
 
@@ -12,7 +13,7 @@ use super::rest::RestLimits;
 use super::simulator::{Placed, Simulator};
 use super::totals::Totals;
 use crate::model::{
-    Contact, MechanicsError, MotionRate, Pair, Reactions, RockingWall, State, Touching, Vector, opening,
+    Contact, MechanicsError, MotionRate, Pair, Pivot, Reactions, RockingWall, State, Vector, opening,
 };
 use crate::solver::{Controller, Point, Quintic, STAGES, Step};
 pub(super) use step::StepRequest;
@@ -37,6 +38,8 @@ pub(super) struct Run<O> {
     /// Velocity of the top now, m/s.
     top_velocity_m_s: f64,
     stalled: u32,
+    /// On which side a joint on a bed has been open since it last passed the middle.
+    opened: [Pivot; 2],
     /// Piece of the record the run is in, its number, and the offset reached in it, s.
     piece: Option<Piece>,
     k: usize,
@@ -86,6 +89,7 @@ impl<O: Observer> Run<O> {
             corner_force: None,
             top_velocity_m_s: 0.0,
             stalled: 0,
+            opened: [placed.contact.ground, placed.contact.crack],
             wall,
             ground,
             piece: None,
@@ -193,7 +197,7 @@ impl<O: Observer> Run<O> {
             return Err(Stop::Collapsed { time_s: start_s });
         }
         if self.closes_at_once() {
-            return self.impact(Touching::closed_in(released), ground, start_s);
+            return self.impact(self.wall.closed_edges(released), ground, start_s);
         }
         self.enter(released, ground, start_s)
     }
@@ -203,7 +207,7 @@ impl<O: Observer> Run<O> {
         self.wall.joints().any(|joint| {
             let side = self.contact.at(joint).sign();
             let [gap, rate] = [self.now.position, self.now.velocity].map(|pair| side * opening(joint, pair));
-            side != 0.0 && gap == 0.0 && rate <= 0.0
+            side != 0.0 && gap == 0.0 && rate <= 0.0 && self.wall.bed(joint).is_none()
         })
     }
 
@@ -233,7 +237,7 @@ impl<O: Observer> Run<O> {
         };
         self.now.velocity = self.wall.with_slow_top_stopped(contact, &self.state());
         let state = self.state();
-        if contact == Contact::REST && piecewise_laws.yields() {
+        if self.wall.rests_in(contact) && piecewise_laws.yields() {
             // A spring that has yielded leans on the wall at rest.
             self.wall.enter_regime_of_state(contact, &state, self.wall.regime().plastic_m);
             self.rest = RestLimits::new(&self.wall);
@@ -252,7 +256,7 @@ impl<O: Observer> Run<O> {
                 return Ok(true);
             }
             while self.offset_s < length_s {
-                if self.contact != Contact::REST {
+                if !self.wall.rests_in(self.contact) {
                     self.task = Task::Advance { h: self.controller.next_s(length_s - self.offset_s) };
                     return Ok(true);
                 }
@@ -263,7 +267,7 @@ impl<O: Observer> Run<O> {
             if self.observer.seen_enough() {
                 return Err(Stop::SeenEnough);
             }
-            if self.contact == Contact::REST {
+            if self.wall.rests_in(self.contact) {
                 self.k = self.rest_through_pieces(self.k);
             }
             self.piece = self.ground.piece(self.k);

@@ -7,7 +7,7 @@ use super::rest::RestLimits;
 use super::run::Run;
 use super::side_by_side::Prepared;
 use super::{Accuracy, Shaking};
-use crate::model::{Contact, Pivot, RockingWall, State, Vector, Wall};
+use crate::model::{Contact, Joint, Pivot, RockingWall, State, Vector, Wall, opening};
 use crate::solver::{Controller, ErrorScale};
 
 /// Error of a step allowed, as a share of the error of a run. Impacts magnify what is there before them. With
@@ -136,11 +136,35 @@ impl Simulator {
         Prepared::new(run, start.time_s, refused)
     }
 
+    /// The same for a wall with joints that give, which may turn by anything; sharp joints that are closed do not.
+    fn placed_on_beds(&self, contact: Contact, start: &Start) -> Placed {
+        let contact = self.wall.with_beds_as_at(contact, start.state.theta);
+        let closed = self.wall.closed_edges(contact);
+        let cracked = self.wall.wall().is_cracked();
+        let onto = |[lower, upper]: [f64; 2]| match (closed.ground, closed.crack || !cracked) {
+            (true, _) => [0.0, upper],
+            (_, true) if lower != upper => [0.5 * (lower + upper); 2],
+            _ => [lower, upper],
+        };
+        let mut state = State { theta: onto(start.state.theta), omega: onto(start.state.omega) };
+        let contact = self.wall.with_beds_as_at(contact, state.theta);
+        for (joint, i) in [(Joint::Ground, 0), (Joint::Crack, 1)] {
+            let side = if self.wall.bed(joint).is_none() { contact.at(joint).sign() } else { 0.0 };
+            if side * opening(joint, state.theta) < 0.0 {
+                state.theta[i] = if i == 0 { 0.0 } else { state.theta[0] };
+            }
+        }
+        Placed { contact, state, plastic_displacement_m: start.plastic_displacement_m }
+    }
+
     /// Moves a start onto its contact state.
     fn placed(&self, start: &Start) -> Placed {
         let mut contact = start.contact.unwrap_or_else(|| Contact::of_state(&start.state));
         if !self.wall.wall().is_cracked() {
             contact.crack = Pivot::Closed;
+        }
+        if self.wall.wall().gives() {
+            return self.placed_on_beds(contact, start);
         }
         let onto = |[lower, upper]: [f64; 2]| match contact.pattern_number() {
             None => [0.0, 0.0],

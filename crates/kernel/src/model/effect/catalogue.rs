@@ -45,6 +45,7 @@ catalogue! {
     YieldingSpring => structural::YIELDING_SPRING,
     JointDamping => structural::JOINT_DAMPING,
     CornerIndentation => structural::CORNER_INDENTATION,
+    CompliantJoint => structural::COMPLIANT_JOINT,
     ImpactDissipation => structural::IMPACT_DISSIPATION,
     VerticalGroundMotion => signal::VERTICAL_GROUND_MOTION,
     RecordGain => signal::RECORD_GAIN,
@@ -134,7 +135,7 @@ impl EffectVariant {
         self.entry().choice.as_ref().and_then(position).unwrap_or(0)
     }
 
-    /// The joint at which it acts; `None` for what does not act at a joint.
+    /// The joint at which it acts; `None` for what acts at both or at none.
     pub fn joint(self) -> Option<Joint> {
         match self.entry().place {
             Place::Joint => JOINTS.get(self.choice_index()).copied(),

@@ -36,6 +36,8 @@ pub enum Role {
     Memory,
     /// Another place of the rocking corners.
     Corners,
+    /// A bed of springs in a joint, in place of a sharp edge.
+    Bed,
     /// Factors on the coefficients C_l of impacts.
     Impact,
     /// Another ground motion than the recorded one.
@@ -74,6 +76,8 @@ pub enum Quantity {
     TopDisplacement,
     /// A moment at a joint per rate of its opening, N m s/rad.
     JointDamping,
+    /// A stiffness of a joint per area, Pa/m.
+    BedStiffness,
     /// A share of the width between two rocking corners, m.
     CornerWidth,
     /// A rotation, rad.
@@ -97,6 +101,7 @@ impl Quantity {
             Quantity::TopDamping => "N s/m",
             Quantity::TopDisplacement | Quantity::CornerWidth => "m",
             Quantity::JointDamping => "N m s/rad",
+            Quantity::BedStiffness => "Pa/m",
             Quantity::Rotation => "rad",
             Quantity::Time => "s",
             Quantity::Ratio | Quantity::ImpactFactor => "",
@@ -122,6 +127,9 @@ pub struct EffectParameter {
     /// The value at which the effect does nothing: the wall moves to the bit as without it.
     #[serde(skip)]
     pub neutral: f64,
+    /// Whether wall files may leave it out; it is neutral then.
+    #[serde(skip)]
+    pub optional: bool,
     /// The least value allowed.
     pub least: f64,
     /// The largest value allowed.

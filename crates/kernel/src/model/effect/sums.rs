@@ -28,6 +28,8 @@ pub(crate) struct EffectSums {
     pub joint_damping_n_m_s: [f64; 2],
     /// How far the corners at the ground and at the crack lie inwards, both corners of a joint together, m.
     pub indentation_m: [f64; 2],
+    /// Beds of the joints at the ground and at the crack.
+    pub beds: [Option<Bedding>; 2],
     /// Factors on C_1 … C_8.
     pub impact_factors: [f64; 8],
     /// What becomes of the record.
@@ -55,6 +57,13 @@ impl Yielding {
     pub fn plastic_m(&self, before_m: f64, x_c_m: f64) -> f64 {
         before_m.max(x_c_m - self.elastic_m()).min(x_c_m + self.elastic_m())
     }
+}
+
+/// What an effect says of the bed of a joint; width and load follow from the wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bedding {
+    pub stiffness_pa_per_m: f64,
+    pub damping_s: f64,
 }
 
 /// The ground motion made of a record: gain times the record, later, with a share of it upwards.
@@ -108,6 +117,7 @@ impl EffectSums {
         yielding: None,
         joint_damping_n_m_s: [0.0; 2],
         indentation_m: [0.0; 2],
+        beds: [None; 2],
         impact_factors: [1.0; 8],
         ground: GroundChange::NONE,
         reading: Reading::TRUE,
@@ -138,7 +148,16 @@ pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(
             let found = format!("{} again", kind.name);
             return Err(refused(i, found, "one effect of this kind: two have no common law".to_owned()));
         }
-        if effect.variant().joint() == Some(Joint::Crack) && p.crack_height_m.is_none() {
+        let twice = |earlier: &Effect| {
+            earlier.kind() == EffectKind::CompliantJoint && share_a_joint(earlier, effect)
+        };
+        if effect.kind() == EffectKind::CompliantJoint && p.effects[..i].iter().any(twice) {
+            let found = format!("{} at a joint that has one", kind.name);
+            return Err(refused(i, found, "one bed in a joint".to_owned()));
+        }
+        let at_crack = effect.variant().joint() == Some(Joint::Crack)
+            || (effect.kind() == EffectKind::CompliantJoint && effect.variant().joint().is_none());
+        if at_crack && p.crack_height_m.is_none() {
             let found = format!("{} at the crack of a wall without one", kind.name);
             return Err(refused(i, found, "joint = \"ground\"".to_owned()));
         }
@@ -159,6 +178,12 @@ pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(
         }
     }
     Ok(())
+}
+
+/// Whether two effects at joints act at the same one.
+fn share_a_joint(a: &Effect, b: &Effect) -> bool {
+    let [a, b] = [a, b].map(|effect| effect.variant().joint());
+    a.is_none() || b.is_none() || a == b
 }
 
 fn last(effects: &[Effect], kind: EffectKind) -> usize {

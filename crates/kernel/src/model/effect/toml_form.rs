@@ -42,6 +42,11 @@ impl EffectEntry {
         keys
     }
 
+    /// The neutral value of a number that may be left out; `None` for one that may not.
+    fn left_out(&self, key: &str) -> Option<f64> {
+        self.parameters.iter().find(|p| p.key == key && p.optional).map(|p| p.neutral)
+    }
+
     fn listed_keys(&self) -> String {
         let numbers = self.keys().into_iter().map(|(key, _)| key);
         let keys = self.choice.iter().map(|choice| choice.key).chain(numbers);
@@ -112,7 +117,10 @@ fn from_items(name: &str, mut items: Vec<(String, Item)>) -> Result<Effect, Effe
         match (take(key), count) {
             (Some(Item::Number(value)), None) => values.push(value),
             (Some(Item::List(list)), Some(count)) if list.len() == count => values.extend(list),
-            (None, _) => return Err(refused(format!("no `{key}`"), "this key with a number".to_owned())),
+            (None, _) => match entry.left_out(key) {
+                Some(neutral) => values.push(neutral),
+                None => return Err(refused(format!("no `{key}`"), "this key with a number".to_owned())),
+            },
             (Some(other), None) => {
                 return Err(refused(format!("{other} for `{key}`"), "a number".to_owned()));
             }

@@ -1,5 +1,6 @@
 //! A step, or the part of it up to its first event: found, located, applied.
 
+use super::super::bed_events::first_bed_change;
 use super::super::events::{Event, first_event, first_kink, left_to_kink};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
@@ -43,9 +44,11 @@ impl<O: Observer> Run<O> {
         let force_at =
             |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
         let corner_force = (self.corner_force, end_force);
-        let event = first_event(self.contact, &motion, self.collapse_rad, corner_force, force_at);
+        let event = first_event(self.wall.edges_of(self.contact), &motion, self.collapse_rad, corner_force, force_at);
         let kink = first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
-        match earlier(event, kink) {
+        let event = earlier(event, kink).map(|(event, share)| (self.on_edges(event), share));
+        let change = first_bed_change(&self.wall, self.contact, self.opened, &motion);
+        match earlier_change(event, change) {
             None => {
                 self.corner_force = end_force;
                 self.keep(piece.start_s + from_s, step, &motion, reactions);
@@ -59,6 +62,17 @@ impl<O: Observer> Run<O> {
         }
     }
 
+    /// An event as far as sharp edges go: joints on beds take no part in their impacts.
+    fn on_edges(&self, event: Event) -> Event {
+        match event {
+            Event::Impact(touching) if self.wall.wall().gives() => {
+                let of = |joint: Joint| touching.at(joint) && self.wall.bed(joint).is_none();
+                Event::Impact(Touching { ground: of(Joint::Ground), crack: of(Joint::Crack) })
+            }
+            event => event,
+        }
+    }
+
     fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
         let equations = self.wall.motion(self.contact);
         let (_, reactions) =
@@ -68,6 +82,11 @@ impl<O: Observer> Run<O> {
 
     /// Requests a step up to the event.
     fn approach_event(&mut self, event: Event, share: f64, piece: &Piece, whole_s: f64) -> Result<(), Stop> {
+        if let (Event::Bed(change), true) = (event, share == 0.0) {
+            let from_s = self.offset_s;
+            self.progress(0.0, piece.start_s + from_s)?;
+            return self.change_contact(change, piece.at(from_s), piece.start_s + from_s);
+        }
         if let (Event::Kink(kink), true) = (event, share == 0.0) {
             let from_s = self.offset_s;
             return self.pass_kink(kink, piece.at(from_s), piece.start_s + from_s);
@@ -93,6 +112,7 @@ impl<O: Observer> Run<O> {
             Event::Collapse => return Err(Stop::Collapsed { time_s }),
             Event::Opening => self.enter(self.contact, piece.at(to_s), time_s)?,
             Event::Kink(kink) => self.pass_kink(kink, piece.at(to_s), time_s)?,
+            Event::Bed(change) => self.change_contact(change, piece.at(to_s), time_s)?,
             Event::Impact(touching) => self.impact(touching, piece.at(to_s), time_s)?,
         }
         self.offset_s = to_s.min(piece.length_s);
@@ -105,6 +125,9 @@ impl<O: Observer> Run<O> {
     pub(super) fn left_to(&self, event: Event, at: &Point) -> Option<(f64, f64)> {
         if let Event::Kink(kink) = event {
             return Some(left_to_kink(&self.wall, self.contact, kink, at));
+        }
+        if let Event::Bed(change) = event {
+            return Some(change.left(at));
         }
         event.gap().map(|gap| (gap(at.position), gap(at.velocity)))
     }
@@ -167,7 +190,8 @@ impl<O: Observer> Run<O> {
             ground: self.touches(Joint::Ground, touching.ground),
             crack: self.touches(Joint::Crack, touching.crack),
         };
-        let sign = |joint: Joint| self.contact.at(joint).sign();
+        let edges = self.wall.edges_of(self.contact);
+        let sign = |joint: Joint| edges.at(joint).sign();
         let [ground_gap, crack_gap] =
             [Joint::Ground, Joint::Crack].map(|joint| sign(joint) * opening(joint, self.now.position));
         if touching.ground || ground_gap < 0.0 {
@@ -176,7 +200,7 @@ impl<O: Observer> Run<O> {
         if touching.crack || crack_gap < 0.0 {
             self.now.position[1] = self.now.position[0];
         }
-        if touching == Touching::closed_in(self.contact) {
+        if touching == self.wall.closed_edges(self.contact) {
             // A flight lower than the error of a step: the root was thought to be where the joint still opens.
             return self.enter(self.contact, ground, time_s);
         }
@@ -190,10 +214,22 @@ impl<O: Observer> Run<O> {
     /// Whether a joint takes part in an impact. It does not separate, and it closes or is within a rounding
     /// of contact. Its own impact would else follow at the same instant.
     fn touches(&self, joint: Joint, closes: bool) -> bool {
+        if self.wall.bed(joint).is_some() {
+            return false;
+        }
         let sign = self.contact.at(joint).sign();
         let gap = sign * opening(joint, self.now.position);
         let reached = closes || gap <= f64::EPSILON * self.wall.wall().alpha_rad();
         reached && sign * opening(joint, self.now.velocity) <= 0.0
+    }
+}
+
+/// The first of what may happen inside a step and a change of contact on a bed.
+fn earlier_change(event: Option<(Event, f64)>, change: Option<(Event, f64)>) -> Option<(Event, f64)> {
+    match (event, change) {
+        (Some((_, at)), Some((_, share))) if share < at => change,
+        (None, _) => change,
+        _ => event,
     }
 }
 

@@ -4,7 +4,7 @@ use fearless_simd::dispatch;
 use wide::f64x2;
 
 use super::super::ground_path::Piece;
-use crate::model::{Configuration, Motion, Pair, RatePair, Reactions};
+use crate::model::{Configuration, Motion, MotionRate, Pair, RatePair, Reactions};
 use crate::solver::{Field, Nystrom, Point, Rate, Step};
 
 /// A step that a run requests.
@@ -21,7 +21,17 @@ impl StepRequest<'_> {
     /// Takes the step, and writes the reactions at its end.
     #[inline]
     pub fn take(&self, reactions: &mut Reactions) -> Step {
+        if self.motion.is_bedded() {
+            return self.step_on_beds(reactions);
+        }
         dispatch!(self.motion.level, _ => self.step(reactions))
+    }
+
+    #[inline(never)]
+    fn step_on_beds(&self, reactions: &mut Reactions) -> Step {
+        let mut shaken =
+            BeddedField { motion: self.motion, from_s: self.from_s, piece: self.piece, reactions };
+        Nystrom::step(self.now, self.quadrature_rate, self.h, &mut shaken)
     }
 
     #[inline(always)]
@@ -67,6 +77,34 @@ impl Field for ShakenMotion<'_, '_> {
         *self.reactions = reactions;
         as_rate(rate)
     }
+}
+
+/// The motion of a wall whose joints give.
+struct BeddedField<'a, 'b> {
+    motion: &'a Motion,
+    from_s: f64,
+    piece: &'a Piece,
+    reactions: &'b mut Reactions,
+}
+
+impl Field for BeddedField<'_, '_> {
+    fn rate(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
+        let ground = self.piece.at(self.from_s + after_s);
+        from_motion(self.motion.rate(theta.to_array(), omega.to_array(), ground))
+    }
+
+    fn land(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
+        let ground = self.piece.at(self.from_s + after_s);
+        let (rate, reactions) =
+            self.motion.rate_and_reactions_at(theta.to_array(), omega.to_array(), ground);
+        *self.reactions = reactions;
+        from_motion(rate)
+    }
+}
+
+fn from_motion(rate: MotionRate) -> Rate {
+    let powers = [rate.ground_power_w, rate.loss_power_w];
+    Rate { acceleration: f64x2::new(rate.theta_dd), quadrature: f64x2::new(powers) }
 }
 
 #[inline(always)]

@@ -1,0 +1,18 @@
+//! Joints that give: a bed of springs without tension between the bodies, in place of sharp edges.
+//!
+//! A sharp edge carries the whole load on a line. On a bed the load rests on a zone of contact, whose width
+//! c depends on load and rotation. [`Bed`] is the static law of one joint; [`BeddedMotion`] moves a wall on
+//! one or two of them; `crossing` says what is lost where a joint passes from one side to the other.
+//!
+//! | choice | taken | because |
+//! | --- | --- | --- |
+//! | load N | the static weight above the joint | the law is then closed, its energy exact |
+//! | kinematics | the body turns about the middle of the zone of contact | edges that stay miss twins by 2 to 4 times as much |
+//! | loss | the bed's damper, and at crossings the share of the sharp edge's impact that the bed lets through | soft beds have no impacts, stiff beds have those of sharp edges |
+
+mod crossing;
+mod law;
+mod motion;
+
+pub use law::Bed;
+pub(crate) use motion::{BeddedMotion, BeddedRate};

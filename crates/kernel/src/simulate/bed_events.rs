@@ -1,0 +1,85 @@
+//! Where the contact of a joint on a bed changes inside a step: whole, in part, or past the middle.
+
+use super::events::{Event, ROUNDINGS, first_end};
+use crate::model::{Contact, Joint, Pivot, RockingWall, opening};
+use crate::solver::{Bernstein, Point, Quintic};
+
+/// A change of the contact of a joint on a bed: sign × (limit - φ) falls below zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct BedChange {
+    pub joint: Joint,
+    pub kind: BedChangeKind,
+    limit_rad: f64,
+    sign: f64,
+}
+
+/// What changes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum BedChangeKind {
+    /// Whole contact becomes contact in part, open towards a side.
+    Opens(Pivot),
+    /// Contact in part becomes whole.
+    Closes,
+    /// A joint that had been open on this side passes the middle.
+    Crosses(Pivot),
+}
+
+impl BedChange {
+    /// What is left to the change at an instant, and its rate.
+    pub fn left(&self, at: &Point) -> (f64, f64) {
+        (opening(self.joint, at.position) - self.limit_rad, opening(self.joint, at.velocity))
+    }
+}
+
+/// The first change of contact inside a step, and the share of the step at which it is.
+#[inline]
+pub(super) fn first_bed_change(
+    wall: &RockingWall,
+    contact: Contact,
+    opened: [Pivot; 2],
+    motion: &Quintic,
+) -> Option<(Event, f64)> {
+    if !wall.wall().gives() {
+        return None;
+    }
+    let of_joint = |joint: Joint| changes_of(wall, contact, opened, joint);
+    let changes = wall.joints().flat_map(of_joint);
+    let first = changes.filter_map(|change| {
+        let path = match change.joint {
+            Joint::Ground => motion.coordinate(0),
+            Joint::Crack => motion.difference(),
+        };
+        share_of(&change, &path, motion.bounds().iter().sum()).map(|share| (Event::Bed(change), share))
+    });
+    first.reduce(|a, b| if b.1 < a.1 { b } else { a })
+}
+
+/// The changes that may come next of one joint.
+fn changes_of(
+    wall: &RockingWall,
+    contact: Contact,
+    opened: [Pivot; 2],
+    joint: Joint,
+) -> impl Iterator<Item = BedChange> + use<> {
+    let phi_c = wall.bed(joint).map(|bed| bed.full_contact_rad());
+    let side = contact.at(joint);
+    let was_open = opened[joint as usize];
+    let to = |limit_rad: f64, sign: f64, kind: BedChangeKind| BedChange { joint, kind, limit_rad, sign };
+    let all = phi_c.map(|phi_c| match side {
+        Pivot::Closed => [
+            Some(to(phi_c, 1.0, BedChangeKind::Opens(Pivot::Right))),
+            Some(to(-phi_c, -1.0, BedChangeKind::Opens(Pivot::Left))),
+            was_open.is_open().then(|| to(0.0, -was_open.sign(), BedChangeKind::Crosses(was_open))),
+        ],
+        side => [Some(to(side.sign() * phi_c, -side.sign(), BedChangeKind::Closes)), None, None],
+    });
+    all.into_iter().flatten().flatten()
+}
+
+/// Where the rotation across the joint passes the limit.
+///
+/// `size` is that of the rotations it is the difference of.
+fn share_of(change: &BedChange, path: &Bernstein<6>, size: f64) -> Option<f64> {
+    let rounding = ROUNDINGS * f64::EPSILON * size.max(change.limit_rad.abs());
+    first_end(path.below(change.limit_rad).times(change.sign), rounding)
+}
