@@ -103,7 +103,7 @@ fn analytic_every_effect_acts_where_its_role_says() {
         let expected = match effect.entry().role {
             Role::Sensor => (false, true),
             Role::Mass | Role::Damper | Role::Friction | Role::Spring | Role::Memory => (true, false),
-            Role::Corners | Role::Impact | Role::GroundMotion => (true, false),
+            Role::Corners | Role::Bed | Role::Impact | Role::GroundMotion => (true, false),
         };
         assert_eq!((moves, reads), expected, "{effect:?}: (moves the wall, changes the reading)");
     }
@@ -150,7 +150,7 @@ fn analytic_every_entry_agrees_with_itself() {
             assert!(p.neutral != p.example, "{} {}: an example that does nothing", entry.name, p.key);
         }
         for variant in kind.variants() {
-            assert_eq!(variant.joint().is_some(), entry.place == Place::Joint, "{variant:?}");
+            assert_eq!(!variant.joints().is_empty(), entry.place == Place::Joint, "{variant:?}");
             assert!(!variant.example().is_neutral(), "{variant:?}");
         }
         assert_eq!(place(entry), entry.place, "{}: a role that acts elsewhere", entry.name);
@@ -161,7 +161,7 @@ fn analytic_every_entry_agrees_with_itself() {
 fn place(entry: &EffectEntry) -> Place {
     match entry.role {
         Role::Mass | Role::Damper | Role::Friction | Role::Spring | Role::Memory => entry.place,
-        Role::Corners => Place::Joint,
+        Role::Corners | Role::Bed => Place::Joint,
         Role::Impact => Place::Impacts,
         Role::GroundMotion => Place::GroundMotion,
         Role::Sensor => Place::Sensor,

@@ -187,7 +187,9 @@ impl Wall {
                 load_n: above_kg[j] * G_M_S2,
             })
         });
-        Ok(Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad, width_m, beds, effects, parameters })
+        let wall = Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad, width_m, beds, effects, parameters };
+        wall.check_beds()?;
+        Ok(wall)
     }
 
     /// Whether a joint lies on a bed.
@@ -199,6 +201,40 @@ impl Wall {
     /// Beds of the joints that give, at the ground and at the crack.
     pub fn beds(&self) -> [Option<Bed>; 2] {
         self.beds
+    }
+
+    /// A wall on beds must stand upright by itself.
+    ///
+    /// Stiffness of the beds and of the floor's spring less what the weight takes, on θ_1 and θ_2. Joints on
+    /// sharp edges do not open from rest.
+    fn check_beds(&self) -> Result<(), ImpossibleWall> {
+        let Some(i) = self.parameters.effects.iter().position(|e| e.kind() == EffectKind::CompliantJoint)
+        else {
+            return Ok(());
+        };
+        let [h1, h2] = self.height_m;
+        let [m1, m2] = self.mass_kg;
+        let (m_d, k_d) = (self.parameters.diaphragm_mass_kg, self.parameters.stiffness_n_per_m);
+        let falls = [(m1 / 2.0 + m2 + m_d) * h1, (m2 / 2.0 + m_d) * h2].map(|moment| moment * G_M_S2);
+        let [ground, crack] =
+            self.beds.map(|bed| bed.map_or(f64::INFINITY, |bed| bed.rotational_stiffness_n_m()));
+        // Turning as one about the ground, and the upper body alone about the crack.
+        let as_one = ground + k_d * (h1 + h2).powi(2) - falls[0] - falls[1];
+        let upper = crack + k_d * h2 * h2 - falls[1];
+        let lower = ground + crack + k_d * h1 * h1 - falls[0];
+        let both = lower * upper - (crack - k_d * h1 * h2).powi(2);
+        let stands = as_one > 0.0 && (!self.is_cracked() || (upper > 0.0 && !(both <= 0.0)));
+        if stands || !self.gives() {
+            return Ok(());
+        }
+        let softest =
+            self.beds.iter().flatten().map(|bed| bed.stiffness_pa_per_m).fold(f64::INFINITY, f64::min);
+        let allowed = "stiffer beds: on these the wall falls by its own weight".to_owned();
+        Err(ImpossibleWall {
+            key: Cow::Owned(format!("effects.{i}.stiffness_pa_per_m")),
+            found: format!("{softest:e}"),
+            allowed,
+        })
     }
 
     /// This wall with sharp edges in place of its beds.

@@ -1,7 +1,7 @@
 //! The loop of one run: rest, motion, openings and impacts, until the end.
 
-mod event;
 mod bed;
+mod event;
 mod rest;
 mod step;
 

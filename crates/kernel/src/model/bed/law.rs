@@ -78,7 +78,11 @@ impl Bed {
 
     /// Energy in the bed at a rotation in rad, J.
     pub fn energy_j(&self, phi: f64) -> f64 {
-        if phi.abs() <= self.full_contact_rad() { self.full_energy_j(phi) } else { self.partial_energy_j(phi.abs()) }
+        if phi.abs() <= self.full_contact_rad() {
+            self.full_energy_j(phi)
+        } else {
+            self.partial_energy_j(phi.abs())
+        }
     }
 
     /// k L b³/12, N m: the moment per rotation in whole contact.

@@ -118,8 +118,7 @@ impl BeddedMotion {
         let [h1, h2] = wall.height_m;
         let moves = |joint: Joint| wall.beds[joint as usize].is_some() || contact.at(joint).is_open();
         let free = |joint: Joint| if moves(joint) { Pivot::Right } else { Pivot::Closed };
-        let freedom =
-            Freedom::of(Contact { ground: free(Joint::Ground), crack: free(Joint::Crack) });
+        let freedom = Freedom::of(Contact { ground: free(Joint::Ground), crack: free(Joint::Crack) });
         Self {
             joints: [Joint::Ground, Joint::Crack].map(|joint| JointShape::of(wall, contact, joint)),
             freedom,

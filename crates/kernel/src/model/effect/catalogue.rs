@@ -55,7 +55,7 @@ catalogue! {
 }
 
 /// The joints in the order of the words that choose one.
-const JOINTS: [Joint; 2] = [Joint::Ground, Joint::Crack];
+static JOINTS: [Joint; 2] = [Joint::Ground, Joint::Crack];
 
 /// A kind of effect with the word it takes chosen: what can be tried as one hypothesis.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -137,9 +137,18 @@ impl EffectVariant {
 
     /// The joint at which it acts; `None` for what acts at both or at none.
     pub fn joint(self) -> Option<Joint> {
-        match self.entry().place {
-            Place::Joint => JOINTS.get(self.choice_index()).copied(),
-            Place::Top | Place::Impacts | Place::GroundMotion | Place::Sensor => None,
+        match self.joints() {
+            [joint] => Some(*joint),
+            _ => None,
+        }
+    }
+
+    /// The joints at which it acts: of a word beyond those of [`JOINTS`], all.
+    pub fn joints(self) -> &'static [Joint] {
+        match (self.entry().place, self.choice_index()) {
+            (Place::Joint, i) if i < JOINTS.len() => &JOINTS[i..=i],
+            (Place::Joint, _) => &JOINTS,
+            (Place::Top | Place::Impacts | Place::GroundMotion | Place::Sensor, _) => &[],
         }
     }
 

@@ -148,15 +148,13 @@ pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(
             let found = format!("{} again", kind.name);
             return Err(refused(i, found, "one effect of this kind: two have no common law".to_owned()));
         }
-        let twice = |earlier: &Effect| {
-            earlier.kind() == EffectKind::CompliantJoint && share_a_joint(earlier, effect)
-        };
+        let twice =
+            |earlier: &Effect| earlier.kind() == EffectKind::CompliantJoint && share_a_joint(earlier, effect);
         if effect.kind() == EffectKind::CompliantJoint && p.effects[..i].iter().any(twice) {
             let found = format!("{} at a joint that has one", kind.name);
             return Err(refused(i, found, "one bed in a joint".to_owned()));
         }
-        let at_crack = effect.variant().joint() == Some(Joint::Crack)
-            || (effect.kind() == EffectKind::CompliantJoint && effect.variant().joint().is_none());
+        let at_crack = effect.variant().joints().contains(&Joint::Crack);
         if at_crack && p.crack_height_m.is_none() {
             let found = format!("{} at the crack of a wall without one", kind.name);
             return Err(refused(i, found, "joint = \"ground\"".to_owned()));
@@ -182,8 +180,8 @@ pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(
 
 /// Whether two effects at joints act at the same one.
 fn share_a_joint(a: &Effect, b: &Effect) -> bool {
-    let [a, b] = [a, b].map(|effect| effect.variant().joint());
-    a.is_none() || b.is_none() || a == b
+    let joints = b.variant().joints();
+    a.variant().joints().iter().any(|joint| joints.contains(joint))
 }
 
 fn last(effects: &[Effect], kind: EffectKind) -> usize {

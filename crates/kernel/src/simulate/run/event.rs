@@ -44,7 +44,8 @@ impl<O: Observer> Run<O> {
         let force_at =
             |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
         let corner_force = (self.corner_force, end_force);
-        let event = first_event(self.wall.edges_of(self.contact), &motion, self.collapse_rad, corner_force, force_at);
+        let event =
+            first_event(self.wall.edges_of(self.contact), &motion, self.collapse_rad, corner_force, force_at);
         let kink = first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
         let event = earlier(event, kink).map(|(event, share)| (self.on_edges(event), share));
         let change = first_bed_change(&self.wall, self.contact, self.opened, &motion);

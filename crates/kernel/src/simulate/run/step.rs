@@ -95,8 +95,7 @@ impl Field for BeddedField<'_, '_> {
 
     fn land(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
         let ground = self.piece.at(self.from_s + after_s);
-        let (rate, reactions) =
-            self.motion.rate_and_reactions_at(theta.to_array(), omega.to_array(), ground);
+        let (rate, reactions) = self.motion.rate_and_reactions_at(theta.to_array(), omega.to_array(), ground);
         *self.reactions = reactions;
         from_motion(rate)
     }
