@@ -3,6 +3,7 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod beds;
 mod blind;
 mod calibrate_cli;
 mod calibrate_files;

@@ -145,7 +145,26 @@ pub fn any_of_all_effects(rng: &mut ChaCha8Rng, wall: &WallParameters) -> Vec<Ef
     ];
     let mut effects = any_effects(rng, wall);
     effects.extend(all.into_iter().filter(|_| rng.random_bool(0.5)));
+    // From a stream of its own: walls without a bed stay those that they were.
+    let mut of_beds = rng.clone();
+    of_beds.set_stream(rng.get_stream() + (1 << 32));
+    if of_beds.random_bool(0.5) {
+        effects.extend(any_bed(&mut of_beds, wall, &effects));
+    }
     effects
+}
+
+/// A bed in a joint or in both, in whole contact up to 1e-4 to 1e-2 of the slenderness; none where the wall would fall
+/// on it.
+fn any_bed(rng: &mut ChaCha8Rng, wall: &WallParameters, others: &[Effect]) -> Option<Effect> {
+    let joint = ["ground", "crack", "both"][rng.random_range(0..3)];
+    let full_contact_rad = log_uniform(rng, 1e-4, 1e-2) * wall.lower_width_m / wall.height_m;
+    let stiffness =
+        2.0 * wall.mass_kg * G_M_S2 / (full_contact_rad * wall.length_m * wall.lower_width_m.powi(2));
+    let damping_s = if rng.random_bool(0.5) { 0.0 } else { log_uniform(rng, 1e-5, 1e-2) };
+    let bed = effect(&format!("compliant_joint.{joint}"), &[stiffness.clamp(1e6, 1e12), damping_s]);
+    let effects = others.iter().copied().chain([bed]).collect();
+    Wall::new(WallParameters { effects, ..wall.clone() }).is_ok().then_some(bed)
 }
 
 /// Coefficients and law of impacts, with no coefficient above `most`.

@@ -216,15 +216,17 @@ impl Wall {
         let [m1, m2] = self.mass_kg;
         let (m_d, k_d) = (self.parameters.diaphragm_mass_kg, self.parameters.stiffness_n_per_m);
         let falls = [(m1 / 2.0 + m2 + m_d) * h1, (m2 / 2.0 + m_d) * h2].map(|moment| moment * G_M_S2);
-        let [ground, crack] =
-            self.beds.map(|bed| bed.map_or(f64::INFINITY, |bed| bed.rotational_stiffness_n_m()));
-        // Turning as one about the ground, and the upper body alone about the crack.
-        let as_one = ground + k_d * (h1 + h2).powi(2) - falls[0] - falls[1];
-        let upper = crack + k_d * h2 * h2 - falls[1];
-        let lower = ground + crack + k_d * h1 * h1 - falls[0];
-        let both = lower * upper - (crack - k_d * h1 * h2).powi(2);
-        let stands = as_one > 0.0 && (!self.is_cracked() || (upper > 0.0 && !(both <= 0.0)));
-        if stands || !self.gives() {
+        let stands = match self.beds.map(|bed| bed.map(|bed| bed.rotational_stiffness_n_m())) {
+            [None, None] => true,
+            [Some(ground), None] => ground + k_d * (h1 + h2).powi(2) > falls[0] + falls[1],
+            [None, Some(crack)] => crack + k_d * h2 * h2 > falls[1],
+            [Some(ground), Some(crack)] => {
+                let lower = ground + crack + k_d * h1 * h1 - falls[0];
+                let upper = crack + k_d * h2 * h2 - falls[1];
+                lower > 0.0 && lower * upper > (crack - k_d * h1 * h2).powi(2)
+            }
+        };
+        if stands {
             return Ok(());
         }
         let softest =

@@ -264,6 +264,21 @@ fn likeliest(share: impl Fn(usize) -> Option<f64>, limit: f64) -> Option<(usize,
     shares.filter(|(_, share)| *share < limit).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
+/// Windowed errors of a wall as it is in the tests of an experiment, in units of their noise: over those to fit,
+/// and over those held out. `None` where nothing moves.
+pub fn windowed_errors(experiment: &Experiment, wall: &Wall) -> [Option<f64>; 2] {
+    let of = |purpose: Purpose| {
+        let tests = experiment.tests.iter().filter(|test| test.purpose == purpose).cloned();
+        let tests = tests.collect::<Vec<_>>();
+        let windows = windows(&tests);
+        let all = Problem { tests: &tests, windows: &windows };
+        let data = Data { fit: all, held_out: Problem { windows: &[], ..all } };
+        let h = Hypothesis::new(wall.parameters(), &experiment.scales, &[], &[]);
+        windowed_error(&untouched(&data, h)?.fit.windows).filter(|error| *error > 0.0)
+    };
+    [Purpose::Fit, Purpose::HoldOut].map(of)
+}
+
 /// Windowed error of the wall as given in one test; `None` where nothing moves.
 fn misfit(readings: &Readings, test: &TestData) -> Option<f64> {
     let tests = [test.clone()];

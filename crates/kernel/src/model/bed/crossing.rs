@@ -80,17 +80,25 @@ impl Freedom {
 /// Nothing but the joint's own moment acts meanwhile. So the energy and the momentum along the velocities n
 /// that leave φ as it is are kept: nᵀ M ω and ωᵀ M ω. The sign of φ' is kept.
 fn passed([from, to]: [&MassMatrix; 2], along: Along, omega: Pair) -> Pair {
-    let energy = from.quadratic(omega);
     let (n, unit) = match along {
         Along::OneWay(way) => return omega.map(|w| w * (from.quadratic(way) / to.quadratic(way)).sqrt()),
         Along::Free { n, unit } => (n, unit),
     };
-    let kept = from.product(n, omega) / to.quadratic(n);
-    // The velocity with φ' = 1 that has no momentum along n.
-    let share = to.product(n, unit) / to.quadratic(n);
-    let across = [0, 1].map(|i| unit[i] - share * n[i]);
     let phi_rate = if n[0] == 0.0 { omega[0] } else { omega[1] - omega[0] };
-    let left = (energy - kept * kept * to.quadratic(n)).max(0.0);
-    let rate = (left / to.quadratic(across)).sqrt().copysign(phi_rate);
-    [0, 1].map(|i| kept * n[i] + rate * across[i])
+    if phi_rate == 0.0 {
+        // The pivot stays.
+        return omega;
+    }
+    // The velocity with φ' = 1 that has no momentum along n.
+    let across = |mass: &MassMatrix| {
+        let share = mass.product(n, unit) / mass.quadratic(n);
+        [0, 1].map(|i| unit[i] - share * n[i])
+    };
+    let momentum = from.product(n, omega);
+    let [before, after] = [from, to].map(across);
+    let freed = momentum * momentum * (1.0 / from.quadratic(n) - 1.0 / to.quadratic(n));
+    let energy = (phi_rate * phi_rate * from.quadratic(before) + freed).max(0.0);
+    let rate = (energy / to.quadratic(after)).sqrt().copysign(phi_rate);
+    let kept = momentum / to.quadratic(n);
+    [0, 1].map(|i| kept * n[i] + rate * after[i])
 }

@@ -1,5 +1,7 @@
 //! The static law of a bed: contact, moment, energy, and the point about which the body turns.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::super::contact::Pivot;
 use super::super::geometry::Pair;
 use super::super::vector::Vector;
@@ -127,17 +129,20 @@ impl Bed {
         let phi = (side * phi).max(LEAST_PARTIAL * phi_c);
         let half_m = self.width_m / 2.0;
         let [(u, cos, v), (u_c, _, v_c)] = [phi, phi_c].map(turned);
-        let open_y = 1.0 - (u_c / u).sqrt();
+        // Beyond a quarter turn, where u falls again, the zone stays as wide as it was there.
+        let (risen, narrows) = match phi <= FRAC_PI_2 {
+            true => (u * (1.0 - (u_c / u).sqrt()).powi(2), 0.5 * (u_c / u).sqrt() * cos * cos / u),
+            false => ((1.0 - u_c.sqrt()) * (u - u_c.sqrt()), 0.0),
+        };
+        let open_y = 1.0 - if phi <= FRAC_PI_2 { (u_c / u).sqrt() } else { u_c.sqrt() };
         let part_x = (v_c / v).sqrt().sqrt();
         let c = self.partial_contact_m(phi);
-        let place = Vector {
-            x: side * half_m * (v * (1.0 - 4.0 / 3.0 * part_x) + v_c / 3.0),
-            y: half_m * u * open_y * open_y,
-        };
+        let place =
+            Vector { x: side * half_m * (v * (1.0 - 4.0 / 3.0 * part_x) + v_c / 3.0), y: half_m * risen };
         let slope = Vector { x: half_m * (1.0 - part_x) * u, y: side * half_m * open_y * cos };
         let bend = Vector {
             x: side * half_m * ((1.0 - part_x) * cos + part_x * (1.0 + cos) / 4.0),
-            y: half_m * (0.5 * (1.0 - open_y) * cos * cos / u - open_y * u),
+            y: half_m * (narrows - open_y * u),
         };
         let zone = self.stiffness_pa_per_m * self.length_m * c * c * c / 12.0;
         Roll {

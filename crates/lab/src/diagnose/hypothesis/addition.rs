@@ -137,8 +137,9 @@ const RIVAL_NUMBERS: [&str; 5] = [
 /// Every addition to a wall that is tried alone: the catalogue, the lumped carriage, numbers outside what was known of
 /// them, and a placebo.
 pub fn candidates(wall: &WallParameters) -> Vec<Addition> {
-    let mut all =
-        EffectKind::ALL.iter().flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();
+    // Beds are looked for by softness, not by a number that is neutral where it is largest.
+    let sought = EffectKind::ALL.iter().filter(|kind| kind.entry().role != Role::Bed);
+    let mut all = sought.flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();
     if wall.diaphragm_mass_kg > 0.0 {
         all.push(Addition::LumpedCarriage);
     }

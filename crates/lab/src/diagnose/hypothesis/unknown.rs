@@ -174,6 +174,8 @@ pub struct Scales {
     pub moment_n_m: f64,
     /// Width between corners, m.
     pub width_m: f64,
+    /// Length of the strip, m.
+    pub length_m: f64,
 }
 
 impl Scales {
@@ -194,6 +196,7 @@ impl Scales {
             force_n: (p.stiffness_n_per_m * displacement_m).max(0.1 * weight_n),
             moment_n_m: 0.5 * weight_n * p.lower_width_m,
             width_m: p.lower_width_m,
+            length_m: p.length_m,
         }
     }
 
@@ -210,6 +213,8 @@ impl Scales {
             // A quarter of the moment that opens a joint: beside it a damper there is as large as the others at the top.
             Quantity::JointDamping => 0.25 * self.moment_n_m / (self.rotation_rad * self.frequency_rad_s),
             Quantity::CornerWidth => 0.1 * self.width_m,
+            // The bed on which the largest rotation has a third of the width in contact: 2 N/(k L φ) = (b/3)².
+            Quantity::BedStiffness => 36.0 * self.moment_n_m / (self.length_m * self.width_m.powi(3) * self.rotation_rad),
             Quantity::Rotation => 0.1 * self.rotation_rad,
             Quantity::Time => 0.05 / self.frequency_rad_s,
             Quantity::Ratio | Quantity::ImpactFactor => 1.0,
