@@ -81,5 +81,11 @@ fn changes_of(
 /// `size` is that of the rotations it is the difference of.
 fn share_of(change: &BedChange, path: &Bernstein<6>, size: f64) -> Option<f64> {
     let rounding = ROUNDINGS * f64::EPSILON * size.max(change.limit_rad.abs());
-    first_end(path.below(change.limit_rad).times(change.sign), rounding)
+    let mut left = path.below(change.limit_rad).times(change.sign);
+    let [start, next, ..] = left.0;
+    if start < 0.0 && next > start {
+        // Beyond the limit by what the change before was located less well than to roundings, and on its way back.
+        left.0.iter_mut().for_each(|c| *c -= start);
+    }
+    first_end(left, rounding)
 }
