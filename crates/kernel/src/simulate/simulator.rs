@@ -16,6 +16,9 @@ use crate::solver::{Controller, ErrorScale};
 /// end within three tenths.
 const STEP_SHARE: f64 = 1e-3;
 
+/// The same for walls on beds, whose stiff contact magnifies errors as well.
+const STEP_SHARE_ON_BEDS: f64 = 1e-2 * STEP_SHARE;
+
 /// From where a window of a run starts.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Start {
@@ -75,7 +78,8 @@ impl Simulator {
             time_s: rocking.response_time_s(),
             fastest_rate_per_s: rocking.fastest_rate_per_s(),
         };
-        let controller = Controller::new(scale, STEP_SHARE * accuracy.tolerance, ground.step_s());
+        let share = if wall.gives() { STEP_SHARE_ON_BEDS } else { STEP_SHARE };
+        let controller = Controller::new(scale, share * accuracy.tolerance, ground.step_s());
         Self { rest: RestLimits::new(&rocking), controller, wall: rocking, record, ground }
     }
 
