@@ -1,8 +1,7 @@
 //! Walls on beds that another program moved: two free bodies on springs, without kinematics of rocking or impacts.
 
 use mrbd_kernel::model::{Effect, Wall, WallParameters};
-use mrbd_lab::diagnose::Experiment;
-use mrbd_lab::diagnose::check_data::windowed_errors;
+use mrbd_lab::diagnose::{Experiment, windowed_errors};
 
 use crate::shared;
 

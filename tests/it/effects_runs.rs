@@ -57,8 +57,8 @@ fn analytic_the_ledger_balances_with_every_effect() {
     }
     eprintln!("energy residual: worst {worst:e} over 500 runs and {impacts} impacts, {lossy} with drag");
     assert!(lossy > 200, "{lossy}");
-    // As without kinks (`energy` in these tests).
-    assert!(worst <= 1e-8, "{worst:e}");
+    // Ten times that without kinks (`energy` in these tests): a bed of 1e11 Pa/m magnifies the roundings of φ.
+    assert!(worst <= 1e-7, "{worst:e}");
 }
 
 fn mirrored(effects: &[Effect]) -> Vec<Effect> {

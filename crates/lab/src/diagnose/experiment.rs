@@ -9,7 +9,7 @@ use super::hypothesis::{ACTING, Hypothesis, Nuisance, Scales, WALL_NUMBERS, wall
 use super::trials::{Data, untouched};
 use crate::experiment::file::{ExperimentFile, TestTable};
 use crate::experiment::test_data::check_radians;
-use crate::experiment::{Test, TestData, load_tests, rest_offset_rad, windows};
+use crate::experiment::{Purpose, Test, TestData, load_tests, rest_offset_rad, windows};
 use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER, TOO_LARGE_RAD};
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::{FileNote, load_wall, toml_file};

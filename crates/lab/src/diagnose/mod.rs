@@ -31,7 +31,7 @@ use crate::experiment_file::Purpose;
 use crate::limits::READ_AGAIN;
 pub use answer::Diagnosis;
 use answer::Findings;
-pub use experiment::{Experiment, check_data, check_tests};
+pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use trials::{Alone, Data, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain};
 pub use verdict::Verdict;

@@ -214,7 +214,9 @@ impl Scales {
             Quantity::JointDamping => 0.25 * self.moment_n_m / (self.rotation_rad * self.frequency_rad_s),
             Quantity::CornerWidth => 0.1 * self.width_m,
             // The bed on which the largest rotation has a third of the width in contact: 2 N/(k L φ) = (b/3)².
-            Quantity::BedStiffness => 36.0 * self.moment_n_m / (self.length_m * self.width_m.powi(3) * self.rotation_rad),
+            Quantity::BedStiffness => {
+                36.0 * self.moment_n_m / (self.length_m * self.width_m.powi(3) * self.rotation_rad)
+            }
             Quantity::Rotation => 0.1 * self.rotation_rad,
             Quantity::Time => 0.05 / self.frequency_rad_s,
             Quantity::Ratio | Quantity::ImpactFactor => 1.0,
