@@ -49,6 +49,7 @@ mod limits;
 mod margin;
 mod matrix_form;
 mod matrix_model;
+mod measured_walls;
 mod overturning;
 mod pipeline_batch;
 mod pipeline_cli;

@@ -104,6 +104,11 @@ impl Evaluation<'_> {
     pub fn tests(&self, joint: &Vector, methods: &[MethodResult]) -> Vec<TestResult> {
         let before = self.simulated(&self.experiment.space.nominal());
         let after = self.simulated(&joint.values);
+        let rms = |k: usize, values: &[f64]| {
+            let Experiment { space, tests, .. } = self.experiment;
+            let wall = space.wall(values).ok();
+            wall.map_or([None; 2], |wall| tests[k].rms_rad(&wall, self.experiment.accuracy()))
+        };
         let result = |k: usize| {
             let test = &self.experiment.tests[k];
             let own = methods.iter().filter(|m| m.test.as_ref() == Some(&test.name));
@@ -113,6 +118,8 @@ impl Evaluation<'_> {
                 purpose: test.purpose.name().to_owned(),
                 wme_before: before[k].as_ref().and_then(|s| s.wme),
                 wme_joint: after[k].as_ref().and_then(|s| s.wme),
+                rms_rad_before: rms(k, &self.experiment.space.nominal()),
+                rms_rad_joint: rms(k, &joint.values),
                 wme_alone: alone,
                 transitions: after[k].as_ref().map_or([0; 8], |s| s.transitions),
                 measured_collapse_s: test.collapse_s,

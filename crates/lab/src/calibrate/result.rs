@@ -191,6 +191,11 @@ pub struct TestResult {
     pub wme_before: Option<f64>,
     /// WME with the joint vector.
     pub wme_joint: Option<f64>,
+    /// Root mean square of the error of θ_1 and θ_2 with the wall as given, rad; null for a lost channel, or where
+    /// the simulated wall fell.
+    pub rms_rad_before: [Option<f64>; 2],
+    /// The same with the joint vector.
+    pub rms_rad_joint: [Option<f64>; 2],
     /// Best WME of the searches in this test alone; null for held-out tests.
     pub wme_alone: Option<f64>,
     /// Impacts by change of Table 2 with the joint vector.

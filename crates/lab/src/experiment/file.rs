@@ -96,8 +96,8 @@ pub struct ParameterTable {
 pub struct TestTable {
     /// Name in results.
     pub name: String,
-    /// Horizontal record of the table.
-    pub record: PathBuf,
+    /// Horizontal record of the table; absent: a free release, with `release_s`.
+    pub record: Option<PathBuf>,
     /// Time between samples of records that do not tell it, s.
     pub record_step_s: Option<f64>,
     /// Factor on the record.
@@ -125,6 +125,12 @@ pub struct TestTable {
     pub windows_s: Vec<[f64; 2]>,
     /// When the wall collapsed, in the record's time, s; absent: when a rotation passes its collapse rotation.
     pub collapse_s: Option<f64>,
+    /// Time from which the wall moves by itself, in the record's time, s. The simulation starts there from the
+    /// measured state; what comes before, by hand or by a jack, is not judged. Absent: from rest, with the record.
+    pub release_s: Option<f64>,
+    /// Whether the top is held sideways: then it does not move, and θ_2 follows from θ_1.
+    #[serde(default)]
+    pub top_held: bool,
     /// Reading of a displacement of the lower body, from which θ_1 follows.
     pub lower_reading: Option<Reading>,
     /// Reading of a displacement of the upper body, from which θ_2 follows.
@@ -222,7 +228,8 @@ impl ExperimentFile {
         let coefficients = self.calibrate.coefficients.iter();
         files.extend(coefficients.map(|name| ("coefficients".to_owned(), beside(name))));
         for test in &self.tests {
-            files.push((format!("record of {}", test.name), beside(&test.record)));
+            let record = test.record.iter();
+            files.extend(record.map(|name| (format!("record of {}", test.name), beside(name))));
             let vertical = test.vertical.iter();
             files.extend(vertical.map(|name| (format!("vertical of {}", test.name), beside(name))));
             files.push((format!("measured in {}", test.name), beside(&test.measured)));
@@ -303,6 +310,32 @@ impl TestTable {
             if holds { Ok(()) } else { Err(error()) }
         };
         require("name", format!("{:?}", self.name), !self.name.trim().is_empty(), "a name")?;
+        let found = "no record and no release_s".to_owned();
+        let moves = self.record.is_some() || self.release_s.is_some();
+        require("record", found, moves, "a record, or release_s: when a wall without one is let go, s")?;
+        let release_holds = self.release_s.is_none_or(|s| s.is_finite() && s >= 0.0);
+        require(
+            "release_s",
+            format!("{:?}", self.release_s),
+            release_holds,
+            "a finite number of seconds, 0 or more",
+        )?;
+        let held_holds = !(self.top_held && self.upper_reading.is_some());
+        require("top_held", "true beside upper_reading".to_owned(), held_holds, "one of both")?;
+        let vertical_holds = self.vertical.is_none() || self.record.is_some();
+        require(
+            "vertical",
+            format!("{:?}", self.vertical),
+            vertical_holds,
+            "a vertical record beside a horizontal one",
+        )?;
+        let match_holds = self.start_s != StartTime::Match || self.release_s.is_none();
+        require(
+            "start_s",
+            "\"match\" beside release_s".to_owned(),
+            match_holds,
+            "seconds: there is no beginning to match",
+        )?;
         require("scale", self.scale.to_string(), self.scale.is_finite(), "a finite number")?;
         let vertical_scale = self.vertical_scale;
         let holds = vertical_scale.is_none_or(|x| x.is_finite() && self.vertical.is_some());

@@ -46,7 +46,7 @@ impl Measured {
     /// Reads the measured file of a test, in its own time.
     ///
     /// Columns: `time_s`, and for each body its rotation (`theta1_rad`, `theta2_rad`) or the reading the test names
-    /// (`top_displacement_m` serves as one for θ_2 by itself). Empty cells and `nan` are missing samples.
+    /// (`crack_displacement_m` serves as one for θ_1 by itself, `top_displacement_m` for θ_2). Empty cells and `nan` are missing samples.
     ///
     /// # Errors
     /// Input errors with file and line: not a table of numbers, times that do not increase, no channel at all.
@@ -60,7 +60,8 @@ impl Measured {
         let theta_rad = channels.rotations()?;
         channels.check_names(&theta_rad)?;
         if theta_rad.iter().all(Option::is_none) {
-            let allowed = "theta1_rad, theta2_rad, or displacements with lower_reading and upper_reading";
+            let allowed = "theta1_rad, theta2_rad, crack_displacement_m, top_displacement_m, \
+                           or displacements with lower_reading and upper_reading";
             let found = format!("columns {}, in none of them a measured rotation", columns.names.join(", "));
             return Err(InputError::line(path, 1, found, allowed).into());
         }
@@ -155,7 +156,7 @@ impl Channels<'_> {
     fn rotations(&self) -> Result<[Option<Vec<f64>>; 2], InputError> {
         let p = &self.wall.indented();
         let lower = match &self.test.lower_reading {
-            None => self.column("theta1_rad"),
+            None => self.column("theta1_rad").or_else(|| self.of_crack(p)),
             Some(reading) => {
                 let u = self.reading("lower_reading", reading)?;
                 let theta = |u: &f64| lower_rotation_rad(p, reading.height_m, *u);
@@ -167,12 +168,22 @@ impl Channels<'_> {
         let upper = match (&self.test.upper_reading, direct, &lower) {
             (Some(reading), _, Some(lower)) => Some(self.upper("upper_reading", reading, lower)?),
             (None, Some(direct), _) => Some(direct),
+            (None, None, Some(lower)) if self.test.top_held => {
+                Some(lower.iter().map(|theta1| upper_rotation_rad(p, p.height_m, 0.0, *theta1)).collect())
+            }
             (None, None, Some(lower)) if self.columns.get(&top.column).is_some() => {
                 Some(self.upper("measured", &top, lower)?)
             }
             _ => None,
         };
         Ok([lower, upper].map(|channel| channel.filter(|values| values.iter().any(|v| v.is_finite()))))
+    }
+
+    /// θ_1 by the displacement of the crack, where the file has it.
+    fn of_crack(&self, p: &WallParameters) -> Option<Vec<f64>> {
+        let height_m = p.crack_height_m?;
+        let u = self.column("crack_displacement_m")?;
+        Some(u.iter().map(|u| lower_rotation_rad(p, height_m, *u)).collect())
     }
 
     /// Refuses a column that was meant for a rotation which nothing gives: as a lost channel it would be passed over.

@@ -9,9 +9,10 @@ use super::misfit::{Comparison, Errors, Target};
 use super::rotations::AtTimes;
 use super::segments::{Segment, segments};
 use mrbd_files::error::{InputError, Result};
-use mrbd_kernel::model::Wall;
-use mrbd_kernel::simulate::{Accuracy, History, Outcome, Response, Shaking, Simulator};
+use mrbd_kernel::model::{Pair, State, Wall};
+use mrbd_kernel::simulate::{Accuracy, History, Outcome, Response, Shaking, Simulator, Start};
 use mrbd_records::{Accelerogram, ReadOptions, read};
+use nalgebra::{DMatrix, DVector};
 
 /// One test of an experiment.
 #[derive(Debug, Clone)]
@@ -30,6 +31,8 @@ pub struct Test {
     pub alignment: Alignment,
     /// The ground motion as recorded.
     pub shaking: Shaking,
+    /// The measured state from which the wall moves by itself; `None`: it starts from rest.
+    release: Option<Start>,
     /// The same up to the end of what counts, made ready for the wall as given.
     simulator: Simulator,
     segments: Vec<Segment>,
@@ -71,7 +74,9 @@ impl Test {
         let path = folder.join(&table.measured);
         let measured = Measured::load(&path, table, wall)?;
         let (measured, alignment) = aligned(&path, table, measured, wall, &shaking, accuracy)?;
-        let target = Target::new(&measured, &table.windows_s, wall).ok_or_else(|| {
+        let release = table.release_s.map(|from_s| released(&path, &measured, from_s)).transpose()?;
+        let counts_s = counted_s(table);
+        let target = Target::new(&measured, &counts_s, wall).ok_or_else(|| {
             let allowed = "samples in the record's time, inside windows_s, before a collapse, \
                            not all parted by gaps";
             InputError::file(&path, format!("nothing that counts in test {:?}", table.name), allowed)
@@ -83,7 +88,8 @@ impl Test {
             alignment,
             simulator: Simulator::new(wall, &until(&shaking, target.end_s()), accuracy),
             shaking,
-            segments: vec![Segment::whole(&target)],
+            segments: vec![Segment { start: release, ..Segment::whole(&target) }],
+            release,
             target,
             measured,
         })
@@ -93,7 +99,8 @@ impl Test {
     /// one.
     #[must_use]
     pub fn in_windows(&self, wall: &Wall, accuracy: Accuracy) -> Self {
-        let segments = segments(&self.target, &self.simulator.with_wall(wall, accuracy));
+        let mut segments = segments(&self.target, &self.simulator.with_wall(wall, accuracy));
+        segments.iter_mut().filter(|segment| segment.start.is_none()).for_each(|s| s.start = self.release);
         let samples = segments.iter().flat_map(|segment| segment.samples.iter().copied()).collect();
         Self { target: self.target.counting(samples), segments, ..self.clone() }
     }
@@ -103,15 +110,40 @@ impl Test {
     pub(crate) fn first(&self, samples: usize) -> Self {
         let samples = self.target.samples()[..samples].to_vec();
         let end_s = samples.last().map_or(0.0, |s| s.time_s);
-        Self { segments: vec![Segment { start: None, end_s, samples }], ..self.clone() }
+        Self { segments: vec![Segment { start: self.release, end_s, samples }], ..self.clone() }
     }
 
     /// Rotations of a wall in the free-running test up to the end of what counts, a row every `step_s` seconds.
     pub fn history(&self, wall: &Wall, accuracy: Accuracy, step_s: f64) -> History {
         let simulator = self.simulator.with_wall(wall, accuracy);
         let mut history = History::new(step_s);
-        simulator.run_from(&simulator.release(), self.target.end_s(), &mut history);
+        let start = self.release.unwrap_or_else(|| simulator.release());
+        simulator.run_from(&start, self.target.end_s(), &mut history);
         history
+    }
+
+    /// Root mean square of the error of each rotation over what counts of the free-running test, rad; of a lost
+    /// channel, or after the simulated wall fell, `None`.
+    pub fn rms_rad(&self, wall: &Wall, accuracy: Accuracy) -> [Option<f64>; 2] {
+        let rows = self.history(wall, accuracy, RMS_STEP_S).rows;
+        let at = |time_s: f64, i: usize| {
+            let after = rows.partition_point(|row| row.time_s < time_s).clamp(1, rows.len().max(2) - 1);
+            let (a, b) = (rows.get(after - 1)?, rows.get(after)?);
+            let share = (time_s - a.time_s) / (b.time_s - a.time_s);
+            (-0.01..=1.01)
+                .contains(&share)
+                .then(|| a.theta_rad[i] + share * (b.theta_rad[i] - a.theta_rad[i]))
+        };
+        [0, 1].map(|i| {
+            let counted = self.target.samples().iter().filter(|s| s.weight_s[i] > 0.0);
+            let (mut squares, mut length_s) = (0.0, 0.0);
+            for sample in counted {
+                let error = at(sample.time_s, i)? - sample.theta_rad[i];
+                squares += sample.weight_s[i] * error * error;
+                length_s += sample.weight_s[i];
+            }
+            (length_s > 0.0).then(|| (squares / length_s).sqrt())
+        })
     }
 
     /// How many segments it is simulated in.
@@ -200,6 +232,54 @@ impl Simulated {
     }
 }
 
+/// Rows of a history between which rotations are straight, s: of a swing of some tenths, to 1e-4 of it.
+const RMS_STEP_S: f64 = 1e-3;
+
+/// What counts of a test: nothing from before a release.
+pub(super) fn counted_s(table: &TestTable) -> Vec<[f64; 2]> {
+    match (table.release_s, &table.windows_s[..]) {
+        (None, windows) => windows.to_vec(),
+        (Some(from_s), []) => vec![[from_s, f64::MAX]],
+        (Some(from_s), windows) => {
+            let after = windows.iter().map(|[from, to]| [from.max(from_s), *to]);
+            after.filter(|[from, to]| from < to).collect()
+        }
+    }
+}
+
+/// Time to either side of a release over which its state is read, s: a swing lasts some tenths.
+const RELEASE_READ_S: f64 = 0.06;
+
+/// The measured state at a time: of the parabola through the samples about it, in least squares.
+fn released(path: &Path, measured: &Measured, time_s: f64) -> Result<Start, InputError> {
+    let near = |k: &usize| (measured.time_s[*k] - time_s).abs() <= RELEASE_READ_S;
+    let near = (0..measured.time_s.len()).filter(near).collect::<Vec<_>>();
+    let of = |channel: &Option<Vec<f64>>| {
+        let theta = channel.as_ref()?;
+        let samples = near.iter().map(|&k| (measured.time_s[k] - time_s, theta[k]));
+        parabola(&samples.filter(|(_, theta)| theta.is_finite()).collect::<Vec<_>>())
+    };
+    let states = measured.theta_rad.each_ref().map(of);
+    let [Some(lower), Some(upper)] = states else {
+        let found = format!("no state of both bodies at release_s = {time_s} s");
+        let allowed = format!("four samples or more of both within {RELEASE_READ_S} s of it; see top_held");
+        return Err(InputError::file(path, found, allowed));
+    };
+    let state = State { theta: [lower[0], upper[0]], omega: [lower[1], upper[1]] };
+    Ok(Start { time_s, state, ..Start::default() })
+}
+
+/// Value and slope at zero of the parabola through samples, in least squares; `None` of fewer than four.
+fn parabola(samples: &[(f64, f64)]) -> Option<Pair> {
+    if samples.len() < 4 {
+        return None;
+    }
+    let rows = DMatrix::from_fn(samples.len(), 3, |k, power| samples[k].0.powi(power as i32));
+    let values = DVector::from_iterator(samples.len(), samples.iter().map(|(_, value)| *value));
+    let fitted = rows.svd(true, true).solve(&values, f64::EPSILON).ok()?;
+    Some([fitted[0], fitted[1]])
+}
+
 /// Steps this near each other, as a share, are equal: files round them.
 const SAME_STEP: f64 = 1e-9;
 
@@ -212,7 +292,8 @@ const SPARE_S: f64 = 1.0;
 /// Input errors of the records, or if their steps differ.
 fn read_shaking(folder: &Path, table: &TestTable) -> Result<Shaking> {
     let options = ReadOptions { step_s: table.record_step_s, ..ReadOptions::default() };
-    let horizontal = read(&folder.join(&table.record), &options)?.accelerogram.scaled(table.scale);
+    let Some(record) = &table.record else { return Ok(Shaking::default()) };
+    let horizontal = read(&folder.join(record), &options)?.accelerogram.scaled(table.scale);
     let vertical = match &table.vertical {
         None => None,
         Some(name) => {

@@ -52,10 +52,11 @@ impl TestData {
             return refuse(found, "theta1_rad and theta2_rad");
         };
         check_radians(test, path, table)?;
-        let (time_s, theta_rad) = measured.counted(&table.windows_s);
+        let (time_s, theta_rad) = measured.counted(&super::test::counted_s(table));
         let record_s = test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
         let last_s = time_s.last().copied().unwrap_or(0.0);
-        if last_s.min(record_s) <= time_s.first().copied().unwrap_or(0.0) {
+        let is_shaken = test.shaking.horizontal.is_some();
+        if is_shaken && last_s.min(record_s) <= time_s.first().copied().unwrap_or(0.0) {
             let [from_s, to_s] =
                 [measured.time_s.first(), measured.time_s.last()].map(|t| t.copied().unwrap_or(0.0));
             let found =

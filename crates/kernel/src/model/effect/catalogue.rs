@@ -143,7 +143,7 @@ impl EffectVariant {
         }
     }
 
-    /// The joints at which it acts: of a word beyond those of [`JOINTS`], all.
+    /// The joints at which it acts: of a word beyond the names of joints, all.
     pub fn joints(self) -> &'static [Joint] {
         match (self.entry().place, self.choice_index()) {
             (Place::Joint, i) if i < JOINTS.len() => &JOINTS[i..=i],

@@ -1,0 +1,85 @@
+//! Walls that were really measured: what joints that give leave of the error.
+
+use std::path::{Path, PathBuf};
+
+use mrbd_kernel::model::{Effect, Wall, WallParameters};
+use mrbd_kernel::simulate::Accuracy;
+use mrbd_lab::calibrate::Experiment;
+use mrbd_lab::experiment_file::ExperimentFile;
+
+fn experiment(name: &str) -> Experiment {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("inputs/measured/griffith_2004").join(name);
+    Experiment::load(&file, None).expect("an experiment that is shipped")
+}
+
+/// Error of the displacement of the crack over the thickness, root mean square, in the tests of an experiment under
+/// joints of k (Pa/m) and ζ (s); `None`: sharp edges that lose what `coefficient` says.
+fn errors(experiment: &Experiment, bed: Option<[f64; 2]>, coefficient: f64) -> Vec<f64> {
+    let base = experiment.space.base();
+    let effects =
+        bed.map(|[k, zeta]| Effect::with_parameters("compliant_joint.both", &[k, zeta]).expect("a bed"));
+    let mut parameters = WallParameters { effects: effects.into_iter().collect(), ..base.clone() };
+    parameters.restitution.coefficients = [coefficient; 8];
+    let wall = Wall::new(parameters).expect("a wall");
+    // The displacement of the crack is h_1 sin θ_1, to the square of θ_1.
+    let over_thickness = base.crack_height_m.expect("cracked") / base.thickness_m;
+    let rms = |test: &mrbd_lab::experiment::Test| test.rms_rad(&wall, Accuracy::default())[0].expect("θ_1");
+    experiment.tests.iter().map(|test| over_thickness * rms(test)).collect()
+}
+
+#[test]
+fn measured_releases_are_followed_by_joints_that_give() {
+    let releases = experiment("experiment_a.toml");
+    // What `make measured` finds, as docs/measured-walls.md has it.
+    let of_a = errors(&releases, Some([3.50e7, 0.0103]), 1.0);
+    let of_b = errors(&releases, Some([3.93e7, 0.0113]), 1.0);
+    println!("over the thickness: joints of a {of_a:.3?}, of b {of_b:.3?}");
+    // Fitted 3.2 and 4.1 %, held out 7.5 and 6.8 %: half a percent more for other rounding of the numbers.
+    assert!(of_a[0] < 0.037 && of_b[1] < 0.046, "to fit: {of_a:?} {of_b:?}");
+    assert!(of_a[1] < 0.080 && of_b[0] < 0.073, "held out: {of_a:?} {of_b:?}");
+    for coefficient in [0.7, 0.8, 0.9, 1.0] {
+        let sharp = errors(&releases, None, coefficient);
+        assert!(sharp.iter().all(|error| *error > 0.145), "C = {coefficient}: {sharp:?}");
+    }
+}
+
+#[test]
+fn rejects_releases_that_cannot_be() {
+    let refused = |test: &str| {
+        let text = format!("wall = \"wall.toml\"\n[[tests]]\nname = \"one\"\nmeasured = \"m.csv\"\n{test}");
+        ExperimentFile::parse(Path::new("experiment.toml"), &text).expect_err(test).to_string()
+    };
+    for (test, key) in [
+        ("", "tests[0].record"),
+        ("release_s = -0.1", "tests[0].release_s"),
+        ("release_s = 0.1\nstart_s = \"match\"", "tests[0].start_s"),
+        ("release_s = 0.1\nvertical = \"v.csv\"", "tests[0].vertical"),
+        (
+            "release_s = 0.1\ntop_held = true\nupper_reading = { column = \"u\", height_m = 1.0 }",
+            "tests[0].top_held",
+        ),
+    ] {
+        let message = refused(test);
+        assert!(message.contains(key) && message.contains("allowed"), "{test:?}: {message}");
+    }
+}
+
+#[test]
+fn rejects_a_release_where_nothing_was_measured() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let from = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("inputs/measured/griffith_2004");
+    for name in ["wall.toml", "release_a.csv", "release_b.csv"] {
+        std::fs::copy(from.join(name), folder.path().join(name)).expect("a file that is shipped");
+    }
+    let load = |change: &dyn Fn(&str) -> String| {
+        let text = std::fs::read_to_string(from.join("experiment_a.toml")).expect("a file that is shipped");
+        let file = folder.path().join("experiment.toml");
+        std::fs::write(&file, change(&text)).expect("room");
+        Experiment::load(&file, None).map(|_| ()).map_err(|error| error.to_string())
+    };
+    assert_eq!(load(&str::to_owned), Ok(()));
+    let late = load(&|text| text.replace("release_s = 0.13", "release_s = 7.0")).expect_err("nothing there");
+    assert!(late.contains("release_s = 7") && late.contains("four samples"), "{late}");
+    let loose = load(&|text| text.replace("top_held = true", "")).expect_err("one rotation only");
+    assert!(loose.contains("top_held"), "{loose}");
+}
