@@ -29,6 +29,11 @@ pub fn print_parameters(out: &mut dyn Write, calibration: &Calibration) -> io::R
     csv.flush()
 }
 
+/// A number in the width of its column: four decimals, or four digits of what is too large for them.
+fn short(value: f64) -> String {
+    if value.abs() < 1e5 { format!("{value:.4}") } else { format!("{value:.3e}") }
+}
+
 /// The report for people.
 pub fn summary(c: &Calibration) -> String {
     let mut text = String::new();
@@ -84,10 +89,11 @@ fn tests_header() -> String {
 }
 
 fn parameter(e: &Estimate) -> String {
-    let interval = e.interval_95.map_or_else(String::new, |[a, b]| format!("{a:.4} to {b:.4}"));
-    let spread = e.spread_over_tests.map_or_else(String::new, |s| format!("±{s:.4}"));
+    let interval = e.interval_95.map_or_else(String::new, |[a, b]| format!("{} to {}", short(a), short(b)));
+    let spread = e.spread_over_tests.map_or_else(String::new, |s| format!("±{}", short(s)));
+    let value = short(e.value);
     let bound = if e.on_bound { ", on its bound" } else { "" };
-    format!("{:<32}{:>11.4}{interval:>24}{spread:>10}  {}{bound}", e.name, e.value, e.identifiability.words())
+    format!("{:<32}{value:>11}{interval:>24}{spread:>10}  {}{bound}", e.name, e.identifiability.words())
 }
 
 fn notes(t: &super::result::TestResult) -> Vec<String> {
