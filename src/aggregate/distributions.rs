@@ -6,9 +6,11 @@ use std::path::Path;
 
 use super::medians::{Moved, VariantNote};
 use super::quantile::MEDIAN;
+use super::table::OfStudy;
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
 use crate::study::pipeline::Kind;
+use crate::study::runs::Completeness;
 
 /// Quantiles of one quantity over the runs of a group.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +71,8 @@ pub struct Distributions {
     pub moved: Vec<Moved>,
     /// Measure that records are scaled by; none where they are not scaled to an intensity.
     pub measure: Option<String>,
+    /// How much of its plan the study has run; `None` where nobody knows.
+    pub completeness: Option<Completeness>,
     /// In the order of the plan: over all records first, then by record.
     pub rows: Vec<Distribution>,
 }
@@ -81,7 +85,7 @@ macro_rules! text {
 
 /// Every column of the table of distributions, in order.
 #[rustfmt::skip] // One column a line, so that the table reads as a table.
-const COLUMNS: &[Column<Distribution>] = &[
+const COLUMNS: &[Column<OfStudy<Distribution>>] = &[
     Column::input("variant", "", "set of assumptions", text!(|d| &d.variant)),
     Column::input("configuration", "", "how the floor runs", text!(|d| &d.configuration)),
     Column::input("record", "", "record; null over all of them", Read::Text(|d| d.record.as_deref().map(Cow::Borrowed))),
@@ -99,6 +103,8 @@ const COLUMNS: &[Column<Distribution>] = &[
     Column::result("q75", "", "75 % quantile", Read::Number(|d| d.quantiles[4])),
     Column::result("q84", "", "84 % quantile", Read::Number(|d| d.quantiles[5])),
     Column::result("q95", "", "95 % quantile", Read::Number(|d| d.quantiles[6])),
+    Column::result("study_runs", "", "runs of the study that are stored; fewer than planned_runs: it is unfinished", Read::Count(|d| Some(d.study?.runs))),
+    Column::result("planned_runs", "", "runs of its plan", Read::Count(|d| Some(d.study?.planned_runs))),
 ];
 
 impl Distributions {
@@ -107,7 +113,7 @@ impl Distributions {
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
     pub fn write(&self, path: &Path) -> Result<()> {
-        write_table(path, COLUMNS, &[], &self.rows)
+        write_table(path, COLUMNS, &[], &OfStudy::rows(&self.rows, self.completeness))
     }
 
     /// Writes it as CSV.
@@ -115,6 +121,6 @@ impl Distributions {
     /// # Errors
     /// What the stream says.
     pub fn print_csv(&self, mut out: impl Write) -> std::io::Result<()> {
-        crate::store::print_csv(&mut out, COLUMNS.iter(), &self.rows)
+        crate::store::print_csv(&mut out, COLUMNS.iter(), OfStudy::rows(&self.rows, self.completeness))
     }
 }

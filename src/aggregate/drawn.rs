@@ -13,7 +13,7 @@ use super::variants::variant_notes;
 use crate::error::{Error, Result};
 use crate::store::frame::{self, Frame};
 use crate::study::pipeline::Kind;
-use crate::study::runs::run_files;
+use crate::study::runs::{Completeness, run_files};
 
 /// What is told of runs at given intensities.
 const ROTATIONS: &[&str] = &[
@@ -57,7 +57,9 @@ const BY_CAPACITY: Comparison = Comparison {
 /// An input error for a folder without results; [`Error::Table`] for files that cannot be read.
 pub fn distributions(folder: &Path, kind: Kind) -> Result<Distributions> {
     let files = run_files(folder)?;
-    read(&files, kind).map_err(|e| Error::table(folder, e))
+    let completeness = Completeness::of(folder)?;
+    let read = read(&files, kind).map_err(|e| Error::table(folder, e))?;
+    Ok(Distributions { completeness, ..read })
 }
 
 fn read(files: &[PathBuf], kind: Kind) -> PolarsResult<Distributions> {
@@ -65,7 +67,7 @@ fn read(files: &[PathBuf], kind: Kind) -> PolarsResult<Distributions> {
     let comparison = if kind == Kind::Incremental { &BY_CAPACITY } else { &BY_ROTATION };
     let moved = moved(files, &variants, comparison)?;
     let measure = measure(files)?;
-    Ok(Distributions { kind, variants, moved, measure, rows: rows(files, kind)? })
+    Ok(Distributions { kind, variants, moved, measure, completeness: None, rows: rows(files, kind)? })
 }
 
 fn rows(files: &[PathBuf], kind: Kind) -> PolarsResult<Vec<Distribution>> {

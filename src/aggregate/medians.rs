@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::quantile::MEDIAN;
 use crate::study::pipeline::Parameter;
 use crate::study::plan::Level;
+use crate::study::runs::Completeness;
 use crate::survey::Configuration;
 
 /// A normalised largest rotation.
@@ -153,6 +154,8 @@ pub struct Medians {
     pub variants: Vec<VariantNote>,
     /// Runs that come out differently, by variant and floor.
     pub moved: Vec<Moved>,
+    /// How much of its plan the study has run; `None` where nobody knows.
+    pub completeness: Option<Completeness>,
     rows: Vec<Median>,
     by_case: BTreeMap<Key, usize>,
 }
@@ -169,13 +172,20 @@ impl Medians {
     /// A table of these rows, in their order.
     pub fn new(variants: Vec<VariantNote>, rows: Vec<Median>) -> Self {
         let by_case = rows.iter().enumerate().map(|(i, row)| (key(&row.case, row.measure), i)).collect();
-        Self { variants, moved: Vec::new(), rows, by_case }
+        Self { variants, moved: Vec::new(), completeness: None, rows, by_case }
     }
 
     /// The same table with what comparing runs with runs told.
     #[must_use]
     pub fn with_moved(mut self, moved: Vec<Moved>) -> Self {
         self.moved = moved;
+        self
+    }
+
+    /// The same table of a study that has run so much of its plan.
+    #[must_use]
+    pub fn of_study(mut self, completeness: Option<Completeness>) -> Self {
+        self.completeness = completeness;
         self
     }
 

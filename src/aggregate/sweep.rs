@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::store::frame::{Frame, read};
 use crate::study::pipeline::Parameter;
 use crate::study::plan::Level;
-use crate::study::runs::run_files;
+use crate::study::runs::{Completeness, run_files};
 use crate::survey::Configuration;
 
 /// Columns that tell the cases apart; records are what the quantiles run over.
@@ -35,10 +35,11 @@ const COMPARISON: Comparison = Comparison {
 /// An input error for a folder without results; [`Error::Table`] for files that cannot be read.
 pub fn aggregate(folder: &Path) -> Result<Medians> {
     let files = run_files(folder)?;
+    let completeness = Completeness::of(folder)?;
     let read = || -> PolarsResult<Medians> {
         let variants = variant_notes(&files)?;
         let moved = moved(&files, &variants, &COMPARISON)?;
-        Ok(Medians::new(variants, medians(&files)?).with_moved(moved))
+        Ok(Medians::new(variants, medians(&files)?).with_moved(moved).of_study(completeness))
     };
     read().map_err(|e| Error::table(folder, e))
 }

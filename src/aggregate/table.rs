@@ -2,11 +2,33 @@
 
 use std::borrow::Cow;
 use std::io::Write;
+use std::ops::Deref;
 use std::path::Path;
 
 use super::medians::{Median, Medians};
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
+use crate::study::runs::Completeness;
+
+/// A row that tells how much of its plan its study has run: tables are read apart from their study.
+pub(super) struct OfStudy<R> {
+    row: R,
+    pub study: Option<Completeness>,
+}
+
+impl<R: Clone> OfStudy<R> {
+    pub fn rows(rows: &[R], study: Option<Completeness>) -> Vec<Self> {
+        rows.iter().map(|row| Self { row: row.clone(), study }).collect()
+    }
+}
+
+impl<R> Deref for OfStudy<R> {
+    type Target = R;
+
+    fn deref(&self) -> &R {
+        &self.row
+    }
+}
 
 macro_rules! text {
     (|$m:ident| $value:expr) => {
@@ -16,7 +38,7 @@ macro_rules! text {
 
 /// Every column of the table of medians, in order.
 #[rustfmt::skip] // One column a line, so that the table reads as a table.
-const COLUMNS: &[Column<Median>] = &[
+const COLUMNS: &[Column<OfStudy<Median>>] = &[
     Column::input("variant", "", "set of assumptions", text!(|m| &m.case.variant)),
     Column::input("configuration", "", "how the floor runs", text!(|m| m.case.configuration.name())),
     Column::input("parameter", "", "parameter taken through its levels", text!(|m| m.case.parameter.name())),
@@ -35,6 +57,8 @@ const COLUMNS: &[Column<Median>] = &[
     Column::result("q75", "", "75 % quantile", Read::Number(|m| m.quantiles[4])),
     Column::result("q84", "", "84 % quantile", Read::Number(|m| m.quantiles[5])),
     Column::result("q95", "", "95 % quantile", Read::Number(|m| m.quantiles[6])),
+    Column::result("study_runs", "", "runs of the study that are stored; fewer than planned_runs: it is unfinished", Read::Count(|m| Some(m.study?.runs))),
+    Column::result("planned_runs", "", "runs of its plan", Read::Count(|m| Some(m.study?.planned_runs))),
 ];
 
 /// Writes the medians to a Parquet file.
@@ -42,7 +66,7 @@ const COLUMNS: &[Column<Median>] = &[
 /// # Errors
 /// [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses.
 pub fn write_medians(path: &Path, medians: &Medians) -> Result<()> {
-    write_table(path, COLUMNS, &[], medians.rows())
+    write_table(path, COLUMNS, &[], &OfStudy::rows(medians.rows(), medians.completeness))
 }
 
 /// Writes the medians as CSV.
@@ -50,5 +74,5 @@ pub fn write_medians(path: &Path, medians: &Medians) -> Result<()> {
 /// # Errors
 /// What the stream says.
 pub fn print_medians(mut out: impl Write, medians: &Medians) -> std::io::Result<()> {
-    crate::store::print_csv(&mut out, COLUMNS.iter(), medians.rows())
+    crate::store::print_csv(&mut out, COLUMNS.iter(), OfStudy::rows(medians.rows(), medians.completeness))
 }

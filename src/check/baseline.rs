@@ -76,8 +76,14 @@ impl Baseline {
     pub fn of(variants: &[VariantNote], figures: Vec<Entry>, folder: &Path) -> Result<Self> {
         let reruns = reruns(variants);
         let (Some(base), false) = (variants.first(), reruns.is_empty()) else {
-            let allowed = "a study whose pipeline has a variant that sets a tighter `tolerance` alone";
-            return Err(InputError::file(folder, "no such variant", allowed).into());
+            let names: Vec<String> = variants.iter().map(|variant| format!("{:?}", variant.name)).collect();
+            let found = format!(
+                "variants {}, none of which differs from the first by a tighter tolerance alone",
+                names.join(", ")
+            );
+            let allowed = "a study with such a variant, for the tolerances of medians come from it: `[[variants]]`, \
+                           `name = \"tighter\"` and `set = { tolerance = 1e-8 }` in its pipeline";
+            return Err(InputError::file(folder, found, allowed).into());
         };
         let (bases, mut others): (Vec<Entry>, Vec<Entry>) =
             figures.into_iter().partition(|entry| entry.variant == base.name);

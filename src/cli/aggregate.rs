@@ -5,13 +5,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::output;
-use crate::aggregate::{
-    Distributions, Medians, VariantNote, aggregate, distributions, print_medians, write_medians,
-};
+use crate::aggregate::{Distributions, Medians, aggregate, distributions, print_medians, write_medians};
 use crate::error::Result;
 use crate::findings::{report, report_distributions, write_findings};
 use crate::study::pipeline::Kind;
-use crate::study::runs::{Manifest, OutputFolder};
+use crate::study::runs::{Completeness, Manifest};
 
 /// Read the runs of a study, write medians.parquet (and findings.csv of a sweep) beside them, print tables and findings.
 #[derive(Debug, Args)]
@@ -77,11 +75,11 @@ fn read(folder: &Path) -> Result<Aggregated> {
         Kind::Sweep => Aggregated::Sweep(aggregate(folder)?),
         kind => Aggregated::Drawn(distributions(folder, kind)?),
     };
-    let variants = match &aggregated {
-        Aggregated::Sweep(medians) => &medians.variants,
-        Aggregated::Drawn(study) => &study.variants,
+    let completeness = match &aggregated {
+        Aggregated::Sweep(medians) => medians.completeness,
+        Aggregated::Drawn(study) => study.completeness,
     };
-    tell_missing(folder, variants)?;
+    tell_unfinished(completeness);
     Ok(aggregated)
 }
 
@@ -101,12 +99,9 @@ pub(super) fn kind_of(folder: &Path) -> Result<Kind> {
     Ok(Manifest::read(&folder.join("manifest.json"))?.map_or(Kind::Sweep, |manifest| manifest.kind))
 }
 
-/// Medians of an unfinished study are of the runs there are.
-fn tell_missing(folder: &Path, variants: &[VariantNote]) -> Result<()> {
-    let all = OutputFolder::look(folder)?.manifest().runs;
-    let runs: u64 = variants.iter().map(|variant| variant.runs).sum();
-    if runs < all {
-        eprintln!("mrbd: the study is unfinished: medians of {runs} of {all} runs");
+/// Says so before figures of an unfinished study are given.
+pub(super) fn tell_unfinished(study: Option<Completeness>) {
+    if let Some(note) = study.and_then(|study| study.note()) {
+        eprintln!("mrbd: {note}; `mrbd status` tells more, `mrbd run … --resume` does the rest");
     }
-    Ok(())
 }

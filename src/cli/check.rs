@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::aggregate::kind_of;
+use super::aggregate::{kind_of, tell_unfinished};
 use super::output;
 use crate::aggregate::{aggregate, distributions};
 use crate::check::{Baseline, Change, compare, figures_of_drawn, figures_of_sweep};
 use crate::error::{Error, InputError, Result};
 use crate::study::pipeline::Kind;
+use crate::study::runs::Completeness;
 
 /// Compare the medians of a study with a baseline and fail with a table of what moved.
 #[derive(Debug, Args)]
@@ -35,16 +36,17 @@ impl CheckCommand {
     /// [`Error::Moved`] if anything moved beyond its tolerance; input errors for a folder without results, a baseline
     /// that is none or an empty reason; [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn execute(self) -> Result<()> {
-        let (variants, figures) = match kind_of(&self.folder)? {
+        let (variants, figures, study) = match kind_of(&self.folder)? {
             Kind::Sweep => {
                 let medians = aggregate(&self.folder)?;
-                (medians.variants.clone(), figures_of_sweep(&medians))
+                (medians.variants.clone(), figures_of_sweep(&medians), medians.completeness)
             }
             kind => {
                 let study = distributions(&self.folder, kind)?;
-                (study.variants.clone(), figures_of_drawn(&study))
+                (study.variants.clone(), figures_of_drawn(&study), study.completeness)
             }
         };
+        self.check_whole(study)?;
         let now = Baseline::of(&variants, figures, &self.folder)?;
         let accepted = match self.accept && !self.baseline.exists() {
             true => None,
@@ -57,6 +59,15 @@ impl CheckCommand {
             Some(why) => self.accept(why, accepted, now),
             None if changes.is_empty() => Ok(()),
             None => Err(Error::Moved { figures: changes.len(), baseline: self.baseline }),
+        }
+    }
+
+    /// Medians of an unfinished study cannot be accepted; what moved of them is told with a word on it.
+    fn check_whole(&self, study: Option<Completeness>) -> Result<()> {
+        tell_unfinished(study);
+        match study.and_then(|study| study.note()).filter(|_| self.accept) {
+            Some(note) => Err(InputError::file(&self.folder, note, "a study that is run to its end").into()),
+            None => Ok(()),
         }
     }
 

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::aggregate::tell_unfinished;
 use super::threads::Threads;
 use super::{output, progress, replay};
 use crate::aggregate::{Compared, MOVED_SHARE, stored_answers};
 use crate::check::{Conditioning, conditioning, run_again, sampled};
 use crate::error::{InputError, Result};
 use crate::study::plan::Plan;
-use crate::study::runs::OutputFolder;
+use crate::study::runs::{Completeness, OutputFolder};
 use crate::text::aligned;
 use mrbd_kernel::simulate::Accuracy;
 
@@ -47,6 +48,7 @@ impl CheckToleranceCommand {
         self.check_tolerance(&plan)?;
         let compared = Compared::of(plan.kind());
         let positions = sampled(plan.len(), self.sample.get(), self.seed);
+        tell_unfinished(Completeness::of(folder.path())?);
         let stored = stored_answers(folder.path(), &positions, &compared)?;
         eprintln!("mrbd: {} runs again at a tighter tolerance", stored.len());
         let progress = progress::of_runs(stored.len() as u64);

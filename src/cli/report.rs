@@ -42,6 +42,7 @@ impl ReportCommand {
 /// As [`ReportCommand::execute`].
 pub fn write_page(results: &Path, site: Option<&Site>) -> Result<PathBuf> {
     let summary = Summary::of(results, site)?;
+    super::aggregate::tell_unfinished(summary.completeness());
     summary.write_tables(results)?;
     let path = if results.is_dir() { results.join(PAGE_NAME) } else { page_beside(results) };
     write_durably(&path, crate::report::html(&summary)?.as_bytes())?;

@@ -196,7 +196,7 @@ fn tell_standing(plan: &Plan, folder: &OutputFolder, standing: &Standing, layout
         eprintln!("mrbd: truncation leaves out {percent:.4} % of {}, {floor} floor", variable.name());
     }
     for damaged in &standing.damaged {
-        eprintln!("mrbd: {} is damaged; its runs are done again", damaged.display());
+        eprintln!("mrbd: {} is damaged, or its checksum is gone; its runs are done again", damaged.display());
     }
     match standing.runs(layout) {
         0 => {}

@@ -57,7 +57,11 @@ fn print_progress(
         standing.blocks.len()
     )?;
     for damaged in &standing.damaged {
-        writeln!(out, "damaged: {}; `mrbd run … --resume` does its runs again", damaged.display())?;
+        writeln!(
+            out,
+            "damaged: {} (or its checksum is gone); `mrbd run … --resume` does its runs again",
+            damaged.display()
+        )?;
     }
     Ok(())
 }

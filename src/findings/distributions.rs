@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::report::{assumptions, heading};
+use super::report::{assumptions, heading, unfinished};
 use crate::aggregate::{CAPACITY, Distribution, Distributions, MOVED_SHARE, Moved};
 use crate::study::pipeline::Kind;
 use crate::text::{TERMINAL, aligned, wrapped};
@@ -17,6 +17,7 @@ const MOST_ROWS: usize = 60;
 pub fn report_distributions(out: &mut dyn Write, study: &Distributions) -> io::Result<()> {
     let Some(base) = study.variants.first() else { return Ok(()) };
     assumptions(out, &study.variants)?;
+    unfinished(out, study.completeness)?;
     let what = match (study.kind, &study.measure) {
         (Kind::Incremental, Some(measure)) => format!("{measure} at which limits are exceeded"),
         _ => "Largest rotations over slenderness angles".to_owned(),

@@ -10,6 +10,7 @@ use super::{FINDINGS, Finding, Held, Verdict, View};
 use crate::aggregate::{MOVED_SHARE, Measure, Medians, Moved, VariantNote};
 use crate::error::{Error, Result};
 use crate::store::write_durably;
+use crate::study::runs::Completeness;
 use crate::survey::Configuration;
 use crate::text::{TERMINAL, aligned, wrapped};
 
@@ -21,6 +22,7 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     let Some(base) = medians.variants.first() else { return Ok(()) };
     let view = View::new(medians, &base.name);
     assumptions(out, &medians.variants)?;
+    unfinished(out, medians.completeness)?;
     heading(
         out,
         &format!(
@@ -31,9 +33,10 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     writeln!(out, "*: some records collapsed; fell: the median record collapsed; -: no such run")?;
     print_tables(out, &view)?;
     heading(out, &format!("Conclusions of the source against these medians, variant {:?}", base.name))?;
+    unfinished(out, medians.completeness)?;
     writeln!(out, "{}", wrapped(&rules(), 0, TERMINAL))?;
     findings(out, &view)?;
-    writeln!(out, "{}", wrapped(&held(&view), 0, TERMINAL))?;
+    writeln!(out, "{}", wrapped(&held(&view, medians.completeness), 0, TERMINAL))?;
     if medians.variants.len() > 1 {
         heading(out, "The same conclusions under every variant")?;
         matrix(out, medians)?;
@@ -43,7 +46,7 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes every finding under every variant as CSV: answer, numbers, criterion.
+/// Writes every finding under every variant as CSV: answer, numbers, criterion, and over how many runs it is judged.
 ///
 /// # Errors
 /// [`mrbd_files::Error::Io`] if the disk refuses.
@@ -51,8 +54,12 @@ pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
     let failed = |e: csv::Error| Error::table(path, e);
     let mut csv = csv::Writer::from_writer(Vec::new());
     let head = ["variant", "finding", "answer", "numbers", "claim", "source", "holds_if", "noticeable"];
-    csv.write_record(head).map_err(failed)?;
+    let study = ["study_runs", "planned_runs"];
+    csv.write_record(head.into_iter().chain(study)).map_err(failed)?;
     let noticeable = noticeable();
+    let count =
+        |of: fn(Completeness) -> u64| medians.completeness.map_or(String::new(), |c| of(c).to_string());
+    let judged_over = [count(|c| c.runs), count(|c| c.planned_runs)];
     for variant in &medians.variants {
         let view = View::new(medians, &variant.name);
         for finding in &FINDINGS {
@@ -61,7 +68,8 @@ pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
             let (verdict, numbers) = (answer.verdict.name(), &answer.numbers);
             let row: [&str; 8] =
                 [&variant.name, name, verdict, numbers, claim, source, criterion, &noticeable];
-            csv.write_record(row).map_err(failed)?;
+            csv.write_record(row.into_iter().chain(judged_over.iter().map(String::as_str)))
+                .map_err(failed)?;
         }
     }
     let bytes = csv.into_inner().map_err(|e| Error::table(path, e))?;
@@ -74,6 +82,17 @@ pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
 /// What the stream says.
 pub(super) fn heading(out: &mut dyn Write, text: &str) -> io::Result<()> {
     writeln!(out, "\n{text}\n{}", "-".repeat(text.chars().count()))
+}
+
+/// Says so before figures of a study that is unfinished.
+///
+/// # Errors
+/// What the stream says.
+pub(super) fn unfinished(out: &mut dyn Write, study: Option<Completeness>) -> io::Result<()> {
+    match study.and_then(|study| study.note()) {
+        Some(note) => writeln!(out, "{}", wrapped(&format!("UNFINISHED: {note}."), 0, TERMINAL)),
+        None => Ok(()),
+    }
 }
 
 /// The assumptions of every variant and how its runs ended, as a table.
@@ -147,9 +166,12 @@ fn findings(out: &mut dyn Write, view: &View) -> io::Result<()> {
     Ok(())
 }
 
-fn held(view: &View) -> String {
+fn held(view: &View, study: Option<Completeness>) -> String {
     let held = Held::of(view);
-    let held_of_asked = format!("{} of {} conclusions hold.", held.holds, held.asked);
+    let over = study
+        .filter(|study| !study.is_whole())
+        .map_or(String::new(), |study| format!(", judged over {study}"));
+    let held_of_asked = format!("{} of {} conclusions hold{over}.", held.holds, held.asked);
     match held.not_asked() {
         0 => held_of_asked,
         others => format!("{held_of_asked} {others} others are not in this study."),

@@ -84,20 +84,25 @@ fn unit_of(name: &str) -> Option<(&'static str, Endings)> {
     }
 }
 
-/// The document: functions by their ids, each with one curve a limit state.
+/// The document: functions by their ids, each with one curve a limit state. `note` is what else is to be said of them.
 pub fn document(
     measure: &IntensityMeasure,
     limit_states: &[String],
     functions: &[(String, Vec<LogNormal>)],
+    note: Option<&str>,
 ) -> String {
     let mut text = String::from(concat!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n",
         "<nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n",
         "  <fragilityModel id=\"mrbd\" assetCategory=\"buildings\" lossCategory=\"structural\">\n",
-        "    <description>Log-normal fragility functions of rocking walls</description>\n",
     ));
     let limit_states: Vec<String> = limit_states.iter().map(|state| escaped(state)).collect();
+    let note = note.map_or(String::new(), |note| format!("; {}", escaped(note)));
     // Writing to a String cannot fail.
+    let _ = writeln!(
+        text,
+        "    <description>Log-normal fragility functions of rocking walls{note}</description>"
+    );
     let _ = writeln!(text, "    <limitStates>{}</limitStates>", limit_states.join(" "));
     for (id, curves) in functions {
         let _ = write!(text, "{}", function(measure, &limit_states, id, curves));
@@ -131,7 +136,8 @@ mod tests {
     fn published_layout_and_back_by_the_rule_of_openquake() {
         let curve = LogNormal::new(0.25f64.ln(), 0.4).expect("valid");
         let measure = IntensityMeasure::new("PGV", None, Some("pgv_m_s")).expect("known");
-        let text = document(&measure, &["collapse".into()], &[("floor=\"parallel\"".into(), vec![curve])]);
+        let text =
+            document(&measure, &["collapse".into()], &[("floor=\"parallel\"".into(), vec![curve])], None);
         let order = [
             "<nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">",
             "<fragilityModel id=\"mrbd\" assetCategory=\"buildings\" lossCategory=\"structural\">",

@@ -6,6 +6,7 @@ use super::analysis::{Analysis, BootstrapResult, Bounds, Known, Settings};
 use super::goodness::Goodness;
 use super::interval::Interval;
 use super::shares::Share;
+use crate::study::runs::Completeness;
 
 /// Points of a curve: 100 steps, even in the logarithm.
 const CURVE_STEPS: u32 = 100;
@@ -31,7 +32,14 @@ pub fn name_of(columns: &[String], key: &[String]) -> String {
 }
 
 /// One line a group: trials, failures, median and β with their intervals, fit; or why there is no fragility.
-pub fn table(columns: &[String], groups: &[GroupAnalysis], settings: &Settings) -> String {
+///
+/// A last line tells of an unfinished study.
+pub fn table(
+    columns: &[String],
+    groups: &[GroupAnalysis],
+    settings: &Settings,
+    study: Option<Completeness>,
+) -> String {
     let names: Vec<String> = groups.iter().map(|group| name_of(columns, &group.key)).collect();
     let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max(5);
     let head = format!("{:.0} % interval", 100.0 * settings.level);
@@ -52,6 +60,7 @@ pub fn table(columns: &[String], groups: &[GroupAnalysis], settings: &Settings) 
     for (name, group) in names.iter().zip(groups) {
         lines.push(line(name, width, &group.analysis));
     }
+    lines.extend(study.and_then(|study| study.note()).map(|note| format!("UNFINISHED: {note}")));
     lines.join("\n")
 }
 
@@ -84,8 +93,13 @@ fn range(interval: Interval) -> String {
     format!("[{}, {}]", bound(interval.lower), bound(interval.upper))
 }
 
-/// Everything as JSON.
-pub fn as_json(columns: &[String], groups: &[GroupAnalysis], settings: &Settings) -> Value {
+/// Everything as JSON; `study` is how much of its plan the study has run, null for other tables.
+pub fn as_json(
+    columns: &[String],
+    groups: &[GroupAnalysis],
+    settings: &Settings,
+    study: Option<Completeness>,
+) -> Value {
     let group = |group: &GroupAnalysis| {
         let key: Map<String, Value> =
             columns.iter().zip(&group.key).map(|(name, value)| (name.clone(), json!(value))).collect();
@@ -111,6 +125,7 @@ pub fn as_json(columns: &[String], groups: &[GroupAnalysis], settings: &Settings
         "method": settings.method.name(),
         "level": settings.level,
         "seed": settings.bootstrap.seed,
+        "study": study,
         "groups": groups.iter().map(group).collect::<Vec<_>>(),
     })
 }
@@ -190,6 +205,7 @@ fn shares_as_json(shares: &[Share]) -> Value {
 /// Header and rows of the curves as CSV: group columns, intensity, probability and its pointwise interval.
 ///
 /// Each curve runs over the intensities of its data and its own from 1 % to 99 %. Groups without one have no rows.
+/// Curves of a study have two columns more: its runs that are stored, and those of its plan.
 ///
 /// # Errors
 /// What the writer says.
@@ -197,19 +213,21 @@ pub fn write_curves(
     out: impl std::io::Write,
     columns: &[String],
     groups: &[GroupAnalysis],
+    study: Option<Completeness>,
 ) -> csv::Result<()> {
     let mut writer = csv::Writer::from_writer(out);
     let header = columns.iter().map(String::as_str).chain(["intensity", "probability", "lower", "upper"]);
-    writer.write_record(header)?;
+    let names = study.map(|_| ["study_runs", "planned_runs"]);
+    writer.write_record(header.chain(names.into_iter().flatten()))?;
+    let counts = study.map(|study| [study.runs, study.planned_runs].map(|runs| runs.to_string()));
     for group in groups {
         let (Ok(known), Some(range)) = (&group.analysis.result, group.analysis.range) else { continue };
         for [x, p, lower, upper] in curve(known, range) {
             // Debug writes small numbers with an exponent.
             let cell = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
             let numbers = [x, p, lower, upper].map(cell);
-            writer.write_record(
-                group.key.iter().map(String::as_str).chain(numbers.iter().map(String::as_str)),
-            )?;
+            let counts = counts.iter().flatten();
+            writer.write_record(group.key.iter().chain(&numbers).chain(counts))?;
         }
     }
     writer.flush()?;

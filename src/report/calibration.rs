@@ -22,6 +22,7 @@ pub fn page(calibrated: &Calibrated) -> Page {
     Page {
         title: "Calibration".into(),
         lead: lead(stored),
+        unfinished: None,
         numbers: numbers(stored),
         notes: notes(stored),
         sections: vec![

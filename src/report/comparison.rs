@@ -70,6 +70,7 @@ pub fn page(folder: &Path) -> Result<Page> {
     Ok(Page {
         title: format!("Comparison “{}”", note.name),
         lead: "One wall as three models under the same records: calibrated (carriage mass and C_l of Table 2), updated (carriage mass, C_l = 1) and lumped (the carriage in m_d, C_l = 1).".into(),
+        unfinished: None,
         numbers: vec![
             Number::new(rows.len(), "runs"),
             Number::new(collapsed, "collapsed"),

@@ -57,6 +57,7 @@ pub fn page(folder: &Path) -> Result<Page> {
     Ok(Page {
         title: "Diagnosis".into(),
         lead: words::lead(&summary),
+        unfinished: None,
         numbers: numbers(&summary),
         notes: notes(&summary),
         sections,

@@ -27,7 +27,8 @@ pub fn page(drawn: &Drawn) -> Page {
     ];
     Page {
         title: format!("{} “{}”", kind(manifest.kind), manifest.plan),
-        lead: lead(manifest),
+        lead: lead(manifest, study),
+        unfinished: provenance::unfinished(study.completeness),
         numbers: numbers(study),
         notes: notes(manifest, study, base),
         sections,
@@ -46,20 +47,24 @@ fn kind(kind: Kind) -> &'static str {
     }
 }
 
-fn lead(manifest: &Manifest) -> String {
+fn lead(manifest: &Manifest, study: &Distributions) -> String {
     let shaken = match manifest.kind {
         Kind::Cloud => "each run at a factor of its own",
         Kind::Stripes => "every record scaled to each of some intensities",
         Kind::Incremental => "every record scaled up until a limit is exceeded",
         _ => "as the suite has them",
     };
-    format!("Façades drawn from the survey under {} ground motions, {shaken}.", manifest.suite.records.len())
+    let records = study.completeness.map_or(manifest.suite.records.len() as u64, |study| study.records);
+    let motions = if records == 1 { "ground motion" } else { "ground motions" };
+    format!("Façades drawn from the survey under {records} {motions}, {shaken}.")
 }
 
 fn numbers(study: &Distributions) -> Vec<Number> {
     let total = |of: fn(&VariantNote) -> u64| study.variants.iter().map(of).sum::<u64>();
+    let unfinished = study.completeness.filter(|study| !study.is_whole());
+    let runs = unfinished.map_or("runs".to_owned(), |study| format!("of {} runs", study.planned_runs));
     vec![
-        Number::new(total(|v| v.runs), "runs"),
+        Number::new(total(|v| v.runs), runs),
         Number::new(total(|v| v.collapsed), "collapsed"),
         Number::new(total(|v| v.failed), "failed"),
     ]

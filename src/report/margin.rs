@@ -38,6 +38,7 @@ pub fn page(folder: &Path) -> Result<Page> {
             "The smallest factor on each record at which the wall exceeds its limit ({}).",
             margin.limit
         ),
+        unfinished: None,
         numbers: numbers(&margin),
         notes: notes(&margin, &note),
         sections: vec![Section {

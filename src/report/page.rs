@@ -14,6 +14,8 @@ pub struct Page {
     pub title: String,
     /// What it shows, in a sentence or two.
     pub lead: String,
+    /// That the results are not all there, and how many are; `None` where they are.
+    pub unfinished: Option<String>,
     /// Numbers to read first.
     pub numbers: Vec<Number>,
     /// What is generated, assumed, or missing, each a sentence.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::page::{Link, address};
 use crate::aggregate::VariantNote;
-use crate::study::runs::Manifest;
+use crate::study::runs::{Completeness, Manifest};
 pub use crate::summary::{Note, read_json};
 use crate::text::utc;
 use mrbd_files::FileNote;
@@ -59,6 +59,12 @@ impl Note {
         let suite = self.suite.as_deref().filter(|_| self.generated)?;
         Some(format!("The records of suite “{suite}” are generated, not measured."))
     }
+}
+
+/// What stands at the head of the page of an unfinished study, and under each of its figures and tables.
+pub fn unfinished(study: Option<Completeness>) -> Option<String> {
+    let study = study.filter(|study| !study.is_whole())?;
+    Some(format!("Unfinished: {study}."))
 }
 
 /// What a reader must know before the figures: generated records, assumptions, failed runs.

@@ -18,7 +18,7 @@ pub fn page(sweep: &Sweep) -> Page {
     let Sweep { manifest, medians, conclusions, .. } = sweep;
     let view = sweep.view();
     let links = provenance::run_links(&sweep.run_files);
-    let mut sections = vec![medians::section(&view, manifest.suite.records.len())];
+    let mut sections = vec![medians::section(&view, sweep.records)];
     if !sweep.reference.is_empty() {
         sections.push(by_record::section(&view, &sweep.reference, &links));
     }
@@ -26,7 +26,8 @@ pub fn page(sweep: &Sweep) -> Page {
     sections.extend([findings(conclusions), assumptions(&medians.variants)]);
     Page {
         title: format!("Sweep “{}”", manifest.plan),
-        lead: lead(manifest),
+        lead: lead(manifest, sweep.records),
+        unfinished: provenance::unfinished(medians.completeness),
         numbers: numbers(medians, conclusions),
         notes: provenance::notes(manifest, &medians.variants),
         sections,
@@ -35,9 +36,9 @@ pub fn page(sweep: &Sweep) -> Page {
     }
 }
 
-fn lead(manifest: &Manifest) -> String {
+fn lead(manifest: &Manifest, records: usize) -> String {
     let kind = if manifest.suite.generated { "generated" } else { "recorded" };
-    let motions = match manifest.suite.records.len() {
+    let motions = match records {
         1 => format!("one {kind} ground motion"),
         many => format!("{many} {kind} ground motions"),
     };
@@ -53,11 +54,14 @@ fn numbers(medians: &Medians, conclusions: &[Conclusions]) -> Vec<Number> {
         0 => "conclusions of the paper hold here".to_owned(),
         others => format!("conclusions of the paper hold here; {others} others are not in this study"),
     };
+    let unfinished = medians.completeness.filter(|study| !study.is_whole());
+    let judged_over = unfinished.map_or(String::new(), |study| format!(", judged over {study}"));
+    let runs = unfinished.map_or("runs".to_owned(), |study| format!("of {} runs", study.planned_runs));
     vec![
-        Number::new(total(|v| v.runs), "runs"),
+        Number::new(total(|v| v.runs), runs),
         Number::new(total(|v| v.collapsed), "collapsed"),
         Number::new(total(|v| v.failed), "failed"),
-        Number::new(format!("{} of {}", held.holds, held.asked), hold),
+        Number::new(format!("{} of {}", held.holds, held.asked), hold + &judged_over),
     ]
 }
 

@@ -32,7 +32,7 @@ use serde::Deserialize;
 
 use crate::error::{Error, InputError, Result};
 use crate::results;
-use crate::study::runs::Manifest;
+use crate::study::runs::{Completeness, Manifest};
 use mrbd_records::Site;
 
 /// Results as a page shows them.
@@ -86,6 +86,15 @@ impl Summary {
         match results.join("boundaries.parquet").is_file() {
             true => Ok(Self::Overturning(results.to_path_buf())),
             false => Err(InputError::file(results, "no manifest.json", RESULTS).into()),
+        }
+    }
+
+    /// How much of its plan the study has run; `None` for results of other kinds, which are written whole.
+    pub fn completeness(&self) -> Option<Completeness> {
+        match self {
+            Self::Sweep(sweep) => sweep.medians.completeness,
+            Self::Drawn(drawn) => drawn.distributions.completeness,
+            _ => None,
         }
     }
 

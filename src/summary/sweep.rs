@@ -25,6 +25,8 @@ pub struct Conclusions {
 pub struct Sweep {
     /// Its manifest.
     pub manifest: Manifest,
+    /// Records under which runs are stored.
+    pub records: usize,
     /// Medians over the records; there is at least one variant.
     pub medians: Medians,
     /// The paper's conclusions under each variant, the first the one that the figures show.
@@ -45,7 +47,9 @@ impl Sweep {
     pub fn read(folder: &Path, manifest: Manifest, site: Option<&Site>) -> Result<Self> {
         let medians = aggregate(folder)?;
         let base = first(folder, &medians.variants)?.name.clone();
-        let reference = match manifest.suite.records.len() {
+        // Of an unfinished study, those that were run.
+        let records = medians.completeness.map_or(manifest.suite.records.len() as u64, |study| study.records);
+        let reference = match records {
             1 => Vec::new(),
             _ => reference(folder, &View::new(&medians, &base))?,
         };
@@ -55,6 +59,7 @@ impl Sweep {
             run_files: run_files(folder)?,
             reference,
             medians,
+            records: records as usize,
             manifest,
         })
     }

@@ -69,6 +69,7 @@ mod slurm;
 mod slurm_cluster;
 mod symmetry;
 mod traps;
+mod unfinished;
 mod verification;
 mod walls;
 mod windows;

@@ -15,6 +15,7 @@ use crate::fragility::{
     analyse, nrml_document, read_groups,
 };
 use crate::store::write_durably;
+use crate::study::runs::Completeness;
 
 /// Fit log-normal fragilities to outcomes at known intensities.
 ///
@@ -123,24 +124,28 @@ impl FragilityCommand {
         check_apart("--out", self.out.as_deref(), &[&self.file])?;
         check_apart("--nrml", self.nrml.as_deref(), &[&self.file])?;
         let asked = self.asked()?;
+        let study = if self.file.is_dir() { Completeness::of(&self.file)? } else { None };
         let measure = self.measure(asked.intensity())?;
         let mut groups = Vec::new();
         let settings = self.settings(asked.incremental)?;
         for state in &asked.states {
             groups.extend(self.analysed(state, &settings)?);
         }
+        super::aggregate::tell_unfinished(study);
         self.notes(&asked, &groups);
         if let Some(path) = &self.out {
-            write_curves(path, &asked.columns, &groups)?;
+            write_curves(path, &asked.columns, &groups, study)?;
         }
         if let (Some(path), Some(measure)) = (&self.nrml, &measure) {
             let (states, functions) = self.functions(&asked, &groups);
-            write_durably(path, nrml_document(measure, &states, &functions).as_bytes())?;
+            let note = study.and_then(|study| study.note());
+            let text = nrml_document(measure, &states, &functions, note.as_deref());
+            write_durably(path, text.as_bytes())?;
         }
         super::output::print(&if self.json {
-            format!("{:#}", report::as_json(&asked.columns, &groups, &settings))
+            format!("{:#}", report::as_json(&asked.columns, &groups, &settings, study))
         } else {
-            report::table(&asked.columns, &groups, &settings)
+            report::table(&asked.columns, &groups, &settings, study)
         })
     }
 
@@ -304,8 +309,13 @@ fn finite(option: &str, value: f64) -> Result<f64> {
     Err(InputError::option(option, value.to_string(), "a finite number").into())
 }
 
-fn write_curves(path: &Path, columns: &[String], groups: &[GroupAnalysis]) -> Result<()> {
+fn write_curves(
+    path: &Path,
+    columns: &[String],
+    groups: &[GroupAnalysis],
+    study: Option<Completeness>,
+) -> Result<()> {
     let mut text = Vec::new();
-    report::write_curves(&mut text, columns, groups).map_err(|e| Error::table(path, e))?;
+    report::write_curves(&mut text, columns, groups, study).map_err(|e| Error::table(path, e))?;
     write_durably(path, &text)
 }

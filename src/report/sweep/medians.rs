@@ -15,7 +15,7 @@ pub(super) const SIGNIFICANT: (f64, &str) = (0.05, "significant, 0.05");
 /// The section with a figure for each parameter.
 pub fn section(view: &View, records: usize) -> Section {
     let (title, what) = match records {
-        1 => ("Under the one record", "The largest rotation of each body under the one record of the suite"),
+        1 => ("Under the one record", "The largest rotation of each body under the one record"),
         _ => ("Medians over the records", "The median over the records of the largest rotation of each body"),
     };
     let hollow = match records {

@@ -1,11 +1,13 @@
 //! The folder of a study: Parquet files with one row a run, and where they came from.
 
+mod completeness;
 mod folder;
 mod manifest;
 mod manifest_differences;
 mod parts;
 mod schema;
 
+pub use completeness::Completeness;
 pub use folder::{Earlier, OutputFolder};
 pub use manifest::{Manifest, RecordNote, SuiteNote};
 pub use parts::{RunFile, listed_run_files, run_files};

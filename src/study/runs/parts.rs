@@ -6,7 +6,8 @@
 //! checksums.json                                           SHA-256 of the latter
 //! ```
 //!
-//! A record's part counts only once its checksum is on the disk; until then its blocks do.
+//! A record's part counts only once its checksum is on the disk; until then its blocks do. A part without both is not
+//! trusted: nobody knows whether it is what was written.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -27,6 +28,9 @@ use mrbd_files::checksum::sha256;
 /// Digits of a checksum in a file's name: a damaged file passes once in 10¹⁹.
 const DIGITS: usize = 16;
 
+/// In the place of a checksum that is not known; no SHA-256 begins so.
+const UNKNOWN: &str = "unknown";
+
 /// Rows read at once when blocks are put together: more than any block of a sensible size has.
 const ROWS_AT_ONCE: usize = 1 << 16;
 
@@ -39,6 +43,18 @@ pub struct RunFile {
 }
 
 impl RunFile {
+    /// Why its runs cannot be taken as they are; `None` where they can.
+    ///
+    /// # Errors
+    /// As [`RunFile::is_whole`].
+    fn fault(&self) -> Result<Option<&'static str>> {
+        Ok(match self.is_whole()? {
+            true => None,
+            false if self.checksum == UNKNOWN => Some("a file of runs without a checksum in checksums.json"),
+            false => Some("damaged, or gone"),
+        })
+    }
+
     /// Whether the file is there and holds what was written.
     ///
     /// # Errors
@@ -76,13 +92,17 @@ impl OutputFolder {
         block_files(&self.blocks_folder(record))
     }
 
-    /// The file of a record, if it was finished.
+    /// The file of a record, if it was finished; without a checksum it is never whole.
     ///
     /// # Errors
     /// As [`OutputFolder::blocks`]; an input error for a `checksums.json` that is none.
     pub fn part(&self, record: &str) -> Result<Option<RunFile>> {
-        let checksum = read_checksums(self.path())?.remove(&hive(record));
-        Ok(checksum.map(|checksum| RunFile { path: self.part_path(record), checksum }))
+        let path = self.part_path(record);
+        Ok(match read_checksums(self.path())?.remove(&hive(record)) {
+            Some(checksum) => Some(RunFile { path, checksum }),
+            None if self.blocks_folder(record).is_dir() => None,
+            None => path.is_file().then(|| RunFile { path, checksum: UNKNOWN.to_owned() }),
+        })
     }
 
     /// Puts blocks together into the file of a record, in their order.
@@ -167,9 +187,10 @@ pub fn run_files(path: &Path) -> Result<Vec<PathBuf>> {
         return Err(InputError::file(path, "no results", allowed).into());
     }
     for file in &files {
-        if !file.is_whole()? {
-            let allowed = "the file as it was written; `mrbd run … --resume` does its runs again";
-            return Err(InputError::file(&file.path, "damaged, or gone", allowed).into());
+        if let Some(fault) = file.fault()? {
+            let allowed =
+                "the file, and its checksum, as they were written; `mrbd run … --resume` does its runs again";
+            return Err(InputError::file(&file.path, fault, allowed).into());
         }
     }
     Ok(files.into_iter().map(|file| file.path).collect())
@@ -191,11 +212,14 @@ fn listed(path: &Path) -> Result<Vec<RunFile>> {
         checksum: checksum.clone(),
     };
     let mut files = finished.iter().map(part).collect::<Vec<_>>();
-    for folder in entries(&path.join("blocks"))?.into_iter().filter(|entry| entry.is_dir()) {
-        if !finished.contains_key(&name_of(&folder)) {
-            files.extend(block_files(&folder)?.into_iter().map(|(_, file)| file));
-        }
+    let unfinished = |folder: &PathBuf| folder.is_dir() && !finished.contains_key(&name_of(folder));
+    for folder in entries(&path.join("blocks"))?.into_iter().filter(unfinished) {
+        files.extend(block_files(&folder)?.into_iter().map(|(_, file)| file));
     }
+    let has_blocks = |folder: &Path| path.join("blocks").join(name_of(folder)).is_dir();
+    let unknown = entries(&path.join("runs"))?.into_iter().filter(|f| unfinished(f) && !has_blocks(f));
+    let parts = unknown.map(|folder| folder.join("part-1.parquet")).filter(|part| part.is_file());
+    files.extend(parts.map(|path| RunFile { path, checksum: UNKNOWN.to_owned() }));
     files.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(files)
 }
