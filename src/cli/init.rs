@@ -48,7 +48,7 @@ fn next_steps(folder: &Path) -> String {
     let enter = if here { String::new() } else { format!("  cd {}\n", shell_word(folder)) };
     format!(
         "\nThese run as they are:\n{enter}\
-         \x20 mrbd simulate wall.toml --record records/generated_4_600ya.csv --scale 3.5 --plot run.html   # one wall, in motion\n\
+         \x20 mrbd simulate wall.toml --record records/generated_4_600ya.csv --scale 3.05 --plot run.html   # one wall, in motion\n\
          \x20 mrbd run pipeline.toml && mrbd report outputs/first                                          # many walls, and their page\n\
          \x20 mrbd calibrate experiment.toml --out calibrated                                              # a wall from tests\n"
     )

@@ -40,7 +40,7 @@ use crate::error::Result;
 ///
 /// Begin with:
 ///   mrbd init first && cd first
-///   mrbd simulate wall.toml --record records/generated_4_600ya.csv --scale 3.5 --plot run.html
+///   mrbd simulate wall.toml --record records/generated_4_600ya.csv --scale 3.05 --plot run.html
 ///   mrbd run pipeline.toml && mrbd report outputs/first
 #[derive(Debug, Parser)]
 #[command(name = "mrbd", version = version(), arg_required_else_help = true, verbatim_doc_comment)]

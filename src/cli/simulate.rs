@@ -15,7 +15,8 @@ use clap::Args;
 use mrbd_files::load_wall;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{
-    Accuracy, Ensemble, MEMBERS, Outcome, Response, Shaking, simulate, simulate_members, simulate_observed,
+    Accuracy, Ensemble, MEMBERS, MEMBERS_IN_CHAOS, Outcome, Shaking, simulate, simulate_members,
+    simulate_observed,
 };
 use mrbd_records::{Accelerogram, ReadOptions, read};
 
@@ -25,8 +26,9 @@ use mrbd_records::{Accelerogram, ReadOptions, read};
 /// moves freely for --tail seconds.
 ///
 /// Three more runs go beside it, on two threads: the ground motion and the rotations of a release times
-/// 1 - 1e-6 and 1 + 1e-6, and the tolerance times 0.1. Nobody can know these differences. Numbers are printed
-/// with the digits that hold in all four; JSON has all digits of the run itself and the spread.
+/// 1 - 1e-6 and 1 + 1e-6, and the tolerance times 0.1. Nobody can know these differences. Where fewer than two
+/// digits of the largest rotations hold in all four, the run is chaotic, and eight more follow. Numbers are
+/// printed with the digits that hold; JSON has all digits of the run itself and the spread.
 ///
 /// Examples:
 ///   mrbd simulate inputs/walls/table_wall.toml --record gilroy.AT2
@@ -102,13 +104,8 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     let history = args.history.as_deref().map(write_history).transpose()?;
     let plot = args.plot.as_deref().map(PlotFile::new).transpose()?;
     let mut watch = Watch::new(history_step_s(args, &shaking)?);
-    let members = if args.alone { 1 } else { MEMBERS };
     let watched = (history.is_some() || plot.is_some()).then_some(&mut watch);
-    let run = || match watched {
-        Some(watch) => simulate_observed(&wall, &shaking, accuracy, watch),
-        None => simulate(&wall, &shaking, accuracy),
-    };
-    let ensemble = ensemble(run, members, |members| simulate_members(&wall, &shaking, accuracy, members));
+    let ensemble = ensemble(&wall, &shaking, accuracy, (watched, args.alone));
     let results = RunResults::new(&wall, &shaking, &ensemble);
     if let Some(writer) = history {
         writer.finish(&watch.history, &wall.reading())?;
@@ -131,17 +128,30 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
     finished(ensemble)
 }
 
-/// The run and one other member on one thread, the others side by side on another: about the time of two runs.
+/// The run and those beside it, each half on a thread; more of them where these part.
 fn ensemble(
-    run: impl FnOnce() -> Response + Send,
-    members: usize,
-    beside: impl Fn(Range<usize>) -> Vec<Response> + Sync,
+    wall: &Wall,
+    shaking: &Shaking,
+    accuracy: Accuracy,
+    (watch, alone): (Option<&mut Watch>, bool),
 ) -> Ensemble {
-    let first = members.min(2);
-    let (run, others) = rayon::join(|| (run(), beside(1..first)), || beside(first..members));
-    let (run, mut all) = run;
-    all.extend(others);
-    Ensemble { run, others: all }
+    let members = |of: Range<usize>| simulate_members(wall, shaking, accuracy, of);
+    let beside = |of: Range<usize>| if alone { Vec::new() } else { members(of) };
+    let (mut first, rest) = match watch {
+        Some(watch) => {
+            rayon::join(|| vec![simulate_observed(wall, shaking, accuracy, watch)], || beside(1..MEMBERS))
+        }
+        None if alone => (vec![simulate(wall, shaking, accuracy)], Vec::new()),
+        None => rayon::join(|| members(0..MEMBERS / 2), || members(MEMBERS / 2..MEMBERS)),
+    };
+    let run = first.remove(0);
+    let ensemble = Ensemble { run, others: first }.with(rest);
+    if alone || !ensemble.is_chaotic() {
+        return ensemble;
+    }
+    let middle = usize::midpoint(MEMBERS, MEMBERS_IN_CHAOS);
+    let (some, others) = rayon::join(|| members(MEMBERS..middle), || members(middle..MEMBERS_IN_CHAOS));
+    ensemble.with(some).with(others)
 }
 
 /// A run that could not be finished is an error, after what it gave has been printed.
@@ -188,8 +198,21 @@ fn shaking(args: &SimulateArgs) -> Result<Shaking> {
 
 fn load(path: Option<&Path>, options: &ReadOptions, scale: f64) -> Result<Option<Accelerogram>> {
     let Some(path) = path else { return Ok(None) };
-    let record = read(path, options)?;
-    Ok(Some(record.accelerogram.scaled(scale)))
+    let accelerogram = read(path, options)?.accelerogram.scaled(scale);
+    if let Some(question) = question_of_peak(accelerogram.peak_m_s2()) {
+        eprintln!("mrbd: note: {}: {question}", path.display());
+    }
+    Ok(Some(accelerogram))
+}
+
+/// Peak ground accelerations above are questioned, m/s²: the largest on record is near 4 g (Aoi and others 2008, Science 322).
+const MOST_PEAK_M_S2: f64 = 50.0;
+
+/// What to ask of a peak ground acceleration that no earthquake has had.
+fn question_of_peak(peak_m_s2: f64) -> Option<String> {
+    (peak_m_s2 > MOST_PEAK_M_S2).then(|| {
+        format!("a peak of {peak_m_s2} m/s2; the largest on record is near 40 m/s2; is the record in cm/s2?")
+    })
 }
 
 fn accuracy(tolerance: f64) -> Result<Accuracy> {

@@ -38,7 +38,7 @@ impl Table {
         let mut names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
         names.sort_unstable();
         names.dedup();
-        let table = match path.extension().and_then(|e| e.to_str()) {
+        let table = match path.extension().and_then(|e| e.to_str()).map(str::to_lowercase).as_deref() {
             _ if path.is_dir() => read_parquet(path, &crate::study::runs::run_files(path)?, names)?,
             Some("csv") => read_csv(path, names)?,
             Some("parquet") => read_parquet(path, &[path.to_path_buf()], names)?,
@@ -86,8 +86,13 @@ impl Table {
     }
 
     fn number(&self, name: &str, row: usize, text: &str) -> Result<f64> {
-        let value = text.parse().ok().filter(|value: &f64| value.is_finite());
-        Ok(value.ok_or_else(|| self.fault(name, row, format!("{text:?}"), "a finite number"))?)
+        let finite = |text: &str| text.parse().ok().filter(|value: &f64| value.is_finite());
+        let point = text.replacen(',', ".", 1);
+        let allowed = match finite(&point).filter(|_| text.contains(',')) {
+            Some(_) => format!("a finite number with a decimal point: {point}"),
+            None => "a finite number".to_owned(),
+        };
+        Ok(finite(text).ok_or_else(|| self.fault(name, row, format!("{text:?}"), allowed))?)
     }
 
     /// A column as labels; numbers as they are printed. A cell without one, or that is not a number, is an empty label.
@@ -129,6 +134,7 @@ fn read_csv(path: &Path, names: Vec<String>) -> Result<Table> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(|e| fault(&e))?;
     let header = reader.headers().map_err(|e| fault(&e))?.clone();
     let known: Vec<&str> = header.iter().collect();
+    check_commas(path, &known)?;
     let places = find(path, &names, &known)?;
     let mut columns: Vec<Vec<Option<String>>> = vec![Vec::new(); names.len()];
     let mut lines = Vec::new();
@@ -141,6 +147,16 @@ fn read_csv(path: &Path, names: Vec<String>) -> Result<Table> {
     }
     let columns = columns.into_iter().map(Cells::Texts).collect();
     Ok(Table { path: path.to_path_buf(), names, columns, rows: lines.len(), lines: Some(lines) })
+}
+
+/// A header that is one cell with semicolons or tabs in it is of another kind of table.
+fn check_commas(path: &Path, header: &[&str]) -> Result<()> {
+    let [cell] = header else { return Ok(()) };
+    let parted_by = [(';', "semicolons"), ('\t', "tabs")].into_iter().find(|(mark, _)| cell.contains(*mark));
+    let Some((_, name)) = parted_by else { return Ok(()) };
+    let found = format!("columns parted by {name}: `{}`", cell.escape_debug());
+    let allowed = "columns parted by commas, and numbers with a decimal point";
+    Err(InputError::line(path, 1, found, allowed).into())
 }
 
 /// Where the columns stand among those `known`.
@@ -218,6 +234,12 @@ mod tests {
         let table = csv("a\n1\nnan\n", &["a"]).expect("texts are read as they are");
         let refused = table.numbers("a").expect_err("refused").to_string();
         assert!(refused.contains("t.csv:3: found a: \"nan\"; allowed: a finite number"), "{refused}");
+        let semicolons = message("a;b\n1,5;2\n", &["a"]);
+        assert!(semicolons.contains("t.csv:1: found columns parted by semicolons: `a;b`"), "{semicolons}");
+        assert!(message("a\tb\n1\t2\n", &["a"]).contains("parted by tabs"));
+        let decimal = csv("a,b\n\"0,5\",1\n", &["a"]).expect("texts are read as they are");
+        let refused = decimal.numbers("a").expect_err("refused").to_string();
+        assert!(refused.contains("\"0,5\"; allowed: a finite number with a decimal point: 0.5"), "{refused}");
         let other = Table::read(Path::new("a.txt"), &["a"]).expect_err("refused").to_string();
         assert!(other.contains("a.txt: found extension \"txt\""), "{other}");
     }

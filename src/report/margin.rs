@@ -5,6 +5,7 @@ use std::path::Path;
 use super::chart::{Axis, COLLAPSE, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{Note, read_json};
+use super::words;
 use crate::error::Result;
 use crate::fragility::LogNormal;
 use crate::margin::{Capacity, Curve, MEASURES, Margin, Status};
@@ -35,7 +36,7 @@ pub fn page(folder: &Path) -> Result<Page> {
     Ok(Page {
         title: format!("Margin of {} under “{}”", margin.wall, margin.suite),
         lead: format!(
-            "The smallest factor on each record at which the wall exceeds its limit ({}).",
+            "The smallest factor on each record, as the suite has it, at which the wall exceeds its limit ({}).",
             margin.limit
         ),
         unfinished: None,
@@ -51,6 +52,11 @@ pub fn page(folder: &Path) -> Result<Page> {
         provenance: note.pairs(),
         files: ["margin.json", "margin.parquet"].map(Link::to).to_vec(),
     })
+}
+
+/// A measure as people read it; the factor is on a record that the suite may have scaled already.
+fn in_words(measure: &str) -> String {
+    if measure == "scale" { "factor on the record".to_owned() } else { words::intensity(measure) }
 }
 
 fn text(value: Option<f64>) -> String {
@@ -112,15 +118,18 @@ fn panel(curve: &Curve, margin: &Margin) -> Option<String> {
         tip: format!(
             "{}\n{} {x:.4}\nensemble beyond the limit: {}",
             record.record,
-            curve.measure,
+            in_words(&curve.measure),
             text(record.exceeding_share)
         ),
     };
     let dots = found.iter().enumerate().map(dot).collect();
     let graph = Graph {
-        title: curve.measure.clone(),
+        title: String::new(),
         format: Format::Half,
-        x: Axis::log_holding(&curve.measure, [low, high].into_iter().chain(found.iter().map(|(x, _)| *x))),
+        x: Axis::log_holding(
+            &in_words(&curve.measure),
+            [low, high].into_iter().chain(found.iter().map(|(x, _)| *x)),
+        ),
         y: Axis::linear("share of the records", 0.0, 1.0),
         layers: vec![
             Layer::Line { colour: PALETTE[0], width: 3, dashed: false, name: "log-normal".into(), points },
@@ -137,7 +146,11 @@ fn records(margin: &Margin) -> Table {
         let named = [record.record.clone(), record.status.name().to_owned()];
         named.into_iter().chain(values.map(text)).collect::<Vec<String>>()
     };
-    Table::of("One row a record", &head, margin.records.iter().map(row))
+    Table::of(
+        "One row a record; factors are on the record as the suite has it, already scaled",
+        &head,
+        margin.records.iter().map(row),
+    )
 }
 
 fn fragility(margin: &Margin) -> Table {
@@ -145,7 +158,7 @@ fn fragility(margin: &Margin) -> Table {
     let row = |curve: &Curve| {
         let ([low, high], [narrow, wide]) = (curve.median_interval, curve.beta_interval);
         let values = [curve.median, low, high, curve.beta, narrow, wide];
-        std::iter::once(curve.measure.clone()).chain(values.map(text)).collect::<Vec<String>>()
+        std::iter::once(in_words(&curve.measure)).chain(values.map(text)).collect::<Vec<String>>()
     };
     Table::of(
         "The log-normal over the records; intervals by bootstrap",

@@ -99,14 +99,18 @@ impl RunPicture<'_> {
         };
         let top_mm = self.held(|r| 1e3 * r.top_displacement_m.value.abs());
         numbers.push(Number::new(format!("{top_mm} mm"), "largest displacement of the top"));
-        numbers.push(Number::new(self.response.impacts.total(), "impacts"));
+        numbers.push(Number::new(self.ensemble.count(|r| r.impacts.total()), "impacts"));
         numbers
     }
 
     /// A result with the digits that hold, or three decimals of a run that is alone.
     fn held(&self, value: impl Fn(&Response) -> f64) -> String {
+        self.held_to(3, value)
+    }
+
+    fn held_to(&self, decimals: usize, value: impl Fn(&Response) -> f64) -> String {
         match self.ensemble.others.is_empty() {
-            true => format!("{:.3}", value(self.response)),
+            true => format!("{:.decimals$}", value(self.response)),
             false => self.ensemble.text(value),
         }
     }
@@ -167,21 +171,27 @@ impl RunPicture<'_> {
         let r = self.response;
         let row = |name: &str, value: String| vec![Cell::from(name.to_owned()), Cell::from(value)];
         let peak = |i: usize| {
-            let peak = r.theta_max_rad[i];
-            format!("{:+.6} rad at {:.3} s; α = {:.5} rad", peak.value, peak.time_s, r.alpha_i_rad[i])
+            let size = self.held_to(6, |r| r.theta_max_rad[i].value.abs());
+            let time_s = self.held(|r| r.theta_max_rad[i].time_s);
+            format!("{size} rad at {time_s} s; α = {:.5} rad", r.alpha_i_rad[i])
         };
-        let patterns = PATTERN_NAMES.iter().zip(r.pattern_time_s).filter(|(_, time_s)| *time_s > 0.0);
-        let patterns: Vec<String> = patterns.map(|(name, time_s)| format!("{name} {time_s:.3} s")).collect();
-        let mut rows = vec![row("largest θ₁", peak(0))];
+        let patterns = (0..PATTERN_NAMES.len()).filter(|&i| r.pattern_time_s[i] > 0.0);
+        let time_s = |i: usize| format!("{} {} s", PATTERN_NAMES[i], self.held(|r| r.pattern_time_s[i]));
+        let patterns: Vec<String> = patterns.map(time_s).collect();
+        let mut rows = vec![row("largest |θ₁|", peak(0))];
         if self.wall.is_cracked() {
-            rows.push(row("largest θ₂", peak(1)));
+            rows.push(row("largest |θ₂|", peak(1)));
         }
         rows.push(row("time in patterns", patterns.join(", ")));
-        rows.push(row("impacts", format!("{}, {} captured", r.impacts.total(), r.impacts.captured)));
-        rows.push(row("openings", r.openings.total().to_string()));
-        rows.push(row("friction needed at the ground", format!("{:.3}", r.demand[0].friction)));
+        let captured = self.ensemble.count(|r| r.impacts.captured);
+        rows.push(row(
+            "impacts",
+            format!("{}, {captured} captured", self.ensemble.count(|r| r.impacts.total())),
+        ));
+        rows.push(row("openings", self.ensemble.count(|r| r.openings.total())));
+        rows.push(row("friction needed at the ground", self.held(|r| r.demand[0].friction)));
         if self.wall.is_cracked() {
-            rows.push(row("friction needed at the crack", format!("{:.3}", r.demand[1].friction)));
+            rows.push(row("friction needed at the crack", self.held(|r| r.demand[1].friction)));
         }
         rows.push(row(
             "energy not accounted for",
@@ -191,7 +201,7 @@ impl RunPicture<'_> {
             id: "numbers".into(),
             title: "Numbers".into(),
             tables: vec![Table {
-                caption: "Maxima are true maxima, between samples too".into(),
+                caption: "With the digits that hold, or as intervals of the runs beside this one. Maxima are true maxima, between samples too".into(),
                 head: vec!["quantity".into(), "value".into()],
                 prose: false,
                 rows,

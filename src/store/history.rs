@@ -37,7 +37,7 @@ enum Format {
 /// # Errors
 /// An extension other than .csv and .parquet; a folder that cannot be written.
 pub fn write_history(path: &Path) -> Result<HistoryWriter> {
-    let format = match path.extension().and_then(|e| e.to_str()) {
+    let format = match path.extension().and_then(|e| e.to_str()).map(str::to_lowercase).as_deref() {
         Some("csv") => Format::Csv,
         Some("parquet") => Format::Parquet,
         other => {

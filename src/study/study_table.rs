@@ -31,6 +31,9 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// All five.
+    pub const ALL: [Self; 5] = [Self::Sweep, Self::MonteCarlo, Self::Cloud, Self::Stripes, Self::Incremental];
+
     /// Name in pipeline files and manifests.
     pub fn name(self) -> &'static str {
         match self {

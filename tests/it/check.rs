@@ -159,7 +159,7 @@ fn rejects_baselines_that_are_none_and_studies_without_a_tighter_variant() {
         assert_eq!(output.status.code(), Some(2), "{message}");
         assert!(message.contains(told), "{told} in {message}");
     };
-    refused("tighter `tolerance` alone");
+    refused("tighter tolerance alone");
     fs::write(at.join("base.csv"), "# tolerance: x\nvariant,median\nbase,zero\n").expect("written");
     let path = at.join("base.csv");
     let error = Baseline::load(Path::new(&path)).expect_err("no baseline");
@@ -179,7 +179,7 @@ fn regress_status_tells_how_far_a_study_is_and_how_to_read_it() {
         "{told}"
     );
     let aggregated = mrbd(at, &["aggregate", "out", "--csv"]);
-    assert!(String::from_utf8_lossy(&aggregated.stderr).contains("medians of 36 of 72 runs"));
+    assert!(String::from_utf8_lossy(&aggregated.stderr).contains("unfinished: 36 of 72 runs"));
     stdout(&mrbd(at, &["run", "study.toml", "--out", "out", "--block-runs", "4", "--resume"]));
     let told = stdout(&mrbd(at, &["status", "out"]));
     assert!(told.contains("72 of 72") && told.contains("2 of 2 records put together"), "{told}");

@@ -254,9 +254,41 @@ fn regress_an_outcome_that_flips_is_undecided() {
     assert_eq!(ensemble["verdict"], "undecided", "{ensemble}");
     let share = ensemble["collapsed_share"].as_f64().expect("a share");
     assert!(share > 0.0 && share < 1.0, "{share}");
-    assert_eq!(ensemble["members"], 4);
+    assert_eq!(ensemble["members"], 12, "the first four part, so eight more follow");
     let told = String::from_utf8_lossy(&starter_run("3.4", SAME, &[]).stdout).into_owned();
     assert!(told.contains("\nUndecided: "), "{told}");
+}
+
+/// A wall that is said to stand, or to fall, does so at whatever tolerance of the solver.
+#[test]
+fn regress_no_outcome_that_flips_with_the_tolerance_is_called_decided() {
+    let mut flips = 0;
+    for scale in ["2.85", "3.05", "3.2", "3.35", "3.4", "3.5", "3.6", "3.65", "3.75", "3.85", "4.05"] {
+        let outcome = |k: i32| {
+            let tolerance = format!("{:e}", 10f64.powf(-6.0 - 0.5 * f64::from(k)));
+            let alone = starter_run(scale, SAME, &["--json", "--alone", "--tolerance", &tolerance]);
+            let alone: Value = serde_json::from_slice(&alone.stdout).expect("JSON");
+            alone["collapsed"].as_bool().expect("an outcome")
+        };
+        let outcomes: Vec<bool> = (0..=12).map(outcome).collect();
+        let ensemble = &starter_json(scale, SAME)["ensemble"];
+        let flipped = outcomes.contains(&true) && outcomes.contains(&false);
+        flips += u32::from(flipped);
+        let decided = if outcomes[0] { "collapsed" } else { "stood" };
+        assert!(!flipped || ensemble["verdict"] == "undecided", "{scale}: {outcomes:?}, {ensemble}");
+        assert!([decided, "undecided"].contains(&ensemble["verdict"].as_str().expect("a word")));
+    }
+    // Of these scales, those at which one more run or one less decides.
+    assert!(flips >= 4, "{flips}");
+}
+
+#[test]
+fn regress_a_chaotic_run_is_told_without_digits_that_do_not_hold() {
+    let told = String::from_utf8_lossy(&starter_run("3.5", SAME, &[]).stdout).into_owned();
+    assert!(told.contains("\nUndecided: ") && told.contains(" of 12 runs collapsed"), "{told}");
+    for line in told.lines().filter(|line| line.contains("largest") || line.starts_with("events")) {
+        assert!(line.contains(" to "), "{line}");
+    }
 }
 
 #[test]

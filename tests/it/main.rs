@@ -67,6 +67,7 @@ mod side_by_side;
 mod slurm;
 #[cfg(target_os = "linux")]
 mod slurm_cluster;
+mod stranger;
 mod symmetry;
 mod traps;
 mod unfinished;

@@ -103,7 +103,7 @@ pub fn response(wall: &Wall, over_alpha: f64, outcome: Outcome) -> Response {
             ..EnergyLedger::default()
         },
         demand: [JointDemand { friction: 0.4, tensions: 0 }; 2],
-        work: Work { steps: 10, rejected_steps: 1, evaluations: 70 },
+        work: Work { steps: 10, rejected_steps: 1, evaluations: 70, tolerance_steps: 2 },
     }
 }
 

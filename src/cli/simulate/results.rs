@@ -85,6 +85,7 @@ impl<'a> RunResults<'a> {
         let [theta1, theta2] = [SPREAD[0], SPREAD[1]].map(|(_, value)| self.ensemble.digits(value));
         let digits = match theta1.min(theta2) {
             0 => "no digit of the rotations holds".to_owned(),
+            1 => "1 digit of the rotations holds".to_owned(),
             digits => format!("{digits} digits of the rotations hold"),
         };
         match self.ensemble.verdict() {
@@ -92,7 +93,7 @@ impl<'a> RunResults<'a> {
                 "Undecided: {collapsed} of {ended} runs collapsed that differ by what nobody can know.{failed}"
             ),
             Verdict::Collapsed => format!(
-                "It collapsed in {ended} of {ended} runs that differ by what nobody can know.{failed}"
+                "It collapsed in {ended} of {ended} runs that differ by what nobody can know; {digits}.{failed}"
             ),
             Verdict::Stood => format!(
                 "It stood in {ended} of {ended} runs that differ by what nobody can know; {digits}.{failed}"
@@ -106,17 +107,34 @@ impl<'a> RunResults<'a> {
         let response = &self.ensemble.run;
         let mut lines = vec![match &response.outcome {
             Outcome::Stood => format!("The wall stood until {:.3} s.", response.end_time_s),
-            Outcome::Collapsed { time_s } => format!("The wall collapsed at {time_s:.3} s."),
+            Outcome::Collapsed { .. } => format!("The wall collapsed at {} s.", self.collapse_time_s()),
             Outcome::Failed { time_s, reason } => format!("The run failed at {time_s:.3} s: {reason}."),
         }];
         lines.extend(self.remarks());
         lines.extend(self.body_lines());
-        let top = response.top_displacement_m;
         let top_m = self.shown(|r| r.top_displacement_m.value, |value| format!("{value:+.5}"));
-        lines.push(format!("top         largest displacement {top_m} m at {:.3} s", top.time_s));
+        let time_s = self.held(|r| r.top_displacement_m.time_s);
+        lines.push(format!("top         largest displacement {top_m} m at {time_s} s"));
         lines.extend(self.event_lines());
         lines.extend(self.assumption_lines());
         lines.join("\n")
+    }
+
+    /// When the wall collapsed, of the members in which it did.
+    fn collapse_time_s(&self) -> String {
+        let time_s = |r: &Response| r.end_time_s;
+        let fell = |r: &&Response| r.collapsed();
+        let others = self.ensemble.others.iter().filter(fell).cloned().collect();
+        let fallen = Ensemble { run: self.ensemble.run.clone(), others };
+        if self.is_alone() { format!("{:.3}", time_s(&fallen.run)) } else { fallen.text(time_s) }
+    }
+
+    /// A result with the digits that hold, or three decimals of a run that is alone.
+    fn held(&self, value: impl Fn(&Response) -> f64) -> String {
+        match self.is_alone() {
+            true => format!("{:.3}", value(&self.ensemble.run)),
+            false => self.ensemble.text(value),
+        }
     }
 
     /// A signed result with the digits that hold, as an interval of sizes where none does. An undecided wall has
@@ -137,21 +155,35 @@ impl<'a> RunResults<'a> {
 
     fn body_lines(&self) -> Vec<String> {
         let response = &self.ensemble.run;
-        let rows: [(&str, Shown, Shown); 2] = [
-            ("lower body", |r| r.theta_max_rad[0].value, |r| r.theta_max_over_alpha_i()[0]),
-            ("upper body", |r| r.theta_max_rad[1].value, |r| r.theta_max_over_alpha_i()[1]),
+        let rows: [(&str, [Shown; 3]); 2] = [
+            (
+                "lower body",
+                [
+                    |r| r.theta_max_rad[0].value,
+                    |r| r.theta_max_over_alpha_i()[0],
+                    |r| r.theta_max_rad[0].time_s,
+                ],
+            ),
+            (
+                "upper body",
+                [
+                    |r| r.theta_max_rad[1].value,
+                    |r| r.theta_max_over_alpha_i()[1],
+                    |r| r.theta_max_rad[1].time_s,
+                ],
+            ),
         ];
         let bodies = if self.wall.is_cracked() { 2 } else { 1 };
-        let line = |(i, (name, rotation, ratio)): (usize, (&str, Shown, Shown))| {
+        let line = |(i, (name, [rotation, ratio, time_s])): (usize, (&str, [Shown; 3]))| {
             let name = if self.wall.is_cracked() { name } else { "wall" };
             let rotation = self.shown(rotation, |value| format!("{value:+.6}"));
             let ratio = match self.is_alone() {
                 true => format!("{:.4}", ratio(response)),
                 false => self.ensemble.text(ratio),
             };
-            let (time_s, alpha_rad) = (response.theta_max_rad[i].time_s, response.alpha_i_rad[i]);
+            let (time_s, alpha_rad) = (self.held(time_s), response.alpha_i_rad[i]);
             format!(
-                "{name:<12}largest rotation {rotation} rad at {time_s:.3} s, {ratio} of its α = {alpha_rad:.5} rad"
+                "{name:<12}largest rotation {rotation} rad at {time_s} s, {ratio} of its α = {alpha_rad:.5} rad"
             )
         };
         rows.into_iter().take(bodies).enumerate().map(line).collect()
@@ -159,19 +191,20 @@ impl<'a> RunResults<'a> {
 
     fn event_lines(&self) -> Vec<String> {
         let response = &self.ensemble.run;
-        let patterns = PATTERN_NAMES.iter().zip(response.pattern_time_s).filter(|(_, time_s)| *time_s > 0.0);
-        let patterns: Vec<String> = patterns.map(|(name, time_s)| format!("{name} {time_s:.3} s")).collect();
-        let (impacts, openings) = (response.impacts.total(), response.openings.total());
+        let patterns = (0..PATTERN_NAMES.len()).filter(|&i| response.pattern_time_s[i] > 0.0);
+        let time_s = |i: usize| format!("{} {} s", PATTERN_NAMES[i], self.held(|r| r.pattern_time_s[i]));
+        let patterns: Vec<String> = patterns.map(time_s).collect();
+        let impacts = self.ensemble.count(|r| r.impacts.total());
+        let openings = self.ensemble.count(|r| r.openings.total());
         let mut lines = vec![
             format!("patterns    {}", patterns.join(", ")),
             format!("events      {impacts} impacts, {openings} openings"),
         ];
         let joints = if self.wall.is_cracked() { &["ground", "crack"][..] } else { &["ground"] };
-        lines.extend(joints.iter().zip(response.demand).map(|(name, demand)| {
-            format!(
-                "friction    {:.3} needed at the {name}; in tension there {} times",
-                demand.friction, demand.tensions
-            )
+        lines.extend(joints.iter().enumerate().map(|(i, name)| {
+            let friction = self.held(|r| r.demand[i].friction);
+            let tensions = self.ensemble.count(|r| r.demand[i].tensions);
+            format!("friction    {friction} needed at the {name}; in tension there {tensions} times")
         }));
         lines
     }
@@ -184,6 +217,11 @@ impl<'a> RunResults<'a> {
             restitution.capture_velocity_rad_s,
             self.ensemble.run.energy.residual()
         )];
+        if self.ensemble.run.work.tolerance_steps == 0 {
+            lines.push(
+                "tolerance   shortened no step, for those of the record are short enough: coarser ones give the same bits".to_owned(),
+            );
+        }
         let effects = &self.wall.parameters().effects;
         if !effects.is_empty() {
             let names: Vec<String> = effects.iter().map(|effect| effect.variant().name()).collect();
@@ -232,6 +270,7 @@ fn of_run(wall: &Wall, response: &Response) -> Value {
         "tensions_ground": response.demand[0].tensions,
         "tensions_crack": wall.is_cracked().then_some(response.demand[1].tensions),
         "steps": response.work.steps,
+        "tolerance_steps": response.work.tolerance_steps,
         "evaluations": response.work.evaluations,
         "effects": wall.parameters().effects,
     });

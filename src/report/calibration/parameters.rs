@@ -38,14 +38,18 @@ fn intervals(stored: &Calibration) -> Figure {
             tip: format!("{}\nbest in one test: {value:.4}", p.name),
         })
     });
-    let values = rows().filter(|(p, _)| p.interval_95.is_some()).map(|(p, row)| {
-        let [low, high] = p.interval_95.unwrap_or([p.value; 2]);
-        Dot {
-            x: share(p, p.value),
-            y: row,
-            tip: format!("{} = {:.4}\n95 %: {low:.4} to {high:.4}", p.name, p.value),
-        }
+    let values = rows().filter_map(|(p, row)| {
+        let [low, high] = p.interval_95?;
+        let tip = format!("{} = {:.4}\n95 %: {low:.4} to {high:.4}", p.name, p.value);
+        Some(Dot { x: share(p, p.value), y: row, tip })
     });
+    let distrusted = rows().filter(|(p, _)| p.identifiability == Identifiability::SearchesDisagree);
+    let distrusted = distrusted.map(|(p, row)| Dot {
+        x: share(p, p.value),
+        y: row,
+        tip: format!("{} = {:.4}\ndistrusted: the searches disagree", p.name, p.value),
+    });
+    let [values, distrusted] = [values.collect::<Vec<_>>(), distrusted.collect()];
     let graph = Graph {
         title: String::new(),
         format: Format::Wide,
@@ -60,13 +64,8 @@ fn intervals(stored: &Calibration) -> Figure {
                 hollow: false,
                 dots: by_test.collect(),
             },
-            Layer::Dots {
-                colour: PALETTE[0],
-                mark: Mark::Circle,
-                size: 15,
-                hollow: false,
-                dots: values.collect(),
-            },
+            Layer::Dots { colour: PALETTE[0], mark: Mark::Circle, size: 15, hollow: false, dots: values },
+            Layer::Dots { colour: PALETTE[0], mark: Mark::Circle, size: 15, hollow: true, dots: distrusted },
         ],
     };
     let key = |label: &str, index: usize, mark| Key::new(label, PALETTE[index], mark);
@@ -80,7 +79,7 @@ fn intervals(stored: &Calibration) -> Figure {
         ],
         panels: vec![graph.svg()],
         wide: true,
-        caption: "Intervals are bootstrap intervals over the tests’ samples. Parameters without one never act, or have nothing to scale, and stay at 1.".into(),
+        caption: "Intervals are bootstrap intervals over the tests’ samples. Hollow: the searches disagree, so the value has none and is to be distrusted. The others without one never act, or have nothing to scale, and stay at 1.".into(),
         links: vec![Link::to("calibration.json"), Link::to("candidates.parquet")],
         ..Figure::default()
     }

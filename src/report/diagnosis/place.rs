@@ -15,6 +15,10 @@ use mrbd_lab::limits::{ALONG_TOP, LEAST_DIRECTIONS};
 /// have 0.1 and more.
 const OFF: f64 = 0.1;
 
+/// Said of a residual off that direction: what pushes the top sideways is not the whole of it.
+const NOT_PUSHED_ALONE: &str = "a sideways push at the top alone does not explain it; what also weighs on the top, \
+                                changes impacts or acts elsewhere may";
+
 /// Where the missing force acts.
 ///
 /// # Errors
@@ -155,7 +159,7 @@ fn direction_in_words(summary: &Summary) -> String {
             } else if share < OFF {
                 "it may act at the top, or shake the whole wall"
             } else {
-                "a force at the top alone does not explain it"
+                NOT_PUSHED_ALONE
             }
         ),
         _ => format!(

@@ -144,8 +144,10 @@ impl Manifest {
         let refuse = |found: String, allowed: String| InputError::file(path, found, allowed).into();
         let broken = |e: serde_json::Error| refuse(e.to_string(), "the manifest of a study".to_owned());
         let value: serde_json::Value = serde_json::from_slice(bytes).map_err(broken)?;
-        if let Some(kind @ ("calibration" | "diagnosis")) = value["kind"].as_str() {
-            let allowed = "the output folder of a study, from `mrbd run`; this one is for `mrbd report`";
+        let other = |kind: &&str| Kind::ALL.iter().all(|study| study.name() != *kind);
+        if let Some(kind) = value["kind"].as_str().filter(other) {
+            let kind = if kind == "comparison" { "comparison of models" } else { kind };
+            let allowed = "the output folder of a study of many façades, from `mrbd run`; this one is for `mrbd report`";
             return Err(refuse(format!("the results of a {kind}"), allowed.to_owned()));
         }
         match value["schema_version"].as_u64() {

@@ -136,6 +136,9 @@ pub struct Work {
     pub rejected_steps: u64,
     /// Evaluations of the equations of motion.
     pub evaluations: u64,
+    /// Steps that the tolerance made end before the next sample of the record. None: a coarser tolerance gives the
+    /// same bits.
+    pub tolerance_steps: u64,
 }
 
 /// Maxima, patterns, events, energy and effort of one run.

@@ -257,7 +257,10 @@ impl<O: Observer> Run<O> {
             }
             while self.offset_s < length_s {
                 if !self.wall.rests_in(self.contact) {
-                    self.task = Task::Advance { h: self.controller.next_s(length_s - self.offset_s) };
+                    let left_s = length_s - self.offset_s;
+                    let h = self.controller.next_s(left_s);
+                    self.totals.work.tolerance_steps += u64::from(h < left_s);
+                    self.task = Task::Advance { h };
                     return Ok(true);
                 }
                 self.rest_in_piece()?;

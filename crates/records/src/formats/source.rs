@@ -28,8 +28,17 @@ pub(super) fn fields(line: &str) -> Vec<&str> {
     fields.filter(|field| !field.is_empty()).collect()
 }
 
-/// Text of `bytes`: UTF-8, or else Latin-1, in which some agencies write station names.
+/// Text of `bytes`: UTF-8; UTF-16 behind its mark, as spreadsheets save it; or else Latin-1, in which some agencies
+/// write station names.
 pub(super) fn decode(bytes: &[u8]) -> Cow<'_, str> {
+    for (mark, unit) in
+        [(b"\xff\xfe", u16::from_le_bytes as fn([u8; 2]) -> u16), (b"\xfe\xff", u16::from_be_bytes)]
+    {
+        if let Some(text) = bytes.strip_prefix(mark) {
+            let units: Vec<u16> = text.chunks_exact(2).map(|pair| unit([pair[0], pair[1]])).collect();
+            return Cow::Owned(String::from_utf16_lossy(&units));
+        }
+    }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),
