@@ -12,7 +12,7 @@ include make/peers.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep monte-carlo fragility measured check readme test test-browser bench blind lint docs clean
+.PHONY: help sweep monte-carlo fragility measured check readme test stranger test-browser bench blind lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -43,6 +43,9 @@ readme: ## figures of README.md and of the guide made anew from runs
 
 test: ## all tests, of the program and of its crates
 	cargo test --release --locked --workspace
+
+stranger: ## the tour of a stranger: first steps, every command of the docs, odd inputs, studies cut short
+	cargo test --release --locked --test it -- stranger:: guide:: first_steps:: unfinished::
 
 test-browser: ## the pages in a real headless Chromium: no errors, figures present, interactions work
 ifeq ($(shell command -v chromium),)

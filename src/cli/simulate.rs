@@ -15,7 +15,7 @@ use clap::Args;
 use mrbd_files::load_wall;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{
-    Accuracy, Ensemble, MEMBERS, MEMBERS_IN_CHAOS, Outcome, Shaking, simulate, simulate_members,
+    Accuracy, Ensemble, MEMBERS, MEMBERS_IN_CHAOS, Outcome, Shaking, Verdict, simulate, simulate_members,
     simulate_observed,
 };
 use mrbd_records::{Accelerogram, ReadOptions, read};
@@ -26,9 +26,9 @@ use mrbd_records::{Accelerogram, ReadOptions, read};
 /// moves freely for --tail seconds.
 ///
 /// Three more runs go beside it, on two threads: the ground motion and the rotations of a release times
-/// 1 - 1e-6 and 1 + 1e-6, and the tolerance times 0.1. Nobody can know these differences. Where fewer than two
-/// digits of the largest rotations hold in all four, the run is chaotic, and eight more follow. Numbers are
-/// printed with the digits that hold; JSON has all digits of the run itself and the spread.
+/// 1 - 1e-6 and 1 + 1e-6, and the tolerance times 0.1. Nobody can know these differences. Where all four end
+/// alike and fewer than two digits of the largest rotations hold, the run is chaotic, and eight more follow.
+/// Numbers are printed with the digits that hold; JSON has all digits of the run itself and the spread.
 ///
 /// Examples:
 ///   mrbd simulate inputs/walls/table_wall.toml --record gilroy.AT2
@@ -146,7 +146,9 @@ fn ensemble(
     };
     let run = first.remove(0);
     let ensemble = Ensemble { run, others: first }.with(rest);
-    if alone || !ensemble.is_chaotic() {
+    // An outcome that flips is known to be undecided; more would tell its share a little better.
+    let decided = ensemble.verdict() != Verdict::Undecided;
+    if alone || !(decided && ensemble.is_chaotic()) {
         return ensemble;
     }
     let middle = usize::midpoint(MEMBERS, MEMBERS_IN_CHAOS);

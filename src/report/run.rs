@@ -109,10 +109,11 @@ impl RunPicture<'_> {
     }
 
     fn held_to(&self, decimals: usize, value: impl Fn(&Response) -> f64) -> String {
-        match self.ensemble.others.is_empty() {
-            true => format!("{:.decimals$}", value(self.response)),
-            false => self.ensemble.text(value),
-        }
+        let all = format!("{:.decimals$}", value(self.response));
+        let held = self.ensemble.text(value);
+        // Of digits that hold, a reader needs no more than these.
+        let longer = !held.contains(" to ") && held.len() > all.len();
+        if self.ensemble.others.is_empty() || longer { all } else { held }
     }
 
     fn notes(&self) -> Vec<String> {

@@ -254,7 +254,7 @@ fn regress_an_outcome_that_flips_is_undecided() {
     assert_eq!(ensemble["verdict"], "undecided", "{ensemble}");
     let share = ensemble["collapsed_share"].as_f64().expect("a share");
     assert!(share > 0.0 && share < 1.0, "{share}");
-    assert_eq!(ensemble["members"], 12, "the first four part, so eight more follow");
+    assert_eq!(ensemble["members"], 4, "the first four tell it");
     let told = String::from_utf8_lossy(&starter_run("3.4", SAME, &[]).stdout).into_owned();
     assert!(told.contains("\nUndecided: "), "{told}");
 }

@@ -73,6 +73,8 @@ fn regress_every_command_of_the_readme_runs_as_it_stands() {
     for line in &lines {
         // A study that was run, or begun in part, goes on; experiments are the starter's.
         let line = line.replace("EXPERIMENT.toml", "own/experiment.toml").replace("3/16", "1/1");
+        // It has 840 runs in seven blocks, too few for 64 tasks.
+        let line = line.replace("--tasks 64", "--tasks 7").replace("mine 1234", "mine 123");
         let output = shell(&here, &line);
         let message = String::from_utf8_lossy(&output.stderr);
         // The study is whole already, so there is nothing to merge.
@@ -131,7 +133,6 @@ use Odd::{Change, Nothing, Write};
 type Row = (&'static str, Odd, i32, &'static [&'static str]);
 
 const SIMULATE: &str = "simulate wall.toml --record records/generated_4_600ya.csv";
-const HEAD: &str = "time_s,acceleration_m_s2";
 
 const WALLS: &[Row] = &[
     (
@@ -163,13 +164,13 @@ const WALLS: &[Row] = &[
         SIMULATE,
         Change("wall.toml", "0.291", "0,291"),
         2,
-        &["wall.toml:8: found `0,291", "decimal comma", "allowed: a decimal point: 0.291"],
+        &["wall.toml:6: found `0,291", "decimal comma", "allowed: a decimal point: 0.291"],
     ),
     (
         SIMULATE,
         Change("wall.toml", "0.291", "\"thick\""),
         2,
-        &["wall.toml:8: wall.thickness_m", "allowed: a number"],
+        &["wall.toml:6: wall.thickness_m", "allowed: a number"],
     ),
     (
         SIMULATE,
@@ -472,7 +473,7 @@ const TABLES: &[Row] = &[
     ),
     ("fragility outputs/first", Nothing, 2, &["--outcome: found nothing; allowed: the column of outcomes"]),
     (
-        "fragility outputs/first --intensity pgv_m_s --outcome outcome --replicates 40 --cluster draw",
+        "fragility outputs/first --intensity pgv_m_s --outcome outcome --replicates 100 --cluster record",
         Nothing,
         0,
         &["an end `?`", "`--replicates 0`"],
@@ -500,9 +501,10 @@ fn prepared() -> tempfile::TempDir {
     folder
 }
 
-fn check(folder: &Path, (command, odd, code, told): &Row) {
+/// What is wrong with the answer to a row; `None` where it is as it should be.
+fn wrong(folder: &Path, (command, odd, code, told): &Row) -> Option<String> {
     let (Change(file, ..) | Write(file, _)) = odd else {
-        return run(folder, command, *code, told);
+        return wrong_answer(folder, command, *code, told);
     };
     let path = folder.join(file);
     let before = fs::read(&path).ok();
@@ -516,22 +518,24 @@ fn check(folder: &Path, (command, odd, code, told): &Row) {
         Nothing => Vec::new(),
     };
     fs::write(&path, now).expect("written");
-    run(folder, command, *code, told);
+    let wrong = wrong_answer(folder, command, *code, told);
     match before {
         Some(before) => fs::write(&path, before).expect("written"),
         None => fs::remove_file(&path).expect("removed"),
     }
+    wrong
 }
 
-fn run(folder: &Path, command: &str, code: i32, told: &[&str]) {
+fn wrong_answer(folder: &Path, command: &str, code: i32, told: &[&str]) -> Option<String> {
     let arguments: Vec<&str> = command.split(' ').collect();
     let output = mrbd(folder, &arguments);
     let said = [&output.stdout[..], &output.stderr].concat();
     let said = String::from_utf8_lossy(&said);
-    assert_eq!(output.status.code(), Some(code), "{command}: {said}");
-    for part in told {
-        assert!(said.contains(part), "{command}: {part} in {said}");
-    }
+    let missing: Vec<_> = told.iter().filter(|part| !said.contains(**part)).collect();
+    let is_right = output.status.code() == Some(code) && missing.is_empty();
+    (!is_right).then(|| {
+        format!("{command}: code {:?}, not {code}, or no {missing:?} in {said}", output.status.code())
+    })
 }
 
 #[test]
@@ -539,10 +543,11 @@ fn rejects_or_questions_odd_inputs_with_place_found_and_allowed() {
     let folder = prepared();
     let tables = [WALLS, RECORDS, OPTIONS, STUDIES, TABLES];
     assert!(tables.iter().map(|rows| rows.len()).sum::<usize>() > 60);
-    tables.into_iter().flatten().for_each(|row| check(folder.path(), row));
+    let wrong: Vec<String> =
+        tables.into_iter().flatten().filter_map(|row| wrong(folder.path(), row)).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     // The files of the rows are as they were, so what follows runs as before.
     stdout(&mrbd(folder.path(), &["simulate", "wall.toml", "--record", RECORD]));
-    assert!(HEAD.starts_with("time_s"));
 }
 
 #[test]

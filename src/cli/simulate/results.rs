@@ -131,10 +131,11 @@ impl<'a> RunResults<'a> {
 
     /// A result with the digits that hold, or three decimals of a run that is alone.
     fn held(&self, value: impl Fn(&Response) -> f64) -> String {
-        match self.is_alone() {
-            true => format!("{:.3}", value(&self.ensemble.run)),
-            false => self.ensemble.text(value),
-        }
+        let all = format!("{:.3}", value(&self.ensemble.run));
+        let held = self.ensemble.text(value);
+        // Of digits that hold, a reader needs no more than these.
+        let longer = !held.contains(" to ") && held.len() > all.len();
+        if self.is_alone() || longer { all } else { held }
     }
 
     /// A signed result with the digits that hold, as an interval of sizes where none does. An undecided wall has
