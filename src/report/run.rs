@@ -12,7 +12,7 @@ use super::page::{Cell, Figure, Motion, Number, Page, Section, Table, script_saf
 use crate::error::Result;
 use histories::Window;
 use mrbd_kernel::model::{PATTERN_NAMES, Wall};
-use mrbd_kernel::simulate::{Accuracy, Ensemble, Outcome, Response, Shaking};
+use mrbd_kernel::simulate::{Accuracy, Ensemble, Outcome, Response, Shaking, Verdict};
 
 /// Everything a picture of a run is made from.
 #[derive(Debug, Clone, Copy)]
@@ -82,8 +82,12 @@ impl RunPicture<'_> {
 
     fn outcome(&self) -> String {
         match &self.response.outcome {
+            _ if self.ensemble.verdict() == Verdict::Undecided => {
+                "Undecided: the wall stands or falls by what nobody can know. Here is one of its runs."
+                    .to_owned()
+            }
             Outcome::Stood => format!("The wall stood until the end at {:.2} s.", self.response.end_time_s),
-            Outcome::Collapsed { time_s } => format!("The wall collapsed at {time_s:.3} s."),
+            Outcome::Collapsed { .. } => format!("The wall collapsed at {} s.", self.held(|r| r.end_time_s)),
             Outcome::Failed { time_s, reason } => format!("The run failed at {time_s:.3} s: {reason}."),
         }
     }

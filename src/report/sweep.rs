@@ -50,18 +50,21 @@ fn lead(manifest: &Manifest, records: usize) -> String {
 fn numbers(medians: &Medians, conclusions: &[Conclusions]) -> Vec<Number> {
     let total = |of: fn(&VariantNote) -> u64| -> u64 { medians.variants.iter().map(of).sum() };
     let held = Held::among(conclusions.first().map_or(&[], |base| &base.answers));
-    let hold = match held.not_asked() {
-        0 => "conclusions of the paper hold here".to_owned(),
-        others => format!("conclusions of the paper hold here; {others} others are not in this study"),
-    };
     let unfinished = medians.completeness.filter(|study| !study.is_whole());
     let judged_over = unfinished.map_or(String::new(), |study| format!(", judged over {study}"));
+    let others = match held.not_asked() {
+        0 => String::new(),
+        others => format!("; {others} others are not in this study"),
+    };
     let runs = unfinished.map_or("runs".to_owned(), |study| format!("of {} runs", study.planned_runs));
     vec![
         Number::new(total(|v| v.runs), runs),
         Number::new(total(|v| v.collapsed), "collapsed"),
         Number::new(total(|v| v.failed), "failed"),
-        Number::new(format!("{} of {}", held.holds, held.asked), hold + &judged_over),
+        Number::new(
+            format!("{} of {}", held.holds, held.asked),
+            format!("conclusions of the paper hold here{judged_over}{others}"),
+        ),
     ]
 }
 

@@ -105,7 +105,14 @@ impl<'a> RunResults<'a> {
     /// The results for people, a few lines.
     pub fn text(&self) -> String {
         let response = &self.ensemble.run;
+        let undecided = self.ensemble.verdict() == Verdict::Undecided;
         let mut lines = vec![match &response.outcome {
+            Outcome::Stood if undecided => {
+                format!("The wall stood in this run, until {:.3} s.", response.end_time_s)
+            }
+            Outcome::Collapsed { time_s } if undecided => {
+                format!("The wall collapsed in this run, at {time_s:.3} s.")
+            }
             Outcome::Stood => format!("The wall stood until {:.3} s.", response.end_time_s),
             Outcome::Collapsed { .. } => format!("The wall collapsed at {} s.", self.collapse_time_s()),
             Outcome::Failed { time_s, reason } => format!("The run failed at {time_s:.3} s: {reason}."),

@@ -22,6 +22,9 @@ pub struct Frame {
     pub bottom: f64,
 }
 
+/// Room at the right of every axis, in heights of letters.
+const BESIDE: f64 = 0.8;
+
 /// Most ticks of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MostTicks {
@@ -134,7 +137,10 @@ impl Plot<'_> {
         for (value, name) in self.x.ticks(most) {
             let x = self.place((value, 0.0)).0;
             picture.path(vec![(x, bottom), (x, bottom + text / 4.0)], self.line());
-            picture.text(self.words(&name, (x, bottom + text / 2.0), (Across::Middle, Down::Top), INK));
+            // A long number at the end of the axis would be cut by the edge of the picture.
+            let half = 0.3 * text * name.chars().count() as f64;
+            let middle = x.min(right + BESIDE * text - half);
+            picture.text(self.words(&name, (middle, bottom + text / 2.0), (Across::Middle, Down::Top), INK));
         }
         let at = ((left + right) / 2.0, bottom + 1.75 * text);
         picture.text(self.words(&self.x.label, at, (Across::Middle, Down::Top), INK));

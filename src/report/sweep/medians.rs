@@ -79,14 +79,18 @@ fn figure(view: &View, row: &Row, records: usize) -> Figure {
         paper: Some(number.into()),
         legend: legend(view, row),
         panels,
-        caption: caption(view, row),
+        caption: caption(view, row, records),
         links: vec![Link::to("medians.parquet")],
         ..Figure::default()
     }
 }
 
-fn caption(view: &View, row: &Row) -> String {
-    let mut caption = "Median over the records of the largest rotation, by slenderness h/b; the other parameters at their means. Dashed line: 0.05, which the paper calls significant.".to_owned();
+fn caption(view: &View, row: &Row, records: usize) -> String {
+    let what =
+        if records == 1 { "Largest rotation" } else { "Median over the records of the largest rotation" };
+    let mut caption = format!(
+        "{what}, by slenderness h/b; the other parameters at their means. Dashed line: 0.05, which the paper calls significant."
+    );
     let value = |of: &(Configuration, Parameter), level| of_level(view, of.0, of.1, level)?.parameter_value;
     if row.iter().any(|of| are_reversed(value(of, Level::Low), value(of, Level::High))) {
         caption

@@ -226,11 +226,12 @@ fn first_place(value: f64) -> i32 {
     value.abs().log10().floor() as i32
 }
 
-/// A number with so many digits, without an exponent.
+/// A number with so many digits, without an exponent; zeros stand for those that do not hold.
 fn rounded(value: f64, digits: u32) -> String {
     let place = if value == 0.0 { 0 } else { first_place(value) };
-    let decimals = (digits as i32 - 1 - place).max(0) as usize;
-    format!("{value:.decimals$}")
+    let decimals = digits as i32 - 1 - place;
+    let unit = 10f64.powi(-decimals.min(0));
+    format!("{:.*}", decimals.max(0) as usize, (value / unit).round_ties_even() * unit)
 }
 
 #[cfg(test)]
@@ -287,6 +288,7 @@ mod tests {
         assert_eq!(with([-0.024_974_6, -0.024_977_3, -0.024_970_2]), (4, "-0.02497".to_owned()));
         assert_eq!(with([0.78, 0.53, 0.52]), (0, "0.52 to 0.78".to_owned()));
         assert_eq!(with([12.0, 12.0, 12.0]), (6, "12.0000".to_owned()));
+        assert_eq!(with([161.2, 149.0, 190.0]), (1, "200".to_owned()));
         assert_eq!(with([0.0, 0.0, 0.0]).0, 6);
     }
 
