@@ -229,9 +229,13 @@ fn first_place(value: f64) -> i32 {
 /// A number with so many digits, without an exponent; zeros stand for those that do not hold.
 fn rounded(value: f64, digits: u32) -> String {
     let place = if value == 0.0 { 0 } else { first_place(value) };
-    let decimals = digits as i32 - 1 - place;
-    let unit = 10f64.powi(-decimals.min(0));
-    format!("{:.*}", decimals.max(0) as usize, (value / unit).round_ties_even() * unit)
+    match digits as i32 - 1 - place {
+        decimals @ 0.. => format!("{value:.*}", decimals as usize),
+        above => {
+            let unit = 10f64.powi(-above);
+            format!("{:.0}", (value / unit).round_ties_even() * unit)
+        }
+    }
 }
 
 #[cfg(test)]
