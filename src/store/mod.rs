@@ -5,13 +5,12 @@ pub(crate) mod durable;
 pub(crate) mod frame;
 mod history;
 pub(crate) mod parquet_file;
-mod whole_folder;
 
 pub use column::{Column, Encoding, Read, Stage, print_csv};
+pub use durable::WholeFolder;
 pub use durable::write_durably;
 pub use history::{HistoryWriter, write_history};
 pub use parquet_file::{ParquetFile, write_table};
-pub use whole_folder::WholeFolder;
 
 /// The page that a report makes of a folder; results that are replaced take it with them.
 pub const PAGE_NAME: &str = "report.html";

@@ -16,4 +16,3 @@ pub mod pipeline;
 pub mod plan;
 pub mod runs;
 mod study_table;
-mod sweep_table;

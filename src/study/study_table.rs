@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::pipeline::SweepTable;
 use super::pipeline::Variant;
-use super::sweep_table::SweepTable;
 use crate::error::{InputError, Result};
 use crate::survey::Configuration;
 use crate::survey::sampling::Sampling;

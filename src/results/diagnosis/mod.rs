@@ -7,21 +7,18 @@
 //! diagnosis.json       the verdict, with everything it rests on; written last: where it is, all is there
 //! ```
 
-mod folder;
-mod manifest;
 pub mod tables;
 
-pub use folder::OutputNames;
-pub use mrbd_lab::diagnose::answer::KIND;
+use std::path::{Path, PathBuf};
 
-use std::path::Path;
-
+use super::folder::{MANIFEST, Manifest, entries, holds, now_unix_s, refuse, remove_all};
 use crate::error::{Error, Result};
 use crate::store::write_durably;
-use manifest::write_manifest;
 use mrbd_files::FileNote;
 use mrbd_lab::diagnose::Diagnosis;
+pub use mrbd_lab::diagnose::answer::KIND;
 use mrbd_lab::diagnose::answer::Summary;
+use tables::TABLES;
 
 /// Writes a diagnosis and the files it was made from; every file is whole or absent.
 ///
@@ -29,7 +26,7 @@ use mrbd_lab::diagnose::answer::Summary;
 /// [`Error::Table`] or [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn write_results(names: &OutputNames, inputs: &[FileNote], diagnosis: &Diagnosis) -> Result<()> {
     names.clear()?;
-    write_manifest(&names.manifest, inputs, names.started_unix_s)?;
+    Manifest::new(KIND, inputs.to_vec(), names.started_unix_s).write(&names.folder)?;
     tables::write_tables(&names.folder, &diagnosis.tables)?;
     write_durably(&names.wall, diagnosis.updated_wall_toml.as_bytes())?;
     write_durably(&names.diagnosis, json(&names.diagnosis, &diagnosis.summary)?.as_bytes())
@@ -41,8 +38,55 @@ fn json(path: &Path, summary: &Summary) -> Result<String> {
     serde_json::to_string_pretty(&value).map_err(|e| Error::table(path, e))
 }
 
+/// Where things go in the output folder.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputNames {
+    /// The folder.
+    pub folder: PathBuf,
+    /// Kind and provenance.
+    pub manifest: PathBuf,
+    /// The verdict.
+    pub diagnosis: PathBuf,
+    /// The wall with the effect added.
+    pub wall: PathBuf,
+    /// When the diagnosis began, seconds since 1970.
+    started_unix_s: u64,
+}
+
+impl OutputNames {
+    /// Makes a folder ready: it must be empty, not exist, or hold an earlier diagnosis only.
+    ///
+    /// # Errors
+    /// Input errors for a folder that cannot be written or holds other files.
+    pub fn prepare(folder: &Path) -> Result<Self> {
+        let entries = entries(folder)?;
+        let names = Self {
+            folder: folder.to_path_buf(),
+            manifest: folder.join(MANIFEST),
+            diagnosis: folder.join("diagnosis.json"),
+            wall: folder.join("wall.updated.toml"),
+            started_unix_s: now_unix_s(),
+        };
+        let earlier = entries.contains(&names.diagnosis) || holds(folder, KIND);
+        if !entries.is_empty() && !earlier {
+            let found = format!("{}, which holds other files", folder.display());
+            return Err(refuse(found, "an empty folder, or one of an earlier diagnosis").into());
+        }
+        Ok(names)
+    }
+
+    /// Removes what an earlier diagnosis left, the verdict first, so that nothing of it is taken for this one's.
+    fn clear(&self) -> Result<()> {
+        let tables = TABLES.map(|name| self.folder.join(name));
+        let own = [&self.diagnosis, &self.wall, &self.manifest].into_iter().chain(&tables);
+        let page = self.folder.join(crate::store::PAGE_NAME);
+        remove_all(own.chain([&page]))
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::*;
     use super::*;
     use mrbd_lab::diagnose::Verdict;
     use serde_json::{Value, json};

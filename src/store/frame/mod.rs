@@ -7,15 +7,14 @@ mod labels;
 mod read;
 #[cfg(test)]
 pub(crate) mod testing;
-mod values;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use polars::prelude::*;
 
+use read::Values;
 pub(crate) use read::{column_names, read};
-use values::Values;
 
 /// Rows of Parquet files: numbers, counts, truth values and texts, each of which may be null.
 pub(crate) struct Frame {

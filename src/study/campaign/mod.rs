@@ -1,17 +1,192 @@
-//! A study that may be divided, stopped and gone on with, and ends in the same bits all the same.
+//! A study that may be divided and stopped, and resumed, and ends in the same bits all the same.
 //!
 //! The plan is cut into blocks of neighbouring runs. A finished block is a file whose name holds its own checksum, so
-//! it is whole or not there; when all blocks of a record are there they are put together into the record's one file.
+//! it is whole or not there. When all blocks of a record are there they are put together into the record's one file.
 //! That file depends on the blocks alone: not on threads, shards, interruptions or the order they were finished in.
+//! What is on the disk, whole or damaged, says which runs are missing; these are run.
 
-mod compact;
-mod layout;
 mod shard;
-mod standing;
-mod work;
 
-pub use compact::compact;
-pub use layout::{BLOCK_RUNS, Block, Layout};
-pub use shard::Shard;
-pub use standing::Standing;
-pub use work::{Work, run_missing};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::ScopedJoinHandle;
+
+use super::batch::{Finished, Simulate, Tally, run_all};
+use super::plan::Plan;
+use super::runs::OutputFolder;
+use crate::error::{InputError, Result};
+use indicatif::ProgressBar;
+use rayon::ThreadPool;
+pub use shard::{BLOCK_RUNS, Block, Layout, Shard};
+
+/// What is done. Everything counted here was read and agrees with its checksum.
+#[derive(Debug, Default)]
+pub struct Standing {
+    /// Files of blocks, by position among the blocks of the plan; only of records not yet put together.
+    pub blocks: BTreeMap<u64, PathBuf>,
+    /// Files of records that were put together, by position in the suite.
+    pub parts: BTreeMap<usize, PathBuf>,
+    /// Files that are not what was written; they count as missing.
+    pub damaged: Vec<PathBuf>,
+}
+
+impl Standing {
+    /// Reads and checks every file of a study.
+    ///
+    /// # Errors
+    /// [`mrbd_files::Error::Io`] if the folder cannot be read.
+    pub fn of(folder: &OutputFolder, layout: &Layout) -> Result<Self> {
+        let mut standing = Self::default();
+        for (index, record) in layout.records().iter().enumerate() {
+            match folder.part(record)? {
+                Some(part) if part.is_whole()? => {
+                    standing.parts.insert(index, part.path);
+                    continue;
+                }
+                Some(part) => standing.damaged.push(part.path),
+                None => {}
+            }
+            for (block, file) in folder.blocks(record)? {
+                match layout.of_record(index).contains(&block) && file.is_whole()? {
+                    true => _ = standing.blocks.insert(block, file.path),
+                    false => standing.damaged.push(file.path),
+                }
+            }
+        }
+        Ok(standing)
+    }
+
+    /// Whether the runs of a block are stored.
+    pub fn has(&self, block: &Block) -> bool {
+        self.parts.contains_key(&block.record) || self.blocks.contains_key(&block.index)
+    }
+
+    /// Runs that are stored.
+    pub fn runs(&self, layout: &Layout) -> u64 {
+        layout.iter().filter(|block| self.has(block)).map(|block| block.runs.end - block.runs.start).sum()
+    }
+
+    /// The files that hold the runs, in the order of the plan.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.parts.values().chain(self.blocks.values()).cloned().collect()
+    }
+}
+
+/// Puts the blocks of every record together; records that are together already stay as they are.
+///
+/// The blocks go in the order of the plan and by the same steps however they came about, so equal blocks give
+/// equal files. Blocks are removed only when the file that holds their runs is on the disk with its checksum.
+///
+/// # Errors
+/// An input error if runs are missing; [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which
+/// leaves every run in a whole file.
+pub fn compact(folder: &OutputFolder, standing: &Standing) -> Result<()> {
+    let layout = Layout::of(folder.manifest());
+    check_complete(folder, &layout, standing)?;
+    for (record, name) in layout.records().iter().enumerate() {
+        if !standing.parts.contains_key(&record) {
+            let blocks = layout.of_record(record).filter_map(|block| standing.blocks.get(&block));
+            folder.write_part(name, blocks)?;
+        }
+        folder.remove_blocks(name)?;
+    }
+    folder.remove_leftovers()
+}
+
+fn check_complete(folder: &OutputFolder, layout: &Layout, standing: &Standing) -> Result<()> {
+    let (done, all) = (standing.runs(layout), folder.manifest().runs);
+    if done == all {
+        return Ok(());
+    }
+    let damaged = match standing.damaged.len() {
+        0 => String::new(),
+        some => format!(" ({some} damaged files)"),
+    };
+    let found = format!("{done} of {all} runs{damaged}");
+    let allowed =
+        "all runs: `mrbd run PIPELINE --out DIR --resume` does what is missing, all of it or a --shard";
+    Err(InputError::file(folder.path(), found, allowed).into())
+}
+
+/// A part of a study to be done.
+pub struct Work<'a, S> {
+    /// The whole study.
+    pub plan: &'a Plan,
+    /// Where its runs go.
+    pub folder: &'a OutputFolder,
+    /// The part to do.
+    pub shard: Shard,
+    /// Threads to do it on; the result does not depend on them.
+    pub pool: &'a ThreadPool,
+    /// Runs one wall; a parameter so that a study can be tested without the cost.
+    pub simulate: &'a S,
+    /// Asks to stop when set: blocks at work are finished and stored, no others begun.
+    pub stop: &'a AtomicBool,
+    /// Advances by one a run.
+    pub progress: &'a ProgressBar,
+}
+
+/// Runs the blocks of a shard that are missing and stores each as soon as it is done; `watch` sees its runs.
+///
+/// As many blocks as threads are at work at once, so that threads seldom wait for each other, and as many are being stored;
+/// being killed loses these alone.
+///
+/// # Errors
+/// [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which leaves what is stored as it is.
+pub fn run_missing<S: Simulate + Sync>(
+    work: &Work<S>,
+    standing: &Standing,
+    mut watch: impl FnMut(&[Finished]),
+) -> Result<Tally> {
+    let layout = Layout::of(work.folder.manifest());
+    let missing: Vec<Block> =
+        layout.iter().filter(|block| work.shard.has(block.index) && !standing.has(block)).collect();
+    discard_damaged(work.folder, &layout, standing)?;
+    let mut tally = Tally::default();
+    let store = |blocks: &[Block], runs: Vec<Finished>| -> Result<()> {
+        let mut runs = runs.into_iter();
+        for block in blocks {
+            let runs: Vec<Finished> =
+                runs.by_ref().take((block.runs.end - block.runs.start) as usize).collect();
+            work.folder.write_block(&layout.records()[block.record], block.index, &runs)?;
+        }
+        Ok(())
+    };
+    std::thread::scope(|scope| -> Result<()> {
+        // Blocks are stored while the next ones run.
+        let mut storing = None;
+        for blocks in missing.chunks(work.pool.current_num_threads()) {
+            if work.stop.load(Ordering::Relaxed) {
+                break;
+            }
+            let positions = blocks.iter().flat_map(|block| block.runs.clone()).collect();
+            let runs = work.pool.install(|| run_all(work.plan, positions, work.simulate, work.progress));
+            watch(&runs);
+            finished(storing.take())?;
+            tally.count(&runs);
+            storing = Some(scope.spawn(|| store(blocks, runs)));
+        }
+        finished(storing.take())
+    })?;
+    Ok(tally)
+}
+
+/// Waits until blocks are stored.
+fn finished(storing: Option<ScopedJoinHandle<'_, Result<()>>>) -> Result<()> {
+    match storing.map(ScopedJoinHandle::join) {
+        None => Ok(()),
+        Some(Ok(stored)) => stored,
+        Some(Err(panic)) => std::panic::resume_unwind(panic),
+    }
+}
+
+/// A block that is done again takes the name of its damaged file; a record's file has to be told gone.
+fn discard_damaged(folder: &OutputFolder, layout: &Layout, standing: &Standing) -> Result<()> {
+    for (index, record) in layout.records().iter().enumerate() {
+        if !standing.parts.contains_key(&index) && folder.part(record)?.is_some() {
+            folder.discard_part(record)?;
+        }
+    }
+    Ok(())
+}

@@ -3,12 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::drawn::DrawnFacades;
-use super::id::Fingerprint;
-use super::motions::Motions;
+use super::kinds::DrawnFacades;
+use super::kinds::Setting;
+use super::kinds::Sweep;
+use super::run::Fingerprint;
+use super::run::Motions;
 use super::run::Run;
-use super::setting::Setting;
-use super::sweep::Sweep;
 use crate::error::{InputError, Result};
 use crate::study::pipeline::{Drawn, Kind, Pipeline, Study, Variant};
 use crate::survey::sampling::Variable;

@@ -2,18 +2,14 @@
 //!
 //! The list is computed, not stored: run `i` follows from `i`, so a plan of a million runs costs nothing to hold
 //! and any run can be repeated alone. The record varies slowest, so that the runs of a record stand together and end in
-//! one file; then the variant; then what the kind of study has, see `sweep.rs` and `drawn.rs`.
+//! one file; then the variant; then what the kind of study has, see `kinds.rs`.
 
-mod drawn;
-mod id;
+mod kinds;
 mod level;
 mod list;
-mod motions;
 mod run;
-mod setting;
-mod sweep;
 
 pub use level::{Level, coefficients, facade};
 pub use list::Plan;
-pub use motions::{Motions, RecordHash};
 pub use run::{Growth, Origin, Run, Scaling};
+pub use run::{Motions, RecordHash};

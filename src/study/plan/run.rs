@@ -1,17 +1,17 @@
-//! One run of a plan: everything that goes into it.
+//! One run of a plan: everything that goes into it, its record, and its id.
+//!
+//! The id is a hash of everything that goes into a run, so that equal ids mean equal runs.
 
 use std::sync::Arc;
 
-use super::id::Fingerprint;
 use super::level::Level;
-use super::motions::{Motions, RecordHash};
 use crate::study::ladder::Ladder;
 use crate::study::pipeline::{Limit, Parameter, Variant};
-use crate::survey::Configuration;
-use crate::survey::{Facade, ImpossibleFacade};
-use mrbd_kernel::model::{Restitution, Wall};
+use crate::survey::{Configuration, Facade, ImpossibleFacade};
+use mrbd_kernel::model::{Effect, Restitution, Wall, WallParameters};
 use mrbd_kernel::simulate::{Accuracy, Shaking};
-use mrbd_records::{Accelerogram, IntensityMeasures, ScaledMeasure, SuiteRecord};
+use mrbd_records::{Accelerogram, IntensityMeasures, ScaledMeasure, Suite, SuiteRecord};
+use sha2::{Digest, Sha256};
 
 /// How the plan came to a façade.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -204,5 +204,146 @@ impl Run {
                 .text("measure", measure.name())
                 .numbers("growth", &[range[0], range[1], growth, bracket]),
         }
+    }
+}
+
+/// The ground motions of a plan, and a hash of the samples of each.
+#[derive(Debug, Clone)]
+pub struct Motions {
+    /// The suite.
+    pub suite: Suite,
+    /// Hashes of its records, by position in the suite.
+    pub hashes: Vec<RecordHash>,
+}
+
+/// SHA-256 of the step and samples of a record as they are run (scaled), 64 hexadecimal digits.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RecordHash {
+    /// The horizontal component.
+    pub horizontal: String,
+    /// The vertical component; none where the record has none.
+    pub vertical: Option<String>,
+}
+
+impl Motions {
+    /// A suite and the hashes of its records.
+    pub fn new(suite: Suite) -> Self {
+        let hash = |motion: &Accelerogram| Fingerprint::of("motion").motion(motion).hex();
+        let of = |record: &SuiteRecord| RecordHash {
+            horizontal: hash(&record.horizontal),
+            vertical: record.vertical.as_ref().map(hash),
+        };
+        let hashes = suite.records.iter().map(of).collect();
+        Self { suite, hashes }
+    }
+}
+
+/// Digits of an id: 64 bits, so that two of 10⁶ runs share one with a chance of 3e-8.
+const ID_DIGITS: usize = 16;
+
+/// A hash under construction, fed with named values.
+pub(super) struct Fingerprint(Sha256);
+
+impl Fingerprint {
+    /// An empty one; `kind` keeps hashes of different things apart.
+    pub fn of(kind: &str) -> Self {
+        Self(Sha256::new()).text("kind", kind)
+    }
+
+    /// Adds a text; its length goes first, so that neighbours cannot trade letters.
+    pub fn text(mut self, name: &str, value: &str) -> Self {
+        for part in [name, value] {
+            self.0.update((part.len() as u64).to_le_bytes());
+            self.0.update(part.as_bytes());
+        }
+        self
+    }
+
+    /// Adds numbers by their bits.
+    pub fn numbers(mut self, name: &str, values: &[f64]) -> Self {
+        self = self.text("numbers", name);
+        self.0.update((values.len() as u64).to_le_bytes());
+        values.iter().for_each(|value| self.0.update(value.to_bits().to_le_bytes()));
+        self
+    }
+
+    /// Adds one number.
+    pub fn number(self, name: &str, value: f64) -> Self {
+        self.numbers(name, &[value])
+    }
+
+    /// Adds every parameter of a wall; a parameter added to the model must be added here to compile.
+    pub fn wall(self, parameters: &WallParameters) -> Self {
+        let WallParameters {
+            thickness_m,
+            height_m,
+            crack_height_m,
+            length_m,
+            mass_kg,
+            lower_width_m,
+            upper_width_m,
+            diaphragm_mass_kg,
+            carriage_mass_kg,
+            stiffness_n_per_m,
+            eccentricity_m,
+            restitution,
+            collapse_rotation_ratio,
+            initial_rotation_rad,
+            effects,
+        } = parameters;
+        self.numbers("size", &[*thickness_m, *height_m, crack_height_m.unwrap_or(0.0), *length_m])
+            .numbers("masses", &[*mass_kg, *diaphragm_mass_kg, *carriage_mass_kg])
+            .numbers("corners", &[*lower_width_m, *upper_width_m])
+            .numbers("spring", &[*stiffness_n_per_m, *eccentricity_m])
+            .numbers("coefficients", &restitution.coefficients)
+            .text("law", restitution.law.name())
+            .number("capture velocity", restitution.capture_velocity_rad_s)
+            .number("collapse", *collapse_rotation_ratio)
+            .numbers("initial", initial_rotation_rad)
+            .effects(effects)
+    }
+
+    fn effects(self, effects: &[Effect]) -> Self {
+        // As a wall file has them; numbers, texts and enums always serialise.
+        let texts = effects.iter().map(|effect| serde_json::to_string(effect).unwrap_or_default());
+        texts.fold(self.number("effects", effects.len() as f64), |hash, effect| hash.text("effect", &effect))
+    }
+
+    /// Adds the step and every sample of a ground motion.
+    pub fn motion(self, motion: &Accelerogram) -> Self {
+        self.number("step", motion.step_s()).numbers("samples", motion.acceleration_m_s2())
+    }
+
+    /// The whole hash, 64 hexadecimal digits.
+    pub fn hex(self) -> String {
+        self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+
+    /// The beginning of the hash that serves as an id.
+    pub fn id(self) -> String {
+        let mut hex = self.hex();
+        hex.truncate(ID_DIGITS);
+        hex
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn published_sha256_of_nothing_added() {
+        // NIST's example value for the empty message.
+        let empty = Fingerprint(Sha256::new()).hex();
+        assert_eq!(empty, "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    }
+
+    #[test]
+    fn regress_neighbours_cannot_trade_letters_or_numbers() {
+        let of = |a: &str, b: &str| Fingerprint::of("test").text("a", a).text("b", b).id();
+        assert_ne!(of("xy", "z"), of("x", "yz"));
+        let of = |a: &[f64], b: &[f64]| Fingerprint::of("test").numbers("a", a).numbers("b", b).id();
+        assert_ne!(of(&[1.0, 2.0], &[3.0]), of(&[1.0], &[2.0, 3.0]));
+        assert_eq!(of(&[1.0], &[2.0]).len(), ID_DIGITS);
     }
 }

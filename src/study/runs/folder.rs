@@ -13,7 +13,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::manifest::Manifest;
-use super::manifest_differences::differences;
+use super::manifest::differences;
 use crate::error::{Error, InputError, Result};
 use crate::store::durable::{UNFINISHED, make_writable, write_durably};
 use crate::text::percent_escaped;

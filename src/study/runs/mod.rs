@@ -3,7 +3,6 @@
 mod completeness;
 mod folder;
 mod manifest;
-mod manifest_differences;
 mod parts;
 mod schema;
 

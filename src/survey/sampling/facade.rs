@@ -1,11 +1,11 @@
 //! Façades drawn from the survey (the source's section 4.1 and Table 3).
 
-use super::correlation::{Mixture, Pair};
+use super::Refused;
+use super::Sampling;
 use super::design::Points;
 use super::marginal::Marginal;
-use super::refused::Refused;
-use super::spec::Sampling;
 use super::variable::Variable;
+use super::variable::{Mixture, Pair};
 use crate::survey::Assumptions;
 use crate::survey::Facade;
 use crate::survey::{Configuration, Survey};
@@ -138,8 +138,8 @@ mod tests {
     use rayon::prelude::*;
 
     use super::super::design::Design;
-    use super::super::spec::HIGHEST_CRACK;
     use super::*;
+    use crate::survey::sampling::HIGHEST_CRACK;
     use mrbd_kernel::model::Restitution;
 
     fn survey() -> Survey {

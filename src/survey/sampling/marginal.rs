@@ -2,7 +2,7 @@
 
 use mrbd_statistics::normal;
 
-use super::refused::Refused;
+use super::Refused;
 
 /// Probability that must be left between truncations: below it the inverse loses its digits.
 const LEAST_PROBABILITY: f64 = 1e-9;

@@ -1,19 +1,102 @@
-//! Façades drawn from the survey: the configuration varies slowest, then the intensity or the limit, and fastest the draw.
+//! What a kind of study says of a run: everything but the record and the assumptions.
 //!
-//! Both configurations, all intensities and all variants have the same draws, so that what differs between them is not
-//! chance. A façade that no wall is stays in the list, and fails.
+//! The one-at-a-time sweep is the source's section 4.2. In it configuration and parameter vary slowest, then the level, and
+//! fastest the slenderness.
+//!
+//! Of façades drawn from the survey the configuration varies slowest, then the intensity or the limit, and fastest the
+//! draw. Both configurations, all intensities and all variants have the same draws, so that what differs between them is
+//! not chance. A façade that no wall is stays in the list, and fails.
 
 use std::path::Path;
 
-use super::id::Fingerprint;
+use super::level::{Level, coefficients, facade};
+use super::run::Fingerprint;
 use super::run::{Growth, Origin, Scaling};
-use super::setting::Setting;
 use crate::error::{InputError, Result};
-use crate::study::pipeline::{Drawn, Loading, Pipeline};
-use crate::survey::Assumptions;
+use crate::study::pipeline::{Drawn, Loading, Parameter, Pipeline, SweepTable};
 use crate::survey::sampling::{FacadeSampler, Refused, Variable};
-use crate::survey::{Configuration, Survey};
+use crate::survey::{Assumptions, Configuration, Facade, Survey};
+use mrbd_files::coefficients::CoefficientSets;
 use mrbd_records::{Suite, SuiteRecord};
+
+/// A façade and how it is shaken.
+pub(super) struct Setting {
+    pub configuration: Configuration,
+    pub origin: Origin,
+    pub facade: Facade,
+    /// C_l.
+    pub coefficients: [f64; 8],
+    pub scaling: Scaling,
+}
+
+impl Setting {
+    /// The factor on a record of the suite, at first.
+    pub fn factor(&self, record: &SuiteRecord) -> f64 {
+        match self.scaling {
+            Scaling::Factor(factor) => factor,
+            Scaling::To(measure, value) => measure.factor_to(&record.intensity, value),
+            Scaling::Growing(growth) => growth.measure.factor_to(&record.intensity, growth.range[0]),
+        }
+    }
+}
+
+/// The settings of a sweep.
+#[derive(Debug, Clone)]
+pub(super) struct Sweep {
+    survey: Survey,
+    sets: CoefficientSets,
+    /// The reference cases: each configuration with each of its parameters.
+    cases: Vec<(Configuration, Parameter)>,
+    slenderness: Vec<f64>,
+}
+
+impl Sweep {
+    pub fn new(table: &SweepTable, survey: Survey, sets: CoefficientSets) -> Self {
+        let cases = Configuration::ALL
+            .into_iter()
+            .flat_map(|c| table.parameters(c).iter().map(move |&parameter| (c, parameter)))
+            .collect();
+        Self { survey, sets, cases, slenderness: table.slenderness.clone() }
+    }
+
+    /// Number of settings.
+    pub fn len(&self) -> u64 {
+        (self.cases.len() * Level::ALL.len() * self.slenderness.len()) as u64
+    }
+
+    /// The setting at a position below [`Sweep::len`].
+    pub fn at(&self, position: u64, assumptions: &Assumptions) -> Setting {
+        let position = position as usize;
+        let slenderness = self.slenderness[position % self.slenderness.len()];
+        let rest = position / self.slenderness.len();
+        let level = Level::ALL[rest % Level::ALL.len()];
+        let (configuration, parameter) = self.cases[rest / Level::ALL.len()];
+        Setting {
+            configuration,
+            origin: Origin::Level(parameter, level),
+            facade: facade(&self.survey, configuration, (parameter, level), slenderness, assumptions),
+            coefficients: coefficients(&self.sets, parameter, level),
+            scaling: Scaling::Factor(1.0),
+        }
+    }
+
+    /// For messages: where a setting stands.
+    pub fn place(setting: &Setting) -> String {
+        let Origin::Level(parameter, level) = setting.origin else { return String::new() };
+        format!(
+            "{} floor, {} at {}, slenderness {}",
+            setting.configuration.name(),
+            parameter.name(),
+            level.name(parameter),
+            setting.facade.slenderness
+        )
+    }
+
+    /// Adds what decides the list to a hash, which the ids of its runs do.
+    pub fn hashed(hash: Fingerprint, ids: impl Iterator<Item = String>) -> Fingerprint {
+        ids.fold(hash, |hash, id| hash.text("run", &id))
+    }
+}
 
 /// The settings of a study of drawn façades.
 #[derive(Debug, Clone)]

@@ -1,0 +1,320 @@
+//! Many runs: spread over threads, handed on in order, none lost.
+//!
+//! Threads take runs as they come free, but results leave in the order of the plan. So nothing that is written depends on
+//! the number of threads. No histories are held. A thread takes the next run as soon as a lane is free. An incremental
+//! analysis is runs at growing intensities, until one exceeds a limit.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::ladder::Search;
+use super::pipeline::Limit;
+use super::plan::{Growth, Plan, Run};
+use indicatif::ProgressBar;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{
+    Accuracy, Outcome, Prepared, Response, Shaking, Simulator, simulate, simulate_side_by_side,
+};
+use rayon::prelude::*;
+
+/// A run and what came of it.
+#[derive(Debug, Clone)]
+pub struct Finished {
+    /// What was run.
+    pub run: Run,
+    /// What the run told; none where the program itself failed.
+    pub response: Option<Response>,
+    /// Why there is no usable response; none where there is one.
+    pub failure: Option<String>,
+    /// Simulations it took: none of a façade that is no wall, several of an incremental analysis.
+    pub simulations: u64,
+    /// What an incremental analysis found beside its last run.
+    pub found: Option<Found>,
+}
+
+/// What an incremental analysis found; the run and its response are those at the intensity it ended with: the lowest
+/// found to exceed the limit, or the last one where none did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// Whether the limit was exceeded.
+    pub exceeded: bool,
+    /// Highest intensity below that at which it was not.
+    pub stood_intensity: f64,
+}
+
+impl Finished {
+    /// A run that nothing came of yet.
+    pub fn planned(run: Run) -> Self {
+        Self { run, response: None, failure: None, simulations: 0, found: None }
+    }
+
+    /// The response of a run that was carried to its end, standing or collapsed.
+    pub fn usable(&self) -> Option<&Response> {
+        self.response.as_ref().filter(|_| self.failure.is_none())
+    }
+
+    /// `stood`, `collapsed` or `failed`.
+    pub fn outcome(&self) -> &'static str {
+        self.usable().map_or("failed", |response| response.outcome.name())
+    }
+}
+
+/// How many runs ended how.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tally {
+    /// Stood to the end.
+    pub stood: u64,
+    /// Collapsed.
+    pub collapsed: u64,
+    /// Could not be finished.
+    pub failed: u64,
+}
+
+impl Tally {
+    /// All of them.
+    pub fn runs(self) -> u64 {
+        self.stood + self.collapsed + self.failed
+    }
+
+    /// Counts these runs too.
+    pub fn count(&mut self, runs: &[Finished]) {
+        for finished in runs {
+            match finished.outcome() {
+                "stood" => self.stood += 1,
+                "collapsed" => self.collapsed += 1,
+                _ => self.failed += 1,
+            }
+        }
+    }
+}
+
+/// What simulates walls: a closure for one wall, so that a batch can be tested without the cost, or [`SideBySide`].
+pub trait Simulate {
+    /// Simulates one wall.
+    fn one(&self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response;
+
+    /// Whether [`simulate`] of several walls side by side is the same.
+    fn goes_side_by_side(&self) -> bool {
+        false
+    }
+}
+
+impl<F: Fn(&Wall, &Shaking, Accuracy) -> Response> Simulate for F {
+    fn one(&self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
+        self(wall, shaking, accuracy)
+    }
+}
+
+/// [`simulate`], of several walls side by side where there are several; the responses have the same bits.
+#[derive(Debug, Clone, Copy)]
+pub struct SideBySide;
+
+impl Simulate for SideBySide {
+    fn one(&self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response {
+        simulate(wall, shaking, accuracy)
+    }
+
+    fn goes_side_by_side(&self) -> bool {
+        true
+    }
+}
+
+/// Runs the runs at `positions` of a plan on the threads of the current pool: one result a position, in order,
+/// failed and collapsed ones too. Neighbouring positions mostly share the record.
+pub fn run_all(
+    plan: &Plan,
+    positions: Vec<u64>,
+    simulate: &(impl Simulate + Sync),
+    progress: &ProgressBar,
+) -> Vec<Finished> {
+    if simulate.goes_side_by_side() {
+        return run_side_by_side(plan, &positions, progress);
+    }
+    let one = |position| {
+        let finished = run_one(plan.run(position), simulate);
+        progress.inc(1);
+        finished
+    };
+    positions.into_par_iter().map(one).collect()
+}
+
+/// Runs one run; a façade that is no wall, or a panic of the simulator, is a failure of this run, not of the study.
+pub fn run_one(run: Run, simulate: &impl Simulate) -> Finished {
+    let planned = Finished::planned(run);
+    let outcome = catch_unwind(AssertUnwindSafe(|| match planned.run.growth() {
+        None => single(planned.clone(), simulate),
+        Some(&growth) => search_growing(planned.clone(), growth, |finished| single(finished, simulate)),
+    }));
+    outcome.unwrap_or_else(|panic| Finished { failure: Some(message_of(panic.as_ref())), ..planned })
+}
+
+/// Simulates a run at the factor it is at.
+fn single(finished: Finished, simulate: &impl Simulate) -> Finished {
+    let run = &finished.run;
+    let wall = match &run.wall {
+        Ok(wall) => wall,
+        Err(impossible) => return Finished { failure: Some(format!("no wall: {impossible}")), ..finished },
+    };
+    let response = simulate.one(wall, &run.shaking(), run.accuracy());
+    answered(finished, response)
+}
+
+/// A run with its response.
+fn answered(finished: Finished, response: Response) -> Finished {
+    let simulations = finished.simulations + 1;
+    Finished { failure: fault_of(&response), response: Some(response), simulations, ..finished }
+}
+
+/// Why a response cannot be used; none where it can.
+fn fault_of(response: &Response) -> Option<String> {
+    if let Outcome::Failed { reason, .. } = &response.outcome {
+        return Some(reason.clone());
+    }
+    let values = [
+        response.theta_max_rad[0].value,
+        response.theta_max_rad[1].value,
+        response.top_displacement_m.value,
+        response.energy.residual(),
+    ];
+    let finite = values.iter().all(|value| value.is_finite());
+    (!finite).then(|| "a result is not a finite number".to_owned())
+}
+
+fn message_of(panic: &(dyn std::any::Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied();
+    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    format!("panicked: {}", text.unwrap_or("without a message"))
+}
+
+/// Searches from a run that is at no intensity yet; `simulate` runs it at the factor it is at.
+fn search_growing(
+    planned: Finished,
+    growth: Growth,
+    mut simulate: impl FnMut(Finished) -> Finished,
+) -> Finished {
+    let measures = planned.run.record().intensity;
+    let mut simulations = 0;
+    let mut at = |intensity: f64| {
+        let mut trial = planned.clone();
+        trial.run.factor = growth.measure.factor_to(&measures, intensity);
+        trial.simulations = simulations;
+        let finished = simulate(trial);
+        simulations = finished.simulations;
+        finished
+    };
+    let mut judged = |intensity: f64| {
+        let trial = at(intensity);
+        exceeds(growth.limit, &trial).map(|exceeded| (exceeded, trial))
+    };
+    let ended = ended(growth.ladder().first_exceeding(&mut judged));
+    // All simulations count, those after the one that is kept too.
+    Finished { simulations, ..ended }
+}
+
+/// A run that ends the search before a bracket is found: it failed.
+type Failed = Box<Finished>;
+
+/// The run at the lowest intensity found to exceed the limit, at the last one where none did, or one that failed.
+fn ended(search: Result<Search<Finished>, Failed>) -> Finished {
+    let found = |exceeded, stood_intensity| Some(Found { exceeded, stood_intensity });
+    match search {
+        Err(failed) => *failed,
+        Ok(Search::Exceeded { below, trial, .. }) => Finished { found: found(true, below), ..trial },
+        Ok(Search::Stood { at, trial }) => Finished { found: found(false, at), ..trial },
+        Ok(Search::Always { trial }) => {
+            let reason = "the limit is exceeded at however low an intensity".to_owned();
+            Finished { failure: Some(reason), ..trial }
+        }
+    }
+}
+
+/// Whether a run exceeded the limit; a run that failed ends the search.
+fn exceeds(limit: Limit, trial: &Finished) -> Result<bool, Failed> {
+    let Some(response) = trial.usable() else { return Err(Box::new(trial.clone())) };
+    Ok(limit.exceeded_by(response))
+}
+
+/// As [`super::run_all`].
+fn run_side_by_side(plan: &Plan, positions: &[u64], progress: &ProgressBar) -> Vec<Finished> {
+    let next = AtomicUsize::new(0);
+    let done = rayon::broadcast(|_| {
+        let lane = Thread { plan, positions, next: &next, progress, done: RefCell::default() };
+        lane.run();
+        lane.done.into_inner()
+    });
+    let mut done: Vec<(usize, Finished)> = done.into_iter().flatten().collect();
+    done.sort_unstable_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, finished)| finished).collect()
+}
+
+/// What one thread does.
+struct Thread<'a> {
+    plan: &'a Plan,
+    positions: &'a [u64],
+    /// Index of the position that is next, of all threads.
+    next: &'a AtomicUsize,
+    progress: &'a ProgressBar,
+    done: RefCell<Vec<(usize, Finished)>>,
+}
+
+impl Thread<'_> {
+    fn run(&self) {
+        loop {
+            // Runs that have begun and not ended, by their index.
+            let at_work = RefCell::new(BTreeMap::new());
+            let all = catch_unwind(AssertUnwindSafe(|| self.run_side_by_side(&at_work)));
+            if all.is_ok() {
+                return;
+            }
+            // One of them panics: each once more, alone, to tell which; the thread then goes on.
+            for (index, finished) in at_work.into_inner() {
+                self.finish(index, run_one(finished.run, &SideBySide));
+            }
+        }
+    }
+
+    fn run_side_by_side(&self, at_work: &RefCell<BTreeMap<usize, Finished>>) {
+        let mut ready: Option<(Shaking, Simulator)> = None;
+        let mut next = || {
+            loop {
+                let index = self.next.fetch_add(1, Ordering::Relaxed);
+                let run = self.plan.run(*self.positions.get(index)?);
+                if run.growth().is_some() || run.wall.is_err() {
+                    // Searches go step by step; a façade that is no wall has nothing to run.
+                    self.finish(index, run_one(run, &SideBySide));
+                    continue;
+                }
+                // Noted before it is made ready, which may panic.
+                let mut at_work = at_work.borrow_mut();
+                let planned = at_work.entry(index).or_insert(Finished::planned(run));
+                return Some((index, prepare(&planned.run, &mut ready)?));
+            }
+        };
+        simulate_side_by_side(&mut next, &mut |index, response| {
+            if let Some(finished) = at_work.borrow_mut().remove(&index) {
+                self.finish(index, answered(finished, response));
+            }
+        });
+    }
+
+    fn finish(&self, index: usize, finished: Finished) {
+        self.done.borrow_mut().push((index, finished));
+        self.progress.inc(1);
+    }
+}
+
+/// Makes a run ready; the samples of the run before serve again where the shaking is the same.
+fn prepare(run: &crate::study::plan::Run, ready: &mut Option<(Shaking, Simulator)>) -> Option<Prepared> {
+    let (wall, shaking, accuracy) = (run.wall.as_ref().ok()?, run.shaking(), run.accuracy());
+    let simulator = match ready {
+        Some((before, simulator)) if before.shares_samples_with(&shaking) => {
+            simulator.with_wall(wall, accuracy)
+        }
+        _ => Simulator::new(wall, &shaking, accuracy),
+    };
+    let prepared = simulator.prepared();
+    *ready = Some((shaking, simulator));
+    Some(prepared)
+}
