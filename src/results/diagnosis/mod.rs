@@ -87,7 +87,6 @@ impl OutputNames {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use super::*;
     use mrbd_lab::diagnose::Verdict;
     use serde_json::{Value, json};
 
