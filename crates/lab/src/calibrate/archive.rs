@@ -1,9 +1,10 @@
 //! Every simulation of a calibration: kept in a journal as it goes, so that a stopped calibration can be resumed.
 //!
 //! A search is a pure function of its inputs and its seed. Resuming therefore runs it again from the start, and takes
-//! from the journal what was simulated before; the result is the same, bit by bit. Searches by the errors of every sample
-//! (Gauss-Newton, bootstrap) simulate again: their errors are thousands of numbers a run, which cost more to keep than
-//! to make. Counts do not depend on it: a simulation counts once, whether it was taken from the journal or made again.
+//! from the journal what was simulated before; the result is the same, bit by bit. Searches by the errors of every
+//! sample (Gauss-Newton, bootstrap) simulate again. Their errors are thousands of numbers a run, which cost more to
+//! keep than to make. Counts do not depend on it: a simulation counts once, whether it was taken from the journal or
+//! made again.
 //!
 //! The journal has a line of text a simulation, each whole or not there.
 
@@ -154,8 +155,8 @@ impl Archive {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).run_here
     }
 
-    /// All simulations, by method in the order of `methods`, test, generation and index; of one that was abandoned and
-    /// then asked for to its end, the latter.
+    /// All simulations, by method in the order of `methods`, test, generation and index. Of one that was abandoned
+    /// and later simulated to its end, the latter.
     pub fn rows(&self, methods: &[String]) -> Vec<Row> {
         let mut rows = self.kept.lock().unwrap_or_else(PoisonError::into_inner).rows.clone();
         let place = |row: &Row| methods.iter().position(|m| *m == row.address.method);

@@ -117,8 +117,8 @@ impl Bootstrap<'_> {
         blocks
     }
 
-    /// What was known beforehand of the variables that move, in the units of the errors' slopes: the cost is the sum of
-    /// their sizes times the prior's factor.
+    /// What was known beforehand of the variables that move, in the units of the errors' slopes. The cost is the sum
+    /// of their sizes times the prior's factor.
     fn prior(&self, ln: LnPrior, residuals: &[f64]) -> LnPrior {
         let cost = residuals.iter().map(|r| r.abs()).sum::<f64>();
         let free = |x: DVector<f64>| cost * x.select_rows(self.free);

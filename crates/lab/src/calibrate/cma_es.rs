@@ -1,8 +1,8 @@
 //! CMA-ES: a normal cloud that learns the shape of the valley it goes down.
 //!
-//! Source: N. Hansen (2016), "The CMA evolution strategy: a tutorial", arXiv:1604.00772, figure 6 and table 1 (without
-//! negative weights); names are the tutorial's. Variables run from 0 to 1 between their bounds; a point outside is
-//! simulated at the nearest point inside, and its cost raised by the square of its distance.
+//! Source: N. Hansen (2016), "The CMA evolution strategy: a tutorial", arXiv:1604.00772, figure 6 and table 1
+//! (without negative weights); names are the tutorial's. Variables run from 0 to 1 between their bounds. A point
+//! outside is simulated at the nearest point inside, and its cost raised by the square of its distance.
 //!
 //! Coefficients that act in turns are C_1 and C_2 in a burst of impacts at the crack. Their product is known long
 //! before either is: a narrow, slanting valley, which differential evolution crosses slowly.

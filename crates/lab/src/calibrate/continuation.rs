@@ -3,9 +3,9 @@
 //! The valley of a free-running test may be 1e-4 of a coefficient wide. Windows that begin anew from a noisy motion
 //! lead no nearer than some thousandths. From rest no noise is in the start, and every vector follows the measured
 //! motion for a while. The shorter the while, the wider its valley. So each test counts up to where the vector has
-//! left the measurement by more than its noise; Gauss-Newton lowers what counts, the vector follows farther, and so
+//! left the measurement by more than its noise. Gauss-Newton lowers what counts, the vector follows farther, and so
 //! on to the end. Slopes are taken along the axes of the valley as the last slopes showed it ([`Axes`]), over
-//! differences that cost little: as more counts they get smaller by themselves. Where the model cannot follow the
+//! differences that cost little. As more counts they get smaller by themselves. Where the model cannot follow the
 //! measurement to within the noise, it is let go farther off.
 
 use nalgebra::DMatrix;
@@ -28,8 +28,9 @@ const WIDEST: f64 = 0.1;
 /// Differences after the first idle iteration and after the next: wider ones may still see a way out of a kink that near
 /// ones do not.
 const AFTER_IDLE: [f64; 2] = [4.0, 0.4];
-/// The measurement is left where errors are so many times those of the noise; a vector that leaves it nowhere by more than
-/// the lesser has arrived: noise alone, over the samples looked at together, is five standard deviations off that.
+/// The measurement is left where errors are so many times those of the noise. A vector that leaves it nowhere by more
+/// than the lesser has arrived. Noise alone, over the samples looked at together, is five standard deviations off
+/// that.
 const LEFT: f64 = 2.0;
 const ARRIVED: f64 = 1.5;
 /// Whenever a vector that is let go is stuck, its errors may be so many times larger, up to so many times the noise.
@@ -238,8 +239,8 @@ fn noise_sizes(target: &Target) -> Vec<f64> {
 
 /// An iteration that neither lowers the cost by this share nor follows farther is idle.
 const SETTLED: f64 = 0.003;
-/// After so many idle iterations, or when so many have led less than this share of all samples farther, a track is stuck:
-/// those that arrive mostly do in 8 to 15.
+/// After so many idle iterations, or when so many have led less than this share of all samples farther, a track is
+/// stuck. Those that arrive mostly do in 8 to 15.
 const MOST_IDLE: usize = 3;
 const PATIENCE: usize = 5;
 const LEAST_PROGRESS: f64 = 0.02;

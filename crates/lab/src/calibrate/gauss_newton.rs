@@ -16,8 +16,8 @@ use mrbd_files::error::Result;
 
 /// Dampings, as shares of each variable's own curvature.
 const DAMPINGS: [f64; 8] = [1e-7, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0, 10.0];
-/// Half-widths of the central differences, as shares of the bounds: at first, and at least, where roundings and the
-/// roughness of a burst still do not show.
+/// Half-widths of the central differences, as shares of the bounds: at first, and at least. At the least, roundings
+/// and the roughness of a burst still do not show.
 const DIFFERENCE: [f64; 2] = [0.1, 0.005];
 /// The cloud is as wide as this share of the misfit more allows, and at most so wide, as a share of the bounds.
 const CLOUD_SHARE: f64 = 0.01;

@@ -175,8 +175,8 @@ struct Told {
 }
 
 impl Told {
-    /// From the lowest to the highest value of the replicates' middle 95 % and of the vectors that are not excluded: the
-    /// former know the noise, the latter the other valleys of a rough misfit.
+    /// From the lowest to the highest value of the replicates' middle 95 % and of the vectors that are not excluded.
+    /// The former know the noise, the latter the other local minima of a rough misfit.
     fn interval(&self, v: usize, value: f64) -> [f64; 2] {
         let values = self.vectors.iter().map(|w| w[v]).collect::<Vec<_>>();
         // No replicates widen nothing.

@@ -1,9 +1,9 @@
 //! The step to the least sum of sizes of errors that are linear in the values: one iteration of Gauss-Newton under Eq. 8.
 //!
 //! Iteratively reweighted least squares (P. W. Holland, R. E. Welsch (1977), "Robust regression using iteratively
-//! reweighted least-squares", Communications in Statistics A6), repeated until the weights are those of the errors that
-//! the step leaves. Repeating costs no simulation, and is what makes the step leave alone a window that went another way
-//! and follow all others: with the weights of the errors before the step, it is a compromise between them.
+//! reweighted least-squares", Communications in Statistics A6), repeated until the weights are those of the errors
+//! that the step leaves. Repeating costs no simulation. By it the step follows all windows but those that went
+//! another way. With the weights of the errors before the step it is a compromise between them.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -74,8 +74,9 @@ impl Linear {
         Some(step)
     }
 
-    /// Square root of the covariance of a normal cloud, in shares of the bounds, about the least by this linear model: a
-    /// vector of it costs this share more on the average of every direction; `widest` is its size where nothing tells.
+    /// Square root of the covariance of a normal cloud, in shares of the bounds, about the least by this linear
+    /// model. A vector of it costs this share more on the average of every direction. `widest` is its size where the
+    /// errors say nothing.
     pub fn cloud(&self, share: f64, widest: f64) -> Option<DMatrix<f64>> {
         let n = self.prior.slope.len();
         let (curvature, _) = self.normal(&self.residuals, median_size(&self.residuals));
@@ -87,8 +88,8 @@ impl Linear {
         precision.cholesky()?.l().transpose().try_inverse()
     }
 
-    /// Curvature and slope of the cost at no step, where an error weighs by the size it is left with; below the corner, where sizes
-    /// have theirs, as squares.
+    /// Curvature and slope of the cost at no step. An error weighs by the size it is left with; below the corner of a
+    /// size, as a square.
     fn normal(&self, left: &[f64], corner: f64) -> (DMatrix<f64>, DVector<f64>) {
         let n = self.prior.slope.len();
         let cost = self.unmoved + left.iter().map(|r| r.abs()).sum::<f64>();

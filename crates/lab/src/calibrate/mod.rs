@@ -1,11 +1,11 @@
 //! Calibration: coefficients and other numbers of a wall from measured rotations (the paper's section 3).
 //!
-//! In the order of the flow: an [`Experiment`] is read; for each test the paper's differential evolution ([`PaperDe`])
-//! minimises the WME ([`crate::experiment::misfit`]); cosine similarity ([`most_similar`]) picks the one vector for all tests.
-//! Beside it stands a stronger search ([`StagedSearch`]) in each test and in all tests jointly, with no more simulations:
-//! Gauss-Newton in windows that begin anew from the measured motion, then from rest over ever more of it. [`CmaEs`]
-//! on the WME itself comes last. Then comes what the tests can tell: counts of transitions, bootstrap intervals,
-//! correlations, and the dependence on the capture velocity.
+//! In the order of the flow, an [`Experiment`] is read. For each test the paper's differential evolution
+//! ([`PaperDe`]) minimises the WME ([`crate::experiment::misfit`]). Cosine similarity ([`most_similar`]) picks the
+//! one vector for all tests. Beside it stands a stronger search ([`StagedSearch`]), in each test and in all tests
+//! jointly, with no more simulations. It is Gauss-Newton in windows that begin anew from the measured motion, then
+//! from rest over ever more of it. [`CmaEs`] on the WME itself comes last. Then comes what the tests can tell: counts
+//! of transitions, bootstrap intervals, correlations, and the dependence on the capture velocity.
 
 mod archive;
 mod bootstrap;

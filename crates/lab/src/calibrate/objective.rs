@@ -158,7 +158,7 @@ pub fn simulate(
 
 /// exp(½ Σ z² / n), z in standard deviations known beforehand, n independent samples.
 ///
-/// With absolute errors after Laplace, of unknown size, -ln likelihood is n ln WME; adding ½ Σ z² for the prior and
+/// With absolute errors after Laplace, of unknown size, -ln likelihood is n ln WME. Adding ½ Σ z² for the prior and
 /// taking the n-th root gives this factor. One when nothing was known.
 pub fn prior_factor(parameters: &[Parameter], values: &[f64], independent_samples: f64) -> f64 {
     let z = |(p, x): (&Parameter, &f64)| p.prior_sd.map_or(0.0, |sd| (x - p.nominal) / sd);

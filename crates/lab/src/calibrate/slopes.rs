@@ -35,8 +35,8 @@ pub(super) fn sides(values: &[f64], differences: &[f64], bounds: &[Bounds]) -> V
     (0..bounds.len()).flat_map(|v| [side(v, -1.0), side(v, 1.0)]).collect()
 }
 
-/// Slopes of the errors, one row an error, one column a variable, over shares of the bounds; a side whose runs could not
-/// be finished is replaced by the middle, and the slope is zero where both are.
+/// Slopes of the errors, one row an error, one column a variable, over shares of the bounds. A side whose runs could
+/// not be finished is replaced by the middle. The slope is zero where both are.
 pub(super) fn slopes(
     values: &[f64],
     sides: &[Vec<f64>],

@@ -1,11 +1,11 @@
 //! The stronger search: windows, tracks that follow the measured motion, then CMA-ES about where they arrived.
 //!
-//! A free-running impact system forgets its coefficients behind chaos: over a long record the WME has many local minima.
-//! So the search begins in windows that begin anew from the measured motion before each impact
-//! ([`crate::experiment::Test::in_windows`]): there every coefficient acts in every part of every test, and the misfit is nearly
-//! smooth. Tracks ([`Track`]) begin where windows lead from several vectors on, and at vectors that windows hardly
-//! tell from these. A track is led to follow the measured motion from rest ever farther, up to the free-running
-//! tests, whose WME is Eq. 8. CMA-ES goes on about the best of them.
+//! A free-running impact system forgets its coefficients behind chaos: over a long record the WME has many local
+//! minima. So the search begins in windows, which begin anew from the measured motion before each impact
+//! ([`crate::experiment::Test::in_windows`]). There every coefficient acts in every part of every test, and the
+//! misfit is nearly smooth. Tracks ([`Track`]) begin where windows lead from several vectors on, and at vectors that
+//! windows hardly tell from these. A track is led to follow the measured motion from rest ever farther, up to the
+//! free-running tests, whose WME is Eq. 8. CMA-ES goes on about the best of them.
 
 use super::archive::Archive;
 use super::cma_es::CmaEs;
@@ -50,7 +50,7 @@ pub struct StagedSearch<'a> {
 }
 
 impl StagedSearch<'_> {
-    /// Searches from a vector on until the budget is spent or nothing is left to find; what is found is the best of the
+    /// Searches from a vector on until the budget is spent or nothing is left to find. The result is the best over
     /// free-running tests, with all evaluations counted.
     ///
     /// # Errors
@@ -112,8 +112,8 @@ impl StagedSearch<'_> {
         }
     }
 
-    /// Gauss-Newton in windows that begin anew from the measured motion; gives the vectors it took, none where windows
-    /// would reach over the whole of every test.
+    /// Gauss-Newton in windows that begin anew from the measured motion. Gives the vectors it took; none where
+    /// windows would reach over the whole of every test.
     fn in_windows(&self, number: usize, at: &mut GaussNewton) -> Result<usize> {
         let Ok(wall) = self.space.wall(&at.values) else { return Ok(0) };
         let mut tests = self.experiment.tests.clone();

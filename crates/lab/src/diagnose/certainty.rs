@@ -7,7 +7,7 @@
 use super::fit::{Fit, Loss, WindowSlopes};
 use super::hypothesis::Addition;
 pub use super::next_tests::{NextPull, NextShaking, NextTests, next_tests};
-use super::trials::{Data, Tried};
+use super::trials::{Data, FittedHypothesis};
 use crate::limits::{DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
 use mrbd_kernel::model::Wall;
 use nalgebra::{DMatrix, DVector};
@@ -22,9 +22,9 @@ const NINETY_PERCENT: f64 = 1.644_853_626_951_472_2;
 
 /// 90 % intervals of the values of a fitted hypothesis; all that a number may be where the tests do not tell.
 ///
-/// From the curvature of the loss at the fit, and from how far the tests pull it apart (an infinitesimal jackknife over
-/// tests): the first does not know that the windows of a test err together.
-pub fn intervals(data: &Data, tried: &Tried) -> Vec<[f64; 2]> {
+/// From the curvature of the loss at the fit, and from how far single tests move it (an infinitesimal jackknife over
+/// tests). The curvature alone does not know that the windows of a test err together.
+pub fn intervals(data: &Data, tried: &FittedHypothesis) -> Vec<[f64; 2]> {
     let variance = variances(data, tried);
     let interval = |(i, value): (usize, &f64)| {
         let half = NINETY_PERCENT * variance.as_ref().map_or(f64::INFINITY, |v| v[i].sqrt());
@@ -35,7 +35,7 @@ pub fn intervals(data: &Data, tried: &Tried) -> Vec<[f64; 2]> {
 }
 
 /// `None` where the curvature cannot be told; infinite where a number leaves no trace.
-fn variances(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
+fn variances(data: &Data, tried: &FittedHypothesis) -> Option<Vec<f64>> {
     let count = tried.fit.values.len();
     if count == 0 {
         return Some(Vec::new());
@@ -97,11 +97,11 @@ const DRAWS: usize = 8;
 /// Seed of the draws.
 const SEED: u64 = 11;
 
-/// The wall as fitted, and walls drawn from the covariance of the fit, within bounds; the fitted one alone where the fit
-/// leaves no covariance. `None` if the fitted numbers are no wall.
+/// The wall as fitted, and walls drawn from the covariance of the fit, within bounds. Without a covariance the fitted
+/// one is alone. `None` if the fitted numbers are no wall.
 ///
 /// An impact system is nearly chaotic: the error of one whole run says little without those of its neighbours.
-pub fn ensemble(tried: &Tried) -> Option<Vec<Wall>> {
+pub fn ensemble(tried: &FittedHypothesis) -> Option<Vec<Wall>> {
     let h = &tried.hypothesis;
     let fitted = DVector::from_column_slice(&tried.fit.values);
     let mut walls = vec![h.physics(&tried.fit.values)?.wall];
@@ -118,8 +118,8 @@ pub fn ensemble(tried: &Tried) -> Option<Vec<Wall>> {
 
 /// Changes over which slopes are taken, in standard deviations of a number: well inside what the tests can tell.
 const CHANGE_SD: f64 = 1.0;
-/// A window whose change over half of that differs from half its change by more than this share is not linear there: an impact
-/// that is met on one side of the change only is no trace of anything. Chosen.
+/// Half of a number's change should make half of the window's change. A window where it differs by more than this
+/// share is not linear there. An impact on one side of the change only is no trace of anything. Chosen.
 const BENT: f64 = 0.25;
 
 /// An effect that another imitates in these tests.
@@ -147,16 +147,16 @@ pub struct Confused {
 
 /// How the windows change with the numbers of one addition.
 struct Trace<'t> {
-    tried: &'t Tried,
+    tried: &'t FittedHypothesis,
     /// Of every window; `None` where it is not linear.
     slopes: Vec<Option<WindowSlopes>>,
 }
 
 /// Every effect of one number with what imitates most of it, the best imitated first.
 ///
-/// Linear about the wall with its own numbers fitted. Effects of several numbers stand only as imitators; those that leave
-/// no trace when they are small, such as a spring that yields at once, do not stand at all.
-pub fn confused(data: &Data, recalibrated: &Tried, tried: &[Tried]) -> Vec<Confused> {
+/// Linear about the wall with its own numbers fitted. Effects of several numbers are listed only as imitators. Those
+/// that leave no trace when they are small are not listed, such as a spring that yields at once.
+pub fn confused(data: &Data, recalibrated: &FittedHypothesis, tried: &[FittedHypothesis]) -> Vec<Confused> {
     let singles = tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
     let real = singles.filter(|t| t.hypothesis.additions[0] != Addition::Placebo).collect::<Vec<_>>();
     let traces = real.par_iter().filter_map(|t| trace(data, recalibrated, t)).collect::<Vec<_>>();
@@ -167,7 +167,7 @@ pub fn confused(data: &Data, recalibrated: &Tried, tried: &[Tried]) -> Vec<Confu
     all
 }
 
-fn trace<'t>(data: &Data, recalibrated: &Tried, tried: &'t Tried) -> Option<Trace<'t>> {
+fn trace<'t>(data: &Data, recalibrated: &FittedHypothesis, tried: &'t FittedHypothesis) -> Option<Trace<'t>> {
     let h = &tried.hypothesis;
     // The wall's own numbers as they were fitted, and nothing added.
     let values = h.values_from(&recalibrated.hypothesis, &recalibrated.fit.values);
@@ -221,8 +221,8 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
     })
 }
 
-/// Inverse variance of an effect's number beside the wall's own uncertain numbers and the first few of another addition, in
-/// the windows in which both are linear; `None` where it leaves no trace.
+/// Inverse variance of an effect's number in the windows in which both are linear. Beside it are free the wall's own
+/// uncertain numbers and the first few of another addition. `None` where it leaves no trace.
 fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
     let h = &effect.tried.hypothesis;
     let (own, at) = (h.nuisances, h.nuisances);

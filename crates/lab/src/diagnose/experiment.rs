@@ -144,8 +144,8 @@ struct Readings<'a> {
 
 /// Windowed error of the wall as given in a test, and by every misreading put right.
 struct Errors {
-    /// As it stands, or without a gain between its channels if that leaves less: a gain makes a closed crack look open, to the
-    /// other side once they are swapped.
+    /// As it stands, or without a gain between its channels if that leaves less. A gain makes a closed crack look
+    /// open, and to the other side once the channels are swapped.
     as_it_stands: f64,
     put_right: [Option<f64>; MISREADINGS.len()],
 }

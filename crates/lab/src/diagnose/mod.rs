@@ -33,7 +33,9 @@ pub use answer::Diagnosis;
 use answer::Findings;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
-use trials::{Alone, Data, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain};
+use trials::{
+    Data, FirstFits, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain,
+};
 pub use verdict::Verdict;
 use verdict::judge;
 
@@ -52,24 +54,24 @@ pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Dia
 /// As [`diagnose`].
 pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Result<Findings<'e>> {
     let mut flow = Flow { experiment, progress, tests: experiment.tests.clone() };
-    let (mut windows, mut alone) = flow.try_alone()?;
+    let (mut windows, mut first_fits) = flow.try_first_fits()?;
     for _ in 0..READ_AGAIN {
-        let Some(gain) = alone.singles.first().and_then(|best| gain_misread(&flow.tests, best)) else {
+        let Some(gain) = first_fits.singles.first().and_then(|best| gain_misread(&flow.tests, best)) else {
             break;
         };
         let before = set_gain(&mut flow.tests, gain);
-        let (new_windows, new) = flow.try_alone()?;
-        if !reads_better(&alone.singles, &new.singles) {
+        let (new_windows, new) = flow.try_first_fits()?;
+        if !reads_better(&first_fits.singles, &new.singles) {
             set_gain(&mut flow.tests, before);
             break;
         }
-        (windows, alone) = (new_windows, new);
+        (windows, first_fits) = (new_windows, new);
     }
-    if let Some(new_windows) = opened_windows(&Data::new(&flow.tests, &windows), &alone) {
-        alone = flow.alone_in(&new_windows, Some(&alone.recalibrated.fit.values))?;
+    if let Some(new_windows) = opened_windows(&Data::new(&flow.tests, &windows), &first_fits) {
+        first_fits = flow.first_fits_in(&new_windows, Some(&first_fits.recalibrated.fit.values))?;
         windows = new_windows;
     }
-    let found = judge(&flow.trials(&windows), alone);
+    let found = judge(&flow.trials(&windows), first_fits);
     Ok(Findings { experiment, tests: flow.tests, windows, found })
 }
 
@@ -82,17 +84,17 @@ struct Flow<'e, P> {
 
 impl<P: Progress> Flow<'_, P> {
     /// Windows of the tests, and what effects do to them one by one.
-    fn try_alone(&self) -> Result<([Vec<Window>; 2], Alone)> {
+    fn try_first_fits(&self) -> Result<([Vec<Window>; 2], FirstFits)> {
         let (fit, held_out) = windows(&self.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
         let windows: [Vec<Window>; 2] = [fit, held_out];
         let opened = opened_as_given(self.experiment, &Data::new(&self.tests, &windows));
         let windows = opened.unwrap_or(windows);
-        let alone = self.alone_in(&windows, None)?;
-        Ok((windows, alone))
+        let first_fits = self.first_fits_in(&windows, None)?;
+        Ok((windows, first_fits))
     }
 
     /// What effects do to windows one by one, where values of the wall's uncertain numbers may be known from other windows.
-    fn alone_in(&self, windows: &[Vec<Window>; 2], known: Option<&[f64]>) -> Result<Alone> {
+    fn first_fits_in(&self, windows: &[Vec<Window>; 2], known: Option<&[f64]>) -> Result<FirstFits> {
         let no_window = || {
             let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
             let found = "no window that starts in a pattern beyond doubt";
@@ -101,7 +103,7 @@ impl<P: Progress> Flow<'_, P> {
         if !self.tests.iter().any(|test| test.purpose == Purpose::Fit && is_readable(test)) {
             return Err(no_window().into());
         }
-        Ok(self.trials(windows).alone(known).ok_or_else(no_window)?)
+        Ok(self.trials(windows).first_fits(known).ok_or_else(no_window)?)
     }
 
     /// Where hypotheses are tried.

@@ -7,7 +7,7 @@
 use super::answer::Findings;
 use super::fit::{Fit, Problem, nats, shaken, windowed_error};
 use super::hypothesis::Addition;
-use super::trials::{Tried, against, kinds};
+use super::trials::{FittedHypothesis, against, kinds};
 use super::verdict::Verdict;
 use crate::experiment::Sampled;
 use crate::experiment::{TestData, Window, windows};
@@ -83,29 +83,30 @@ pub fn next_tests(findings: &Findings) -> Option<NextTests> {
     Some(NextTests { rivals: [first, second].map(name), shaking, pull: pair.pulls()? })
 }
 
-fn name(tried: &Tried) -> String {
+fn name(tried: &FittedHypothesis) -> String {
     let names = tried.hypothesis.additions.iter().map(Addition::name).collect::<Vec<_>>();
     if names.is_empty() { "the wall's own numbers".into() } else { names.join(" + ") }
 }
 
 /// The best of what explains the tests as well; the wall's own numbers where no addition does.
-fn nearest_rival<'f>(findings: &'f Findings) -> &'f Tried {
+fn nearest_rival<'f>(findings: &'f Findings) -> &'f FittedHypothesis {
     let (data, found) = (findings.data(), &findings.found);
     let limit = against(&data, &found.after) + EQUIVALENT;
-    let other =
-        |t: &&Tried| !t.hypothesis.additions.contains(&Addition::Placebo) && kinds(t) != kinds(&found.after);
+    let other = |t: &&FittedHypothesis| {
+        !t.hypothesis.additions.contains(&Addition::Placebo) && kinds(t) != kinds(&found.after)
+    };
     let rival = found.tried.iter().filter(other).find(|t| against(&data, t) < limit);
     rival.unwrap_or(&found.recalibrated)
 }
 
 struct Pair<'a> {
     findings: &'a Findings<'a>,
-    first: &'a Tried,
-    second: &'a Tried,
+    first: &'a FittedHypothesis,
+    second: &'a FittedHypothesis,
 }
 
 /// A simulated test and its windows, numbered after those of the experiment.
-struct Made {
+struct SimulatedTest {
     tests: Vec<TestData>,
     windows: Vec<Window>,
     /// What speaks against the first in it.
@@ -113,7 +114,7 @@ struct Made {
 }
 
 impl Pair<'_> {
-    fn candidates(&self) -> Vec<(NextShaking, Option<Made>)> {
+    fn candidates(&self) -> Vec<(NextShaking, Option<SimulatedTest>)> {
         let tests = self.findings.tests.iter();
         let each = tests.flat_map(|test| NEXT_FACTORS.map(|factor| (test, factor)));
         // The tests there are have told what they can.
@@ -122,7 +123,7 @@ impl Pair<'_> {
     }
 
     /// One candidate, the second hypothesis with its values as they are.
-    fn candidate(&self, test: &TestData, factor: f64) -> (NextShaking, Option<Made>) {
+    fn candidate(&self, test: &TestData, factor: f64) -> (NextShaking, Option<SimulatedTest>) {
         let mut row = NextShaking {
             test: test.name.clone(),
             scale: factor,
@@ -131,7 +132,7 @@ impl Pair<'_> {
             nats: None,
             fitted: false,
         };
-        let made = self.made(test, factor, &mut row.outcome);
+        let made = self.simulated(test, factor, &mut row.outcome);
         if let Some(made) = &made
             && let Some(fit) = states(made, self.second, &self.second.fit.values)
         {
@@ -142,7 +143,7 @@ impl Pair<'_> {
     }
 
     /// The first hypothesis under a scaled record, as it would be measured.
-    fn made(&self, test: &TestData, factor: f64, outcome: &mut String) -> Option<Made> {
+    fn simulated(&self, test: &TestData, factor: f64, outcome: &mut String) -> Option<SimulatedTest> {
         let physics = self.first.hypothesis.physics(&self.first.fit.values)?;
         let scaled = |record: &Accelerogram| record.scaled(factor);
         let shaking = Shaking {
@@ -169,14 +170,14 @@ impl Pair<'_> {
         windows.iter_mut().for_each(|w| w.test = self.findings.tests.len());
         let mut tests = self.findings.tests.clone();
         tests.push(made);
-        let mut made = Made { tests, windows, first_nats: 0.0 };
+        let mut made = SimulatedTest { tests, windows, first_nats: 0.0 };
         let own = states(&made, self.first, &self.first.fit.values)?;
         made.first_nats = nats(&own.windows);
         Some(made)
     }
 
     /// The second hypothesis fitted to the tests to fit and to a simulated one.
-    fn fitted(&self, row: &NextShaking, made: &Made) -> Option<NextShaking> {
+    fn fitted(&self, row: &NextShaking, made: &SimulatedTest) -> Option<NextShaking> {
         let old = &self.findings.windows[0];
         let windows = [&old[..], &made.windows].concat();
         let problem = Problem { tests: &made.tests, windows: &windows };
@@ -185,7 +186,7 @@ impl Pair<'_> {
         let x = second.fit.windows.iter().chain(&new.windows).map(|w| w.x.clone()).collect::<Vec<_>>();
         let start = problem.states(&second.hypothesis, &second.fit.values, &x, 1, false)?;
         let fit = problem.fit_finely(&second.hypothesis, start)?;
-        let cost = |tried: &Tried, values: &[f64]| 0.5 * tried.hypothesis.prior_penalty(values);
+        let cost = |tried: &FittedHypothesis, values: &[f64]| 0.5 * tried.hypothesis.prior_penalty(values);
         let first = nats(&self.first.fit.windows) + cost(self.first, &self.first.fit.values);
         let both = nats(&fit.windows) + cost(second, &fit.values);
         Some(NextShaking {
@@ -197,7 +198,9 @@ impl Pair<'_> {
     }
 
     fn pulls(&self) -> Option<Vec<NextPull>> {
-        let wall = |tried: &Tried| Some(RockingWall::new(&tried.hypothesis.physics(&tried.fit.values)?.wall));
+        let wall = |tried: &FittedHypothesis| {
+            Some(RockingWall::new(&tried.hypothesis.physics(&tried.fit.values)?.wall))
+        };
         let walls = [wall(self.first)?, wall(self.second)?];
         let thickness_m = self.findings.experiment.wall.parameters().thickness_m;
         let pull = |share: f64| {
@@ -210,7 +213,7 @@ impl Pair<'_> {
 }
 
 /// The states of the windows of a simulated test under a hypothesis.
-fn states(made: &Made, tried: &Tried, values: &[f64]) -> Option<Fit> {
+fn states(made: &SimulatedTest, tried: &FittedHypothesis, values: &[f64]) -> Option<Fit> {
     let problem = Problem { tests: &made.tests, windows: &made.windows };
     problem.states(&tried.hypothesis, values, &problem.measured_states(), 4, true)
 }

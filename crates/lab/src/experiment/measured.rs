@@ -68,8 +68,8 @@ impl Measured {
         Ok(Self { time_s, theta_rad, gap_s, collapse_s: None, columns: columns.names })
     }
 
-    /// The same in the record's time, of which `start_s` is the measurement's zero; the collapse is the one given, in the
-    /// record's time, or where a rotation first passes its collapse rotation.
+    /// The same in the record's time, of which `start_s` is the measurement's zero. The collapse is the one given, in
+    /// the record's time, or where a rotation first passes its collapse rotation.
     #[must_use]
     pub fn moved(mut self, start_s: f64, collapse_s: Option<f64>, wall: &Wall) -> Self {
         self.time_s.iter_mut().for_each(|t| *t += start_s);
@@ -77,8 +77,8 @@ impl Measured {
         self
     }
 
-    /// Times, s, and rotations, rad, from the beginning of the record until the wall fell; NaN where a sample is missing or
-    /// lies in none of these windows of time, s; no windows: all count.
+    /// Times, s, and rotations, rad, from the beginning of the record until the wall fell. NaN where a sample is
+    /// missing or lies in none of these windows of time, s. Without windows all count.
     pub fn counted(&self, windows_s: &[[f64; 2]]) -> (Vec<f64>, Vec<Pair>) {
         let end_s = self.collapse_s.unwrap_or(f64::INFINITY);
         let counts =

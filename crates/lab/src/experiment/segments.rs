@@ -1,8 +1,9 @@
 //! A test in segments that start anew from the measured motion.
 //!
-//! A free-running impact system forgets: after some impacts a small error of a coefficient, or of the model, is a large
-//! one of the motion, and Eq. 8 over a whole test is a rough function with many local minima. Each segment starts from the
-//! measured motion just before some impacts. Its error tells of these alone, and the sum over all segments is smooth.
+//! A free-running impact system forgets. After some impacts a small error of a coefficient, or of the model, is a
+//! large one of the motion. So Eq. 8 over a whole test is a rough function with many local minima. Each segment
+//! starts from the measured motion just before some impacts. Its error tells of these alone, and the sum over all
+//! segments is smooth.
 //!
 //! These are not the windows of a diagnosis ([`super::Window`]): those need noise and even sampling, and their states
 //! are fitted with every hypothesis. A search by Eq. 8 must also serve a sparse measurement and one without noise. So

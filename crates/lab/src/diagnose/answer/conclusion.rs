@@ -15,7 +15,7 @@ use super::summary::{
 use crate::diagnose::certainty::{confused, ensemble, intervals, next_tests};
 use crate::diagnose::fit::{WindowFit, windowed_error};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Physics};
-use crate::diagnose::trials::{FRICTION, Tried, against, giving_friction, joint_error, kinds};
+use crate::diagnose::trials::{FRICTION, FittedHypothesis, against, giving_friction, joint_error, kinds};
 use crate::diagnose::verdict::{Verdict, names, power};
 use crate::experiment::TestData;
 use crate::experiment::{Purpose, Test};
@@ -90,7 +90,7 @@ impl Findings<'_> {
     fn could_hide(&self) -> Vec<CouldHide> {
         let data = self.data();
         let singles = self.found.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
-        let row = |tried: &Tried| {
+        let row = |tried: &FittedHypothesis| {
             let power = power(&data, &self.found.recalibrated, tried)?;
             let h = &tried.hypothesis;
             let unknown = &h.unknowns[h.nuisances];
@@ -114,7 +114,7 @@ impl Findings<'_> {
         self.found.tried.iter().zip(1..).flat_map(|(tried, rank)| self.rows_of_rival(tried, rank)).collect()
     }
 
-    fn rows_of_rival(&self, tried: &Tried, rank: u64) -> Vec<RivalRow> {
+    fn rows_of_rival(&self, tried: &FittedHypothesis, rank: u64) -> Vec<RivalRow> {
         let data = self.data();
         let h = &tried.hypothesis;
         let row = |i: usize| RivalRow {
@@ -134,7 +134,7 @@ impl Findings<'_> {
 }
 
 /// One effect of an answer.
-fn found_effect(after: &Tried, intervals: &[[f64; 2]], index: usize) -> FoundEffect {
+fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) -> FoundEffect {
     let (h, values) = (&after.hypothesis, &after.fit.values);
     let addition = &h.additions[index];
     let numbers = |keys: &[(String, usize)]| {
@@ -167,7 +167,7 @@ fn found_effect(after: &Tried, intervals: &[[f64; 2]], index: usize) -> FoundEff
 }
 
 /// Fitted numbers of the wall with their standard deviations, and what they were.
-fn wall_fits(tried: &Tried) -> Vec<WallFit> {
+fn wall_fits(tried: &FittedHypothesis) -> Vec<WallFit> {
     let h = &tried.hypothesis;
     let own: Range<usize> = 0..h.nuisances;
     let number = |i: usize| WallFit {
@@ -191,7 +191,7 @@ pub(super) fn name_of(h: &Hypothesis) -> String {
 }
 
 /// Standard deviation of a fitted number; `None` where it leaves no trace.
-pub(super) fn sd(tried: &Tried, i: usize) -> Option<f64> {
+pub(super) fn sd(tried: &FittedHypothesis, i: usize) -> Option<f64> {
     finite(tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt()))
 }
 
@@ -221,14 +221,14 @@ impl Findings<'_> {
     }
 
     /// Windowed error of a hypothesis in one test.
-    fn test_error(&self, tried: &Tried, test: usize) -> Option<f64> {
+    fn test_error(&self, tried: &FittedHypothesis, test: usize) -> Option<f64> {
         let both = self.windows.iter().zip([&tried.fit.windows, &tried.held_out.windows]);
         let own = both.flat_map(|(w, f)| w.iter().zip(f)).filter(|(w, _)| w.test == test);
         finite(windowed_error(&own.map(|(_, fit)| fit.clone()).collect::<Vec<WindowFit>>()))
     }
 
     /// One hypothesis that was tried, with the figures of every other.
-    pub(super) fn rival(&self, tried: &Tried) -> Rival {
+    pub(super) fn rival(&self, tried: &FittedHypothesis) -> Rival {
         let h = &tried.hypothesis;
         let number = |i: usize| FittedNumber {
             key: h.unknowns[i].key.clone(),
@@ -253,7 +253,7 @@ impl Findings<'_> {
     }
 
     /// Errors over whole runs of the tests to fit and held out, of the fitted wall first and then of those that fit as well.
-    fn ensemble_wme(&self, tried: &Tried) -> [Vec<Option<f64>>; 2] {
+    fn ensemble_wme(&self, tried: &FittedHypothesis) -> [Vec<Option<f64>>; 2] {
         // The vertical motion of the placebo is not in its wall.
         let is_placebo = tried.hypothesis.additions.contains(&Addition::Placebo);
         let walls = if is_placebo { Vec::new() } else { ensemble(tried).unwrap_or_default() };

@@ -13,7 +13,7 @@ pub mod summary;
 mod updated_wall;
 
 use super::experiment::Experiment;
-use super::trials::{Data, Tried};
+use super::trials::{Data, FittedHypothesis};
 use super::verdict::Found;
 use crate::experiment::{TestData, Window};
 use mrbd_files::error::{InputError, Result};
@@ -41,7 +41,7 @@ impl Diagnosis {
     /// # Errors
     /// An input error of the wall file if its fitted numbers make no wall, or cannot be written.
     pub fn new(findings: &Findings) -> Result<Self> {
-        let physics = |tried: &Tried| tried.hypothesis.physics(&tried.fit.values);
+        let physics = |tried: &FittedHypothesis| tried.hypothesis.physics(&tried.fit.values);
         let [before, after] = findings.before_and_kept().map(physics);
         let no_wall = || {
             let path = &findings.experiment.wall_path;
@@ -84,12 +84,15 @@ impl Findings<'_> {
     }
 
     /// The wall as given, and the wall of the answer: as given where there is none.
-    pub fn before_and_kept(&self) -> [&Tried; 2] {
+    pub fn before_and_kept(&self) -> [&FittedHypothesis; 2] {
         [&self.found.before, self.found.kept()]
     }
 
     /// Windows to fit and held out, each with its fitted state under a hypothesis.
-    pub fn windows_of<'t>(&'t self, tried: &'t Tried) -> impl Iterator<Item = (&'t Window, &'t [f64])> {
+    pub fn windows_of<'t>(
+        &'t self,
+        tried: &'t FittedHypothesis,
+    ) -> impl Iterator<Item = (&'t Window, &'t [f64])> {
         let sides = self.windows.iter().zip([&tried.fit.windows, &tried.held_out.windows]);
         sides.flat_map(|(windows, fits)| windows.iter().zip(fits.iter().map(|fit| &fit.x[..])))
     }

@@ -11,7 +11,7 @@ use crate::diagnose::force::{
     stretches,
 };
 use crate::diagnose::hypothesis::Physics;
-use crate::diagnose::trials::Tried;
+use crate::diagnose::trials::FittedHypothesis;
 use crate::experiment::TestData;
 use crate::experiment::{Purpose, Sampled, Window};
 use mrbd_kernel::model::{Contact, Pair, Pivot, RockingWall};
@@ -260,7 +260,7 @@ impl Findings<'_> {
 }
 
 /// Windows to fit, then those held out.
-fn fits_of(tried: &Tried) -> Vec<&WindowFit> {
+fn fits_of(tried: &FittedHypothesis) -> Vec<&WindowFit> {
     tried.fit.windows.iter().chain(&tried.held_out.windows).collect()
 }
 

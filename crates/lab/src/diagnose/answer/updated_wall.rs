@@ -5,7 +5,7 @@ use toml::{Table, Value};
 use super::Findings;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{WALL_NUMBERS, WallNumber};
-use crate::diagnose::trials::Tried;
+use crate::diagnose::trials::FittedHypothesis;
 use mrbd_files::error::InputError;
 use mrbd_kernel::model::WallParameters;
 
@@ -20,7 +20,7 @@ impl Findings<'_> {
 }
 
 /// The text of the wall file with the numbers and effects of a fitted hypothesis.
-fn updated_wall_toml(experiment: &Experiment, after: &Tried) -> Result<String, InputError> {
+fn updated_wall_toml(experiment: &Experiment, after: &FittedHypothesis) -> Result<String, InputError> {
     let path = &experiment.wall_path;
     let mut table = experiment.wall_table.clone();
     let (h, values) = (&after.hypothesis, &after.fit.values);

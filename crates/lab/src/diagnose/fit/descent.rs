@@ -27,8 +27,8 @@ pub const COARSE: Patience = Patience { steps: 5, little: 1.0, little_share: 2e-
 const FIRST_DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 10.0;
 const TRIES: usize = 5;
-/// Longest step of a number, as a multiple of its size or of a size that matters: without it one that leaves no trace is tried
-/// at its bounds, where dampers are so stiff that a fit takes minutes.
+/// Longest step of a number, as a multiple of its size or of a size that matters. Without it a number that leaves no
+/// trace is tried at its bounds, where dampers are so stiff that a fit takes minutes.
 const MOST_OF_SIZE: f64 = 10.0;
 
 impl Problem<'_> {
@@ -218,8 +218,8 @@ impl Neighbour<'_> {
 }
 
 impl Problem<'_> {
-    /// How each window of a fit changes with the values, and the changes of the values over which that was taken: the
-    /// given ones, or fitting ones. `None` if a neighbour is no wall.
+    /// How each window of a fit changes with the values, and over which changes of the values that was taken. These
+    /// are the given ones, or fitting ones. `None` if a neighbour is no wall.
     pub fn slopes(
         &self,
         h: &Hypothesis,
@@ -287,8 +287,8 @@ fn first_changes(h: &Hypothesis) -> Vec<f64> {
     h.unknowns.iter().map(change).collect()
 }
 
-/// Changes of the numbers over which the next sensitivities are taken: small beside the noise in most windows that a number
-/// shows in at all; an impact of a rare kind does in few.
+/// Changes of the numbers over which the next sensitivities are taken. They are small beside the noise in most
+/// windows in which a number shows at all. An impact of a rare kind shows in few.
 fn next_changes(h: &Hypothesis, linear: &[Linear]) -> Vec<f64> {
     let of = |(i, unknown): (usize, &Unknown)| {
         let [least, most] = CHANGE_SHARES.map(|share| share * unknown.scale);

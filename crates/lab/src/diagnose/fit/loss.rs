@@ -37,8 +37,8 @@ impl Loss {
         Loss::Noise((3.0 * two_thirds(reduced)).max(FIRST_BOUND))
     }
 
-    /// The loss in which starts are compared that set out from windows with these: a gap far above the noise must not leave
-    /// every start at the bound.
+    /// The loss in which starts from such windows are compared. A gap far above the noise must not leave every start
+    /// at the bound.
     pub fn of_starts(reduced: Vec<f64>) -> Loss {
         Loss::Noise((3.0 * two_thirds(reduced)).max(NEAR_BOUND))
     }
@@ -94,8 +94,9 @@ pub fn poor_share(fits: &[WindowFit]) -> f64 {
 
 /// Excess of the share of missed windows among those held out over that among those fitted, in standard deviations.
 ///
-/// Both are taken for samples of one population. Its share is estimated with one missed and one followed window more than
-/// there are: a few windows of which none is missed do not make it zero. 0 without windows of either kind.
+/// Both are taken for samples of one population. Its share is estimated with one missed and one followed window more
+/// than there are. So a few windows of which none is missed do not make it zero. It is 0 without windows of either
+/// kind.
 pub fn more_poor_held_out_sd(fitted: &[WindowFit], held_out: &[WindowFit]) -> f64 {
     if fitted.is_empty() || held_out.is_empty() {
         return 0.0;
@@ -106,8 +107,8 @@ pub fn more_poor_held_out_sd(fitted: &[WindowFit], held_out: &[WindowFit]) -> f6
     (q - p) / (all * (1.0 - all) * (1.0 / n + 1.0 / m)).sqrt()
 }
 
-/// What the windows say against a hypothesis, in natural logarithms of likelihood: half the squared error above that of
-/// noise, bounded for each window, so that no window decides alone.
+/// What the windows say against a hypothesis, in natural logarithms of likelihood. It is half the squared error above
+/// that of noise. Each window is bounded, so that none decides alone.
 pub fn nats(fits: &[WindowFit]) -> f64 {
     fits.iter().map(nats_of).sum()
 }

@@ -88,8 +88,8 @@ impl Problem<'_> {
         self.windows.iter().zip(fit.windows.iter().map(|state| &state.x[..])).collect()
     }
 
-    /// The states of a fit moved by one step with the chords of another hypothesis nearby, where that helps: a cheap look
-    /// at what values would do; `None` if there is no such wall.
+    /// The states of a fit moved by one step with the Jacobians of another hypothesis nearby, where that helps. It is
+    /// a cheap look at what values would do. `None` if there is no such wall.
     pub fn glance(&self, h: &Hypothesis, values: &[f64], from: &Fit, chords: &[DMatrix<f64>]) -> Option<Fit> {
         let replay = Replay::new(self.tests, &h.physics(values)?);
         let look = |these: &[(InState, &DMatrix<f64>)]| {
@@ -130,9 +130,9 @@ impl Problem<'_> {
         Some(found)
     }
 
-    /// Looks for other states of the windows that are followed badly: those measured, for what was fitted under a model far
-    /// from the truth need not be near it; and others, unless the model misses most windows: then it is not in the wrong valley
-    /// of each.
+    /// Looks for other states of the windows that are followed badly. Measured states are tried, for a fit under a
+    /// model far from the truth need not be near them. Others are tried unless the model misses most windows: it
+    /// cannot be in the wrong minimum of each.
     fn search(&self, replay: &Replay, found: &mut Fit, steps: usize) {
         self.retried(found, |poor| {
             let measured = poor.iter().map(|(window, _)| (*window, window.measured.clone()));

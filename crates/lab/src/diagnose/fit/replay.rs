@@ -37,8 +37,9 @@ impl<'a> Replay<'a> {
         Self { tests, simulators, springs }
     }
 
-    /// Measured less simulated rotations of windows, each from a state, over the noise: θ_1 and θ_2 of each sample in turn; zero
-    /// where none was measured. Simulated side by side, which changes nothing but the time it takes.
+    /// Measured less simulated rotations of windows, each from a state, over the noise. θ_1 and θ_2 of each sample
+    /// stand in turn; zero where none was measured. Simulated side by side, which changes nothing but the time it
+    /// takes.
     pub fn residuals(&self, asked: &[(&Window, &[f64])]) -> Vec<DVector<f64>> {
         let sampled = |(window, _): &(&Window, &[f64])| {
             Sampled::at_all(&self.tests[window.test].time_s[window.samples.clone()])

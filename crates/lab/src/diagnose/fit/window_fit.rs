@@ -91,8 +91,8 @@ impl<'w> At<'w> {
     }
 }
 
-/// Sensitivities of the residuals of windows to their states, over a share of the spread of the smoothed state: so far inside
-/// the noise that one-sided differences do.
+/// Sensitivities of the residuals of windows to their states, over a share of the spread of the smoothed state. That
+/// is so far inside the noise that one-sided differences serve.
 pub(super) fn state_jacobians(replay: &Replay, these: &[&At]) -> Vec<DMatrix<f64>> {
     let changed = |at: &&At| {
         let one = |(i, h): (usize, &f64)| {

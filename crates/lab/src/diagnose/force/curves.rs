@@ -1,7 +1,7 @@
 //! What the missing force looks like: at the top or not, a curve against one quantity, bent, or a law of the catalogue.
 
 use super::points::{ForcePoint, median_share_off_top};
-use crate::diagnose::trials::Tried;
+use crate::diagnose::trials::FittedHypothesis;
 use crate::limits::{ALONG_TOP, EXPLAINED_BY_ONE, FORCE_CLEAR, LEAST_DIRECTIONS};
 use mrbd_kernel::model::{RockingWall, Wall, WallParameters};
 use nalgebra::{DMatrix, DVector};
@@ -20,8 +20,8 @@ pub fn acts_at_top(points: &[ForcePoint]) -> bool {
 const NOISY: f64 = 2.0;
 const NOISY_SHARE: f64 = 0.2;
 
-/// Share of the squared missing force, noise taken off, that a line from neighbour to neighbour explains at each point
-/// without the point itself; `None` where the force is hardly more than noise.
+/// Share of the squared missing force, noise taken off, that a line between the neighbours of each point explains.
+/// `None` where the force is hardly more than noise.
 ///
 /// 1: the force is a function of this quantity alone, sampled closely enough; 0 or less: it is none.
 pub fn explained_by(points: &[ForcePoint], against: Against) -> Option<f64> {
@@ -61,12 +61,13 @@ const USUAL: f64 = 3.0;
 /// Rounds of reweighting; the weights settle within a few.
 const ROUNDS: usize = 6;
 
-/// How much of what is left, as a sum of squared standard deviations, one further law of the velocity takes away that is no
-/// line: drag as v |v|, damping that grows with displacement as |x| v, friction as the sign of v.
+/// How much of what is left one further law of the velocity takes away that is no line, in squared standard
+/// deviations. The laws are drag as v |v|, damping that grows with displacement as |x| v, and friction as the sign of
+/// v.
 ///
-/// Lines against displacement, velocity and acceleration are taken off first: the fit of windows weighs other instants, and
-/// may put a little of one for another. Laws of displacement alone are not asked: near x = 0, where impacts are, smoothing
-/// makes a curve of its own at a large noise. `None` where there are too few points.
+/// Lines against displacement, velocity and acceleration are taken off first. The fit of windows weighs other
+/// instants, and may take a little of one for another. Laws of displacement alone are left out. Near x = 0, where
+/// impacts are, smoothing makes a curve of its own at a large noise. `None` where there are too few points.
 pub fn curve_left(points: &[ForcePoint]) -> Option<f64> {
     let of = |law: fn(&ForcePoint) -> f64| points.iter().map(law).collect::<Vec<_>>();
     let lines = [of(|p| p.displacement_m), of(|p| p.velocity_m_s), of(|p| p.acceleration_m_s2)];
@@ -86,8 +87,8 @@ pub fn curve_left(points: &[ForcePoint]) -> Option<f64> {
     bent.map(|left| straight - left).reduce(f64::max)
 }
 
-/// Squared error, in standard deviations, that a sum of such columns leaves of the force in least squares; far points count
-/// by their distance, not its square. `None` where the columns are no independent ones.
+/// Squared error, in standard deviations, that a sum of such columns leaves of the force in least squares. Far points
+/// count by their distance, not its square. `None` where the columns are no independent ones.
 fn left_by(points: &[ForcePoint], columns: &[Vec<f64>]) -> Option<f64> {
     let size = |column: &Vec<f64>| column.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let sizes = columns.iter().map(size).collect::<Vec<_>>();
@@ -169,16 +170,16 @@ pub struct LawCurve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// The laws of the best of some hypotheses, in their order, over the range of the measured points; what the wall's own
-/// uncertain numbers do beside an addition is left out.
-pub fn law_curves(given: &Wall, tried: &[Tried], points: &[ForcePoint]) -> Vec<LawCurve> {
+/// The laws of the best of some hypotheses, in their order, over the range of the measured points. What the wall's
+/// own uncertain numbers do beside an addition is left out.
+pub fn law_curves(given: &Wall, tried: &[FittedHypothesis], points: &[ForcePoint]) -> Vec<LawCurve> {
     let before = RockingWall::new(given);
     let largest_n = points.iter().map(|p| p.force_n.abs()).fold(0.0, f64::max);
     let mut curves = Vec::new();
     for against in Against::ALL {
         let reach = points.iter().map(|p| against.of(p).abs()).fold(0.0, f64::max);
         let at = |k: u32| reach * (2.0 * f64::from(k) / f64::from(POINTS) - 1.0);
-        let curve = |t: &Tried| {
+        let curve = |t: &FittedHypothesis| {
             let after = RockingWall::new(&with_additions_alone(t)?);
             let added = |x: f64| against.force_n(&after, x) - against.force_n(&before, x);
             let points = (0..=POINTS).map(|k| (at(k), added(at(k)))).collect::<Vec<_>>();
@@ -196,7 +197,7 @@ pub fn law_curves(given: &Wall, tried: &[Tried], points: &[ForcePoint]) -> Vec<L
 }
 
 /// The wall as given with the additions of a hypothesis, its own numbers where they were.
-fn with_additions_alone(tried: &Tried) -> Option<Wall> {
+fn with_additions_alone(tried: &FittedHypothesis) -> Option<Wall> {
     let h = &tried.hypothesis;
     let own = h.unknowns.iter().take(h.nuisances).map(|u| u.start);
     let values = own.chain(tried.fit.values.iter().skip(h.nuisances).copied()).collect::<Vec<_>>();

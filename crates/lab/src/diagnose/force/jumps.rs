@@ -49,8 +49,8 @@ pub fn stretches(test: &TestData) -> Vec<Stretch> {
 const LONGEST_DOUBT: f64 = 1.0;
 /// Slowest motion after an impact, rad/s, in standard deviations of a smoothed velocity, that has a ratio.
 const FAST: f64 = 10.0;
-/// Samples by which a state is taken from the end of its stretch: at the end, the smoothing may reach over the impact by
-/// a kink too small to be seen.
+/// Samples by which a state is taken before the end of its stretch. At the end the smoothing may reach over the
+/// impact by a kink too small to be seen.
 const GUARD: usize = 4;
 /// Standard deviation of a slope through 17 samples, in noises a sample.
 const SLOPE_NOISE: f64 = 0.125;
@@ -66,8 +66,8 @@ pub struct Jump {
     pub contacts: [Contact; 2],
     /// Impacts of the model on the way.
     pub impacts: Impacts,
-    /// Velocities right after it over those of the model, as the kinetic energy weighs them; `None` where the model is
-    /// then in another pattern, or too slow.
+    /// Velocities right after it over those of the model, as the kinetic energy weighs them. `None` where the model
+    /// is then in another pattern, or too slow.
     pub ratio: Option<f64>,
     /// Standard deviation of the ratio by the noise of the velocities after it.
     pub ratio_sd: Option<f64>,
@@ -132,8 +132,8 @@ fn of_test(index: usize, test: &TestData, physics: &Physics) -> Vec<Jump> {
 
 /// 1 + (ω_m - ω) · M ω⁺ / (ω⁺ · M ω⁺), and its standard deviation; `None` where ω⁺ is slow.
 ///
-/// ω⁺ are the model's velocities right after its last impact, ω those a little later, when the measured ω_m are known;
-/// meanwhile both change by nearly the same.
+/// ω⁺ are the model's velocities right after its last impact. ω are those a little later, when the measured ω_m are
+/// known. Meanwhile both change by nearly the same.
 fn ratio(wall: &RockingWall, after: &Stretch, end: &End, noise: Pair) -> Option<[f64; 2]> {
     let State { theta, omega: measured } = after.states[GUARD];
     if (0..2).all(|i| end.omega_after[i].abs() < FAST * noise[i]) {

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 
 /// Half the reach of a test function, as a share of the wall's time of response: over an eighth of a swing.
 const HALF_REACH: f64 = 0.4;
-/// Where the force is so large beside its noise that a shorter reach tells it to this share of itself, the reach is
-/// shorter: the mean of a curved law is not the law of the mean.
+/// Where a shorter reach still gives the force to this share of itself, the reach is shorter. The mean of a curved
+/// law is not the law of the mean.
 const KNOWN_TO: f64 = 0.1;
 /// Samples to either side at least.
 const LEAST_HALF: usize = 4;
@@ -230,9 +230,9 @@ fn one_pattern(freedom: Freedom, theta_dd: Pair, noise: Pair) -> Missing {
 
 /// Weights over 2 h + 1 samples.
 ///
-/// φ sums to 1, φ ∝ (1 - s²)² but for the step, and the weights of curvature are its second differences: Σ φ_j x''_j =
-/// Σ c_j x_j with x'' averaged over each sample and its neighbours. They are those of a parabola through the samples in
-/// least squares, so no other weights of this reach know x'' better under white noise.
+/// φ sums to 1, and φ ∝ (1 - s²)² but for the step. The weights of curvature are its second differences: Σ φ_j x''_j
+/// = Σ c_j x_j, with x'' averaged over each sample and its neighbours. They are those of a parabola through the
+/// samples in least squares, so no other weights of this reach know x'' better under white noise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Kernel {
     /// φ_j.

@@ -84,8 +84,8 @@ impl Hypothesis {
         self.unknowns.iter().zip(values).map(distance).sum()
     }
 
-    /// Adds what was known before to normal equations in these values, as one more measurement; further rows of `a` and `g`
-    /// stay as they are.
+    /// Adds what was known before to normal equations in these values, as one more measurement. Further rows of `a`
+    /// and `g` stay as they are.
     pub fn add_prior(&self, values: &[f64], a: &mut DMatrix<f64>, g: &mut DVector<f64>) {
         for (i, unknown) in self.unknowns.iter().enumerate() {
             if let Some(sd) = unknown.prior_sd {

@@ -224,8 +224,8 @@ impl Scales {
     }
 }
 
-/// Largest rotation of a body that it comes back from, rad: a swing that ends the test beyond where its own weight turns it
-/// over (alpha, rad) is its fall, and tells no size, unless it is the only one.
+/// Largest rotation that a body comes back from, rad. A last swing beyond alpha (rad), where its own weight turns it
+/// over, is its fall. It says nothing of a size, unless it is the only swing.
 fn largest_rad(theta_rad: &[f64], alpha_rad: f64) -> f64 {
     let theta = theta_rad.iter().copied().filter(|t| t.is_finite()).collect::<Vec<_>>();
     let largest = |part: &[f64]| part.iter().fold(0.0, |most, t| f64::max(most, t.abs()));

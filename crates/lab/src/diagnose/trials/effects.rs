@@ -8,7 +8,7 @@
 
 use super::imitation::seconds;
 use super::search::{promise, refit, shared_states, try_hypothesis, try_second};
-use super::{Trials, Tried, against, kinds, untouched};
+use super::{FittedHypothesis, Trials, against, kinds, untouched};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
 use crate::limits::{
@@ -19,26 +19,26 @@ use mrbd_kernel::model::Role;
 use rayon::prelude::*;
 
 /// The wall as given, its numbers fitted, and single effects, best first; none of these where too little moves.
-pub struct Alone {
+pub struct FirstFits {
     /// The wall as it was given.
-    pub before: Tried,
+    pub before: FittedHypothesis,
     /// Its uncertain numbers fitted.
-    pub recalibrated: Tried,
+    pub recalibrated: FittedHypothesis,
     /// Single effects.
-    pub singles: Vec<Tried>,
+    pub singles: Vec<FittedHypothesis>,
 }
 
 impl<P: Progress> Trials<'_, P> {
     /// Everything that is tried alone; `None` if there is no window to start in. The wall's uncertain numbers are fitted from
     /// values `known` from elsewhere too.
-    pub fn alone(&self, known: Option<&[f64]>) -> Option<Alone> {
+    pub fn first_fits(&self, known: Option<&[f64]>) -> Option<FirstFits> {
         let nuisances = &self.experiment.nuisances;
         self.progress.begin("the wall as given", 2);
         let before = untouched(&self.data, self.hypothesis(&[], &[]))?;
         self.progress.advance(1);
         if self.data.fit.windows.len() < LEAST_MOVING {
             let recalibrated = before.clone();
-            return Some(Alone { before, recalibrated, singles: Vec::new() });
+            return Some(FirstFits { before, recalibrated, singles: Vec::new() });
         }
         let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before)?;
         let known = known.and_then(|v| refit(&self.data, self.hypothesis(nuisances, &[]), &before, v));
@@ -49,11 +49,15 @@ impl<P: Progress> Trials<'_, P> {
         let best = singles.iter().take(STATES_FOR_WALL).collect::<Vec<_>>();
         let [before, recalibrated] =
             [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
-        Some(Alone { before, recalibrated, singles })
+        Some(FirstFits { before, recalibrated, singles })
     }
 
     /// Single effects, best first, and the wall without effects, each fitted again from what the other found.
-    fn singles(&self, before: &Tried, recalibrated: Tried) -> (Tried, Vec<Tried>) {
+    fn singles(
+        &self,
+        before: &FittedHypothesis,
+        recalibrated: FittedHypothesis,
+    ) -> (FittedHypothesis, Vec<FittedHypothesis>) {
         let nuisances = &self.experiment.nuisances;
         let additions = candidates(self.experiment.wall.parameters());
         let sets = additions.iter().map(|a| vec![*a]).collect::<Vec<_>>();
@@ -73,7 +77,11 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Where single effects start: from the wall as given, and where one of its numbers was not known, with that fitted.
-    fn starts<'t>(&self, before: &'t Tried, recalibrated: &'t Tried) -> Vec<&'t Tried> {
+    fn starts<'t>(
+        &self,
+        before: &'t FittedHypothesis,
+        recalibrated: &'t FittedHypothesis,
+    ) -> Vec<&'t FittedHypothesis> {
         let wide = self.experiment.nuisances.iter().any(Nuisance::is_wide);
         if wide { vec![before, recalibrated] } else { vec![before] }
     }
@@ -83,17 +91,17 @@ impl<P: Progress> Trials<'_, P> {
     /// Pairs with the best single effects, where one of them closes a gap by its `name` or where none does.
     pub fn pairs(
         &self,
-        singles: &[Tried],
-        single: &Tried,
-        before: &Tried,
+        singles: &[FittedHypothesis],
+        single: &FittedHypothesis,
+        before: &FittedHypothesis,
         gap: f64,
         name: bool,
-    ) -> Vec<Tried> {
+    ) -> Vec<FittedHypothesis> {
         let answers = singles.iter().filter(|t| kinds(t).is_some()).collect::<Vec<_>>();
         let count = if name { PAIRS_BESIDE_A_NAME } else { PAIRS_WITHOUT_A_NAME };
         let pairs = self.promising(&bases(&answers, name), &answers, count);
         self.progress.begin("pairs of effects", pairs.len());
-        let try_one = |(h, first): &(Hypothesis, &Tried)| {
+        let try_one = |(h, first): &(Hypothesis, &FittedHypothesis)| {
             let tried = try_second(&self.data, h.clone(), first, before);
             self.progress.advance(1);
             tried
@@ -107,7 +115,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// The best single effect with those that take away most beside it, as far as a linear look tells.
-    fn beside(&self, first: &Tried) -> Vec<Tried> {
+    fn beside(&self, first: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let hypothesis = |additions: &[Addition]| self.hypothesis(&self.experiment.nuisances, additions);
         let effects = candidates(self.experiment.wall.parameters());
         // Factors on the coefficients of impact would free these of what was known of them.
@@ -120,23 +128,23 @@ impl<P: Progress> Trials<'_, P> {
         found.par_iter().filter_map(|imitation| self.fit_from(imitation, first)).collect()
     }
 
-    /// Of each base the pairs that promise most at a glance, and those of which only a fit would tell: bases that follow the
-    /// windows differently are looked at in different losses.
+    /// Of each base the pairs that promise most at a first look, and those that only a fit can judge. Bases that
+    /// follow the windows differently are looked at in different losses.
     fn promising<'t>(
         &self,
-        bases: &[&'t Tried],
-        answers: &[&Tried],
+        bases: &[&'t FittedHypothesis],
+        answers: &[&FittedHypothesis],
         count: usize,
-    ) -> Vec<(Hypothesis, &'t Tried)> {
+    ) -> Vec<(Hypothesis, &'t FittedHypothesis)> {
         let sets = sets(bases, answers);
         self.progress.begin("pairs of effects, a first look", sets.iter().map(Vec::len).sum());
-        let look = |first: &'t Tried, set: &[Addition; 2]| {
+        let look = |first: &'t FittedHypothesis, set: &[Addition; 2]| {
             let h = self.hypothesis(&self.experiment.nuisances, set);
             let cost = promise(&self.data, &h, first).unwrap_or(f64::NEG_INFINITY);
             self.progress.advance(1);
             (cost, h, first)
         };
-        let best = |(first, sets): (&&'t Tried, Vec<[Addition; 2]>)| {
+        let best = |(first, sets): (&&'t FittedHypothesis, Vec<[Addition; 2]>)| {
             let mut pairs = sets.par_iter().map(|set| look(first, set)).collect::<Vec<_>>();
             pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
             pairs.into_iter().take(count).map(|(_, h, first)| (h, first)).collect::<Vec<_>>()
@@ -145,9 +153,9 @@ impl<P: Progress> Trials<'_, P> {
     }
 }
 
-/// Single effects that are paired with all others: the best; where none closes the gap, the second best too, and that which
-/// follows the windows with the least error, for of a gap far above the noise likelihood tells little.
-fn bases<'t>(answers: &[&'t Tried], name: bool) -> Vec<&'t Tried> {
+/// Single effects that are paired with all others: the best. Where none closes the gap, also the second best and the
+/// one with the least error over windows. Of a gap far above the noise likelihood says little.
+fn bases<'t>(answers: &[&'t FittedHypothesis], name: bool) -> Vec<&'t FittedHypothesis> {
     let mut bases = answers.iter().copied().take(if name { 1 } else { PAIRED }).collect::<Vec<_>>();
     let follows = answers.iter().copied().min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
     bases.extend(follows.filter(|t| !name && !bases.iter().any(|b| std::ptr::eq(*b, *t))));
@@ -155,8 +163,8 @@ fn bases<'t>(answers: &[&'t Tried], name: bool) -> Vec<&'t Tried> {
 }
 
 /// Of each base its pairs with all others of another kind, each pair once.
-fn sets(bases: &[&Tried], answers: &[&Tried]) -> Vec<Vec<[Addition; 2]>> {
-    let addition = |t: &&Tried| t.hypothesis.additions[0];
+fn sets(bases: &[&FittedHypothesis], answers: &[&FittedHypothesis]) -> Vec<Vec<[Addition; 2]>> {
+    let addition = |t: &&FittedHypothesis| t.hypothesis.additions[0];
     let bases = bases.iter().map(addition).collect::<Vec<_>>();
     let of = |(i, one): (usize, &Addition)| {
         let new = |two: &Addition| two.kind() != one.kind() && !bases[..i].contains(two);
@@ -166,9 +174,9 @@ fn sets(bases: &[&Tried], answers: &[&Tried]) -> Vec<Vec<[Addition; 2]>> {
 }
 
 impl<P: Progress> Trials<'_, P> {
-    /// Single effects in order, and where even the one that follows the windows best is far from many of them, that one
-    /// refined: what such windows say is at its bound, and a fit ends before the numbers of the right law.
-    pub fn with_far_refined(&self, tried: Vec<Tried>) -> Vec<Tried> {
+    /// Single effects in order. Where even the one that follows the windows best misses many of them, that one is
+    /// refined. What such windows say is at its bound, and a fit ends before the numbers of the right law.
+    pub fn with_far_refined(&self, tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
         let answers = tried.iter().filter(|t| kinds(t).is_some());
         let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
         let Some(far) = follows.filter(|t| t.fit.is_far()).cloned() else { return tried };
@@ -177,7 +185,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// The same additions with the numbers and states that speak least against them.
-    pub fn refined(&self, answer: Tried) -> Tried {
+    pub fn refined(&self, answer: FittedHypothesis) -> FittedHypothesis {
         let mut best = answer;
         for _ in 0..ANSWER_ROUNDS {
             let next = self.once_more(&best);
@@ -192,8 +200,8 @@ impl<P: Progress> Trials<'_, P> {
         best
     }
 
-    fn once_more(&self, best: &Tried) -> Tried {
-        let against = |tried: &Tried| against(&self.data, tried);
+    fn once_more(&self, best: &FittedHypothesis) -> FittedHypothesis {
+        let against = |tried: &FittedHypothesis| against(&self.data, tried);
         let starts = starts(best);
         self.progress.begin("the answer, from starts about it", starts.len());
         let fit = |values: Vec<f64>| {
@@ -213,7 +221,7 @@ impl<P: Progress> Trials<'_, P> {
 }
 
 /// The values with one added number after the other moved; of an addition of more than two, all of them together.
-fn starts(best: &Tried) -> Vec<Vec<f64>> {
+fn starts(best: &FittedHypothesis) -> Vec<Vec<f64>> {
     let h = &best.hypothesis;
     let of =
         |index: usize| (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index)).collect::<Vec<_>>();
@@ -239,10 +247,14 @@ mod tests {
     use crate::diagnose::hypothesis::example::starter_with;
 
     /// One effect, followed to a squared error over squared noise.
-    fn followed(name: &str, reduced: f64) -> Tried {
+    fn followed(name: &str, reduced: f64) -> FittedHypothesis {
         let window = WindowFit { x: vec![0.0; 4], squares: 200.0 * reduced, freedom: 200.0 };
         let of = |windows| Fit { values: vec![0.0], windows, cost: 0.0, covariance: None };
-        Tried { hypothesis: starter_with(&[name]), fit: of(vec![window; 10]), held_out: of(Vec::new()) }
+        FittedHypothesis {
+            hypothesis: starter_with(&[name]),
+            fit: of(vec![window; 10]),
+            held_out: of(Vec::new()),
+        }
     }
 
     #[test]
@@ -251,8 +263,9 @@ mod tests {
         let singles =
             all.iter().zip([4.0, 9.0, 2.0, 16.0]).map(|(name, r)| followed(name, r)).collect::<Vec<_>>();
         let answers = singles.iter().collect::<Vec<_>>();
-        let names =
-            |tried: &[&Tried]| tried.iter().map(|t| t.hypothesis.additions[0].name()).collect::<Vec<_>>();
+        let names = |tried: &[&FittedHypothesis]| {
+            tried.iter().map(|t| t.hypothesis.additions[0].name()).collect::<Vec<_>>()
+        };
         assert_eq!(names(&bases(&answers, true)), ["gap"]);
         let three = bases(&answers, false);
         assert_eq!(names(&three), ["gap", "cubic_stiffness", "carriage_mass"]);

@@ -4,12 +4,12 @@
 //! enough to tell, the spring of the catalogue that yields follows them better than friction that jumps. It is called by what
 //! it is: friction, of the force at which it yields. Its wall keeps the spring.
 //!
-//! The search for springs begins with those as stiff as the floor and does not come so far by itself: where friction is the
-//! best and leaves more than noise, the spring is fitted from there.
+//! The search for springs begins with those as stiff as the floor and does not reach such stiff ones. So where
+//! friction is the best and leaves more than noise, the spring is fitted from there.
 
 use rayon::prelude::*;
 
-use super::Tried;
+use super::FittedHypothesis;
 use super::search::refit;
 use super::{Trials, is_noise, kinds};
 use crate::Progress;
@@ -64,7 +64,7 @@ pub fn kind_of(h: &Hypothesis, values: &[f64], index: usize) -> Option<EffectKin
 impl<P: Progress> Trials<'_, P> {
     /// Hypotheses in order, and where friction that jumps is part of the best and leaves a gap, the same with friction that
     /// gives first.
-    pub(super) fn with_giving(&self, tried: Vec<Tried>) -> Vec<Tried> {
+    pub(super) fn with_giving(&self, tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
         let best = tried.iter().find(|t| kinds(t).is_some()).filter(|t| !is_noise(t));
         let Some((h, from)) = best.and_then(|best| Some((self.giving_instead(best)?, best))) else {
             return tried;
@@ -81,7 +81,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// The hypothesis with a spring that yields in the place of friction; `None` if it has no friction, or a spring already.
-    fn giving_instead(&self, tried: &Tried) -> Option<Hypothesis> {
+    fn giving_instead(&self, tried: &FittedHypothesis) -> Option<Hypothesis> {
         let mut additions = tried.hypothesis.additions.clone();
         let (friction, None) = (position(&additions, FRICTION)?, position(&additions, SPRING)) else {
             return None;
@@ -92,9 +92,9 @@ impl<P: Progress> Trials<'_, P> {
     }
 }
 
-/// The values of a hypothesis with friction for the one with a spring in its place, which yields at the same force, after a
-/// share of the largest displacement; `None` if either is missing.
-fn giving_values(h: &Hypothesis, from: &Tried, onset: f64) -> Option<Vec<f64>> {
+/// The values of a hypothesis with friction for the one with a spring in its place. The spring yields at the same
+/// force, after a share of the largest displacement. `None` if either is missing.
+fn giving_values(h: &Hypothesis, from: &FittedHypothesis, onset: f64) -> Option<Vec<f64>> {
     let number_of = |h: &Hypothesis, kind, key| number(h, position(&h.additions, kind)?, key);
     let stiffness = number_of(h, SPRING, "stiffness_n_per_m")?;
     let yields = number_of(h, SPRING, "yield_force_n")?;

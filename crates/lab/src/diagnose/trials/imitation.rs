@@ -7,7 +7,7 @@
 //! the change that the best made is then a small least-squares problem.
 
 use super::search::{refit, shared_states};
-use super::{Data, Trials, Tried, against, closes, kinds};
+use super::{Data, FittedHypothesis, Trials, against, closes, kinds};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Loss};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, candidates};
@@ -27,13 +27,13 @@ pub struct Imitation {
     pub left: f64,
 }
 
-/// Every one of `candidates`, or every pair where the best is one, each with one number, the nearest to the best first; `None`
-/// where its neighbourhood is no wall.
+/// Every one of `candidates`, or every pair where the best is a pair, each with one number. The nearest to the best
+/// is first. `None` where its neighbourhood is no wall.
 ///
 /// `hypothesis` makes one of additions.
 fn imitations(
     data: &Data,
-    best: &Tried,
+    best: &FittedHypothesis,
     candidates: &[Addition],
     hypothesis: impl Fn(&[Addition]) -> Hypothesis,
 ) -> Option<Vec<Imitation>> {
@@ -56,11 +56,11 @@ fn imitations(
     Some(found)
 }
 
-/// Every one of `candidates` of one number beside the best, the one that takes away most first, with values of all added
-/// numbers; `None` where its neighbourhood is no wall.
+/// Every one of `candidates` of one number beside the best, with values of all added numbers. The one that takes away
+/// most is first. `None` where its neighbourhood is no wall.
 pub fn seconds(
     data: &Data,
-    best: &Tried,
+    best: &FittedHypothesis,
     candidates: &[Addition],
     hypothesis: impl Fn(&[Addition]) -> Hypothesis,
 ) -> Option<Vec<Imitation>> {
@@ -87,7 +87,7 @@ pub fn seconds(
 /// The best with a little of all the others, linear about it.
 fn with_others<'a>(
     data: &Data,
-    best: &'a Tried,
+    best: &'a FittedHypothesis,
     others: impl Iterator<Item = &'a Addition>,
     hypothesis: impl Fn(&[Addition]) -> Hypothesis,
 ) -> Option<(Hypothesis, Sums)> {
@@ -129,7 +129,7 @@ struct Sums {
 
 impl Sums {
     /// Of a hypothesis that begins with the numbers of another, about where that is and with nothing more.
-    fn about(data: &Data, h: &Hypothesis, best: &Tried) -> Option<Self> {
+    fn about(data: &Data, h: &Hypothesis, best: &FittedHypothesis) -> Option<Self> {
         let values = h.values_from(&best.hypothesis, &best.fit.values);
         let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
         let (slopes, _) = data.fit.slopes(h, &at, None)?;
@@ -146,8 +146,8 @@ impl Sums {
         Some(sums)
     }
 
-    /// What is left where some numbers are moved by given amounts and the first `own` numbers and some more are free, and
-    /// where the latter go; `None` where these leave no trace.
+    /// What is left where some numbers are moved by given amounts and others are free, and where these go. Free are
+    /// the first `own` numbers and some more. `None` where these leave no trace.
     fn left(&self, own: usize, moved: &[(usize, f64)], more: &[usize]) -> Option<(f64, Vec<f64>)> {
         let mut step = DVector::zeros(self.jr.len());
         moved.iter().for_each(|(i, by)| step[*i] = *by);
@@ -173,7 +173,7 @@ impl Sums {
 
 impl<P: Progress> Trials<'_, P> {
     /// Single effects or pairs; where the best closes the gap, with the candidates that could imitate it.
-    pub fn with_imitations(&self, tried: Vec<Tried>, gap: f64) -> Vec<Tried> {
+    pub fn with_imitations(&self, tried: Vec<FittedHypothesis>, gap: f64) -> Vec<FittedHypothesis> {
         let Some(best) = tried.first().filter(|t| closes(t, gap) && kinds(t).is_some()) else { return tried };
         let nuisances = &self.experiment.nuisances;
         let candidates = candidates(self.experiment.wall.parameters());
@@ -195,7 +195,11 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Fits additions from the values that a linear look about another hypothesis gave them.
-    pub(super) fn fit_from(&self, imitation: &Imitation, about: &Tried) -> Option<Tried> {
+    pub(super) fn fit_from(
+        &self,
+        imitation: &Imitation,
+        about: &FittedHypothesis,
+    ) -> Option<FittedHypothesis> {
         let h = self.hypothesis(&self.experiment.nuisances, &imitation.additions);
         let mut values = h.values_from(&about.hypothesis, &about.fit.values);
         values[h.nuisances..].copy_from_slice(&imitation.values);
@@ -204,9 +208,9 @@ impl<P: Progress> Trials<'_, P> {
         tried
     }
 
-    /// The hypotheses near the best with the states that each of them found: a window near an impact that the noise decides
-    /// has several valleys, and none shall be told from another by the valleys it met.
-    fn sharing(&self, mut tried: Vec<Tried>) -> Vec<Tried> {
+    /// The hypotheses near the best with the states that each of them found. A window near an impact that the noise
+    /// decides has several local minima. Which of them a fit found must not decide between hypotheses.
+    fn sharing(&self, mut tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
         let Some(best) = tried.first() else { return tried };
         let limit = against(&self.data, best) + NEAR_BEST;
         let near = tried.iter().take(SHARING_STATES).filter(|t| against(&self.data, t) < limit).count();

@@ -3,26 +3,28 @@
 //! | module | idea |
 //! | --- | --- |
 //! | `search` | one hypothesis: where its fit may start, the fit, and whether it is worth fitting to the end |
-//! | `tried` | what came of it: whether it follows the tests within noise, closes a gap, does something |
+//! | `fitted_hypothesis` | what came of it: whether it follows the tests within noise, closes a gap, does something |
 //! | `effects` | the wall as given, its own numbers, effects one by one and in pairs, an answer fitted again |
 //! | `imitation` | hypotheses that could imitate the best |
 //! | `friction` | friction that gives a little first |
 //! | `patterns` | patterns read again, without a sensor's gain and with joints open by less than the noise |
 
 mod effects;
+mod fitted_hypothesis;
 mod friction;
 mod imitation;
 mod patterns;
 mod search;
-mod tried;
 
-pub use effects::Alone;
+pub use effects::FirstFits;
+pub use fitted_hypothesis::{Data, FittedHypothesis};
+pub use fitted_hypothesis::{
+    against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds,
+};
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub use patterns::{gain_misread, reads_better, set_gain};
 pub use patterns::{opened_as_given, opened_windows};
 pub use search::untouched;
-pub use tried::{Data, Tried};
-pub use tried::{against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds};
 
 use rayon::prelude::*;
 
@@ -53,9 +55,9 @@ impl<P: Progress> Trials<'_, P> {
         &self,
         what: &str,
         nuisances: &[Nuisance],
-        from: &[&Tried],
+        from: &[&FittedHypothesis],
         sets: &[Vec<Addition>],
-    ) -> Vec<Tried> {
+    ) -> Vec<FittedHypothesis> {
         self.progress.begin(what, sets.len());
         let try_one = |additions: &Vec<Addition>| {
             let tried = try_coarsely(&self.data, self.hypothesis(nuisances, additions), from);
@@ -66,9 +68,9 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Finishes the best of coarse fits in order; the others are so far behind that they cannot be the answer.
-    fn finished(&self, mut coarse: Vec<Tried>) -> Vec<Tried> {
-        let against = |tried: &Tried| against(&self.data, tried);
-        let judge = |tried: &Tried| Coarse { against: against(tried), error: tried.fit_error() };
+    fn finished(&self, mut coarse: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
+        let against = |tried: &FittedHypothesis| against(&self.data, tried);
+        let judge = |tried: &FittedHypothesis| Coarse { against: against(tried), error: tried.fit_error() };
         let judged = coarse.iter().map(judge).collect::<Vec<_>>();
         let chosen = worth_finishing(&judged);
         self.progress.begin("the best candidates, in full", chosen.len());
@@ -87,14 +89,14 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// In the order of what speaks against them.
-    pub fn ordered(&self, mut tried: Vec<Tried>) -> Vec<Tried> {
+    pub fn ordered(&self, mut tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
         tried.sort_by(|a, b| against(&self.data, a).total_cmp(&against(&self.data, b)));
         tried
     }
 
     /// The best of hypotheses with the same additions, in order.
-    pub(super) fn best_of_each(&self, tried: Vec<Tried>) -> Vec<Tried> {
-        let mut best: Vec<Tried> = Vec::new();
+    pub(super) fn best_of_each(&self, tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
+        let mut best: Vec<FittedHypothesis> = Vec::new();
         for t in self.ordered(tried) {
             if !best.iter().any(|b| b.hypothesis.additions == t.hypothesis.additions) {
                 best.push(t);
@@ -103,22 +105,22 @@ impl<P: Progress> Trials<'_, P> {
         best
     }
 
-    /// Fits the best few once more, from about what was found with the wall's own numbers back where they were; all as they
+    /// Fits the best few once more, about what was found but with the wall's own numbers as given. All stay as they
     /// are if the best gains little over a simpler hypothesis.
     fn polished(
         &self,
         nuisances: &[Nuisance],
-        from: &Tried,
-        mut tried: Vec<Tried>,
-        simpler: &Tried,
-    ) -> Vec<Tried> {
+        from: &FittedHypothesis,
+        mut tried: Vec<FittedHypothesis>,
+        simpler: &FittedHypothesis,
+    ) -> Vec<FittedHypothesis> {
         let Some(best) = tried.first() else { return tried };
         if against(&self.data, simpler) - against(&self.data, best) < WORTH_POLISH {
             return tried;
         }
         let count = tried.len().min(POLISHED);
         self.progress.begin("the best candidates, again", count);
-        let again = |old: &Tried| {
+        let again = |old: &FittedHypothesis| {
             let h = self.hypothesis(nuisances, &old.hypothesis.additions);
             let about = |factor: f64| {
                 let shares = (0..h.unknowns.len()).map(|i| if i < h.nuisances { 0.0 } else { factor });
@@ -136,9 +138,9 @@ impl<P: Progress> Trials<'_, P> {
         self.ordered(tried)
     }
 
-    /// A hypothesis, or the same fitted from the values of one that holds more than it, where that is better: a number of
-    /// the wall far from its prior is sometimes found beside a further effect only.
-    pub fn better_part(&self, part: Tried, whole: &Tried) -> Tried {
+    /// A hypothesis, or the same fitted from the values of a larger one, where that is better. A number of the wall
+    /// far from its prior is sometimes found beside a further effect only.
+    pub fn better_part(&self, part: FittedHypothesis, whole: &FittedHypothesis) -> FittedHypothesis {
         let additions = &part.hypothesis.additions;
         let holds = additions.iter().all(|a| whole.hypothesis.additions.contains(a));
         if !holds || against(&self.data, whole) > against(&self.data, &part) - WORTH_POLISH {

@@ -6,7 +6,7 @@
 //! A joint that is open by less than the noise reads as closed. What it does soon shows, so no wall follows a window that
 //! starts so. A wall may, once the bodies are free.
 
-use super::{Alone, Data, Tried, best_answer, untouched};
+use super::{Data, FirstFits, FittedHypothesis, best_answer, untouched};
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Fit, Problem, Replay, WindowFit, fit_windows, nats};
 use crate::diagnose::hypothesis::{Hypothesis, Physics};
@@ -16,7 +16,7 @@ use mrbd_kernel::model::{EffectKind, Pair};
 use rayon::prelude::*;
 
 /// The gain of each channel that the best single effect names, where taking it out could change how a pattern is read.
-pub fn gain_misread(tests: &[TestData], best: &Tried) -> Option<Pair> {
+pub fn gain_misread(tests: &[TestData], best: &FittedHypothesis) -> Option<Pair> {
     let gain = best.hypothesis.physics(&best.fit.values)?.wall.reading().gain;
     let shows = |test: &TestData| {
         let change = [0, 1].map(|i| gain[i] / test.read_gain[i] - 1.0);
@@ -34,14 +34,16 @@ pub fn set_gain(tests: &mut [TestData], gain: Pair) -> Pair {
 }
 
 /// Whether the best single effect is a gain again, and leaves less of its windows than it left of those before.
-pub fn reads_better(before: &[Tried], after: &[Tried]) -> bool {
-    let is_gain = |t: &Tried| t.hypothesis.additions.iter().any(|a| a.kind() == Some(EffectKind::SensorGain));
-    let [Some(before), Some(after)] = [before, after].map(<[Tried]>::first) else { return false };
+pub fn reads_better(before: &[FittedHypothesis], after: &[FittedHypothesis]) -> bool {
+    let is_gain = |t: &FittedHypothesis| {
+        t.hypothesis.additions.iter().any(|a| a.kind() == Some(EffectKind::SensorGain))
+    };
+    let [Some(before), Some(after)] = [before, after].map(<[FittedHypothesis]>::first) else { return false };
     is_gain(after) && left(after) < left(before)
 }
 
 /// What speaks against it, by window: the windows are others once patterns are read anew.
-fn left(tried: &Tried) -> f64 {
+fn left(tried: &FittedHypothesis) -> f64 {
     let windows = [&tried.fit.windows[..], &tried.held_out.windows].concat();
     nats(&windows) / windows.len() as f64
 }
@@ -49,8 +51,8 @@ fn left(tried: &Tried) -> f64 {
 /// Steps by which the state of a window with its bodies free is fitted.
 const STEPS: usize = 6;
 
-/// The windows with joints open that read as closed, where the wall as given follows them so: a small gap does not show
-/// beside windows that no wall follows.
+/// The windows with joints open that read as closed, where the wall as given follows them so. A small gap does not
+/// show beside windows that no wall follows.
 pub fn opened_as_given(experiment: &Experiment, data: &Data) -> Option<[Vec<Window>; 2]> {
     let wall = Hypothesis::new(experiment.wall.parameters(), &experiment.scales, &[], &[]);
     let as_given = untouched(data, wall)?;
@@ -61,13 +63,13 @@ pub fn opened_as_given(experiment: &Experiment, data: &Data) -> Option<[Vec<Wind
 }
 
 /// The same for the best single effect, where it opens enough of them for everything to be fitted again.
-pub fn opened_windows(data: &Data, alone: &Alone) -> Option<[Vec<Window>; 2]> {
-    let (windows, count) = opened_under(data, best_answer(&alone.singles)?)?;
+pub fn opened_windows(data: &Data, first_fits: &FirstFits) -> Option<[Vec<Window>; 2]> {
+    let (windows, count) = opened_under(data, best_answer(&first_fits.singles)?)?;
     (count >= WORTH_OPENING).then_some(windows)
 }
 
 /// The windows with those that a hypothesis follows once their joints are open, and how many these are.
-fn opened_under(data: &Data, tried: &Tried) -> Option<([Vec<Window>; 2], usize)> {
+fn opened_under(data: &Data, tried: &FittedHypothesis) -> Option<([Vec<Window>; 2], usize)> {
     let physics = tried.hypothesis.physics(&tried.fit.values)?;
     let of = |own: &Fit, side: &Problem| opened(side.tests, &physics, &own.windows, side.windows);
     let found = [of(&tried.fit, &data.fit), of(&tried.held_out, &data.held_out)];
@@ -75,8 +77,8 @@ fn opened_under(data: &Data, tried: &Tried) -> Option<([Vec<Window>; 2], usize)>
     Some((found.map(|(windows, _)| windows), count))
 }
 
-/// The windows of fits under one hypothesis, those that are followed badly with both bodies free at their start where that
-/// follows them, and how many these are.
+/// The windows of fits under one hypothesis, and how many of them are changed. One that is followed badly has both
+/// bodies free at its start, where that helps.
 fn opened(
     tests: &[TestData],
     physics: &Physics,
@@ -121,8 +123,8 @@ fn gap_in_noise(test: &TestData, closed: Freedom, x: &[f64]) -> f64 {
     }
 }
 
-/// States of both bodies about one of a closed joint, which 17 samples could read as closed: open to either side by a share of
-/// the noise, closing or opening.
+/// States of both bodies about one of a closed joint, which 17 samples could read as closed. The joint is open to
+/// either side by a share of the noise, closing or opening.
 fn openings(test: &TestData, freedom: Freedom, closed: &[f64]) -> impl Iterator<Item = [f64; 4]> + use<> {
     let (theta, omega) = (closed[0], closed[1]);
     let noise_rad = test.noise_rad[if freedom == Freedom::Upper { 0 } else { 1 }];

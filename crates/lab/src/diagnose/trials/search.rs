@@ -2,7 +2,7 @@
 //!
 //! Fits are coarse at first; only some are worth fitting to the end.
 
-use super::{Data, Tried};
+use super::{Data, FittedHypothesis};
 use crate::diagnose::fit::Fit;
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::limits::{BEGUN, FOLLOWING, LEAST_FINISHED, MOST_FINISHED, NEAR_BEST, STARTS_FROM};
@@ -55,8 +55,8 @@ pub fn ladder(h: &Hypothesis, start: &[f64], first: usize, sizes: &Sizes) -> Vec
     starts
 }
 
-/// Of two numbers or more, the best of several sizes of the last: a spring that yields at too large a force does not feel that
-/// force at all. Equal costs are one motion: it yields at neither force.
+/// Of two numbers or more, the best of several sizes of the last. A spring with too large a yield force does not feel
+/// that force at all. Equal costs are one motion: it yields at neither force.
 pub fn several(glances: Vec<Fit>) -> Vec<Fit> {
     let same = |a: &Fit, b: &Fit| a.values.last() == b.values.last() || a.cost == b.cost;
     let mut begun: Vec<Fit> = Vec::new();
@@ -68,8 +68,8 @@ pub fn several(glances: Vec<Fit>) -> Vec<Fit> {
     begun
 }
 
-/// Of one number, the best, and the best of those that do something: the states of windows were fitted without it, and hold it
-/// where it does nothing though it is there.
+/// Of one number, the best, and the best of those that do something. The states of windows were fitted without it.
+/// They hold it where it does nothing, though it is there.
 fn with_a_size(h: &Hypothesis, base: &[f64], number: usize, glances: Vec<Fit>) -> Vec<Fit> {
     let does = |glance: &Fit| {
         let size =
@@ -85,12 +85,16 @@ fn with_a_size(h: &Hypothesis, base: &[f64], number: usize, glances: Vec<Fit>) -
 /// Most numbers of a second addition that a glance tells of.
 const MOST_AT_A_GLANCE: usize = 2;
 
-/// Fits a hypothesis coarsely from several starts about the values of each of `from`, where it has them, and its own; `from`
-/// gives the states of the windows too.
+/// Fits a hypothesis coarsely from several starts: about its own values, and about those of each of `from`, where it
+/// has them. `from` gives the states of the windows too.
 ///
 /// `None` if no start makes a wall.
-pub fn try_coarsely(data: &Data, hypothesis: Hypothesis, from: &[&Tried]) -> Option<Tried> {
-    let one = |from: &&Tried| {
+pub fn try_coarsely(
+    data: &Data,
+    hypothesis: Hypothesis,
+    from: &[&FittedHypothesis],
+) -> Option<FittedHypothesis> {
+    let one = |from: &&FittedHypothesis| {
         let base = hypothesis.values_from(&from.hypothesis, &from.fit.values);
         let fit = best_coarse(data, &hypothesis, from, &base, hypothesis.nuisances)?;
         judged(data, hypothesis.clone(), fit, from, false)
@@ -100,18 +104,28 @@ pub fn try_coarsely(data: &Data, hypothesis: Hypothesis, from: &[&Tried]) -> Opt
 }
 
 /// Fits to the end what was fitted coarsely.
-pub fn finish(data: &Data, coarse: &Tried) -> Option<Tried> {
+pub fn finish(data: &Data, coarse: &FittedHypothesis) -> Option<FittedHypothesis> {
     let fit = data.fit.fit_finely(&coarse.hypothesis, coarse.fit.clone())?;
     judged(data, coarse.hypothesis.clone(), fit, coarse, true)
 }
 
 /// Fits a hypothesis from several starts to the end.
-pub fn try_hypothesis(data: &Data, hypothesis: Hypothesis, from: &Tried) -> Option<Tried> {
+pub fn try_hypothesis(
+    data: &Data,
+    hypothesis: Hypothesis,
+    from: &FittedHypothesis,
+) -> Option<FittedHypothesis> {
     finish(data, &try_coarsely(data, hypothesis, &[from])?)
 }
 
 /// The best coarse fit from starts about `base` that move the numbers from the `first` on; starts are compared at a glance.
-fn best_coarse(data: &Data, h: &Hypothesis, from: &Tried, base: &[f64], first: usize) -> Option<Fit> {
+fn best_coarse(
+    data: &Data,
+    h: &Hypothesis,
+    from: &FittedHypothesis,
+    base: &[f64],
+    first: usize,
+) -> Option<Fit> {
     let mut glances = glances(data, h, from, &ladder(h, base, first, &SIZES))?;
     glances.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let begun =
@@ -121,20 +135,26 @@ fn best_coarse(data: &Data, h: &Hypothesis, from: &Tried, base: &[f64], first: u
 }
 
 /// The states of another hypothesis, looked at with values of this one.
-fn glances(data: &Data, h: &Hypothesis, from: &Tried, starts: &[Vec<f64>]) -> Option<Vec<Fit>> {
+fn glances(data: &Data, h: &Hypothesis, from: &FittedHypothesis, starts: &[Vec<f64>]) -> Option<Vec<Fit>> {
     let chords = data.fit.chords(&from.hypothesis, &from.fit)?;
     Some(starts.iter().filter_map(|values| data.fit.glance(h, values, &from.fit, &chords)).collect())
 }
 
-/// A fit with the tests held out beside it, whose states alone are fitted: from those of another hypothesis, which may be far
-/// from the truth, and where it is thorough from those measured too.
-fn judged(data: &Data, hypothesis: Hypothesis, fit: Fit, from: &Tried, thorough: bool) -> Option<Tried> {
+/// A fit with the tests held out beside it, of which the states alone are fitted. They start from those of another
+/// hypothesis, which may be far from the truth. Where the fit is thorough they start from the measured ones too.
+fn judged(
+    data: &Data,
+    hypothesis: Hypothesis,
+    fit: Fit,
+    from: &FittedHypothesis,
+    thorough: bool,
+) -> Option<FittedHypothesis> {
     let states = |x: &[Vec<f64>]| data.held_out.states(&hypothesis, &fit.values, x, 3, thorough);
     let mut held_out = states(&states_of(&from.held_out))?;
     if thorough {
         take_better(&mut held_out, states(&data.held_out.measured_states())?);
     }
-    Some(Tried { hypothesis, fit, held_out })
+    Some(FittedHypothesis { hypothesis, fit, held_out })
 }
 
 /// Takes the states of another fit of the same values in the windows where they are better.
@@ -147,10 +167,10 @@ fn take_better(own: &mut Fit, other: Fit) {
 }
 
 /// The model as it is, with nothing to find but the states.
-pub fn untouched(data: &Data, hypothesis: Hypothesis) -> Option<Tried> {
+pub fn untouched(data: &Data, hypothesis: Hypothesis) -> Option<FittedHypothesis> {
     let fit = data.fit.states(&hypothesis, &[], &data.fit.measured_states(), 4, true)?;
     let held_out = data.held_out.states(&hypothesis, &[], &data.held_out.measured_states(), 4, true)?;
-    Some(Tried { hypothesis, fit, held_out })
+    Some(FittedHypothesis { hypothesis, fit, held_out })
 }
 
 fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
@@ -158,7 +178,12 @@ fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
 }
 
 /// Fits to the end from given values.
-pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, values: &[f64]) -> Option<Tried> {
+pub fn refit(
+    data: &Data,
+    hypothesis: Hypothesis,
+    from: &FittedHypothesis,
+    values: &[f64],
+) -> Option<FittedHypothesis> {
     let start = data.fit.states(&hypothesis, values, &states_of(&from.fit), 2, false)?;
     let fit = data.fit.fit_finely(&hypothesis, start)?;
     judged(data, hypothesis, fit, from, true)
@@ -166,7 +191,7 @@ pub fn refit(data: &Data, hypothesis: Hypothesis, from: &Tried, values: &[f64]) 
 
 /// What a second addition beside one that was fitted promises at a glance, in the loss of starts; `None` where only a fit
 /// would tell.
-pub fn promise(data: &Data, hypothesis: &Hypothesis, first: &Tried) -> Option<f64> {
+pub fn promise(data: &Data, hypothesis: &Hypothesis, first: &FittedHypothesis) -> Option<f64> {
     let (base, second) = beside(hypothesis, first);
     if hypothesis.unknowns.len() - second > MOST_AT_A_GLANCE {
         return None;
@@ -176,14 +201,19 @@ pub fn promise(data: &Data, hypothesis: &Hypothesis, first: &Tried) -> Option<f6
 }
 
 /// Fits a second addition beside one that was fitted, coarsely, from its values.
-pub fn try_second(data: &Data, hypothesis: Hypothesis, first: &Tried, from: &Tried) -> Option<Tried> {
+pub fn try_second(
+    data: &Data,
+    hypothesis: Hypothesis,
+    first: &FittedHypothesis,
+    from: &FittedHypothesis,
+) -> Option<FittedHypothesis> {
     let (base, second) = beside(&hypothesis, first);
     let fit = best_coarse(data, &hypothesis, first, &base, second)?;
     judged(data, hypothesis, fit, from, false)
 }
 
 /// Values of a pair at which the second addition does nothing, and where its numbers begin.
-fn beside(hypothesis: &Hypothesis, first: &Tried) -> (Vec<f64>, usize) {
+fn beside(hypothesis: &Hypothesis, first: &FittedHypothesis) -> (Vec<f64>, usize) {
     let mut base = hypothesis.start();
     // The first addition's numbers follow those of the wall; fewer of the wall's may have a prior beside the second.
     let added = &first.fit.values[first.hypothesis.nuisances..];
@@ -194,9 +224,13 @@ fn beside(hypothesis: &Hypothesis, first: &Tried) -> (Vec<f64>, usize) {
 
 /// The same values with each window's state refitted from those that other hypotheses found, where that is better.
 ///
-/// A window near an impact decided by less than the noise has several valleys: no hypothesis shall win by having found
-/// one that the others missed.
-pub fn shared_states(data: &Data, tried: &Tried, others: &[&Tried]) -> Tried {
+/// A window near an impact decided by less than the noise has several local minima. No hypothesis must win by having
+/// found one that the others missed.
+pub fn shared_states(
+    data: &Data,
+    tried: &FittedHypothesis,
+    others: &[&FittedHypothesis],
+) -> FittedHypothesis {
     let mut best = tried.clone();
     let (h, values) = (&tried.hypothesis, &tried.fit.values);
     for other in others {
@@ -219,8 +253,8 @@ pub struct Coarse {
     pub error: f64,
 }
 
-/// Which of coarse fits, in the order of what speaks against them, are worth finishing: the first, and the two that follow the
-/// windows best, with all that follow them as well.
+/// Which of coarse fits, in the order of what speaks against them, are worth finishing. These are the first, the two
+/// that follow the windows best, and all that follow them as well.
 pub fn worth_finishing(coarse: &[Coarse]) -> Vec<usize> {
     let Some(best) = coarse.first() else { return Vec::new() };
     let near = coarse.iter().filter(|c| c.against < best.against + NEAR_BEST).count();

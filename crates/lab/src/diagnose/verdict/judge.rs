@@ -10,7 +10,8 @@ use crate::diagnose::experiment::Experiment;
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
 use crate::diagnose::trials::{
-    Alone, Trials, Tried, against, best_answer, closes, does_something, is_noise, joint_error, kinds,
+    FirstFits, FittedHypothesis, Trials, against, best_answer, closes, does_something, is_noise, joint_error,
+    kinds,
 };
 use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
@@ -21,11 +22,11 @@ pub struct Found {
     /// The answer.
     pub verdict: Verdict,
     /// The wall as it was given.
-    pub before: Tried,
+    pub before: FittedHypothesis,
     /// Its uncertain numbers fitted.
-    pub recalibrated: Tried,
+    pub recalibrated: FittedHypothesis,
     /// The wall of the answer.
-    pub after: Tried,
+    pub after: FittedHypothesis,
     /// What cannot be told from it.
     pub equivalent: Vec<String>,
     /// Where a force is missing, when no law is named.
@@ -33,12 +34,12 @@ pub struct Found {
     /// What speaks for another law than the best of the catalogue, where that closes the gap.
     pub other_law: Option<OtherLaw>,
     /// Everything tried, best first.
-    pub tried: Vec<Tried>,
+    pub tried: Vec<FittedHypothesis>,
 }
 
 impl Found {
     /// The hypothesis whose wall is written: that of the answer, or the wall as given where there is none.
-    pub fn kept(&self) -> &Tried {
+    pub fn kept(&self) -> &FittedHypothesis {
         match self.verdict {
             Verdict::Named | Verdict::Class | Verdict::Recalibrated => &self.after,
             _ => &self.before,
@@ -49,14 +50,14 @@ impl Found {
 /// A hypothesis that may be the answer.
 struct Answer {
     verdict: Verdict,
-    after: Tried,
+    after: FittedHypothesis,
     /// Names of what cannot be told from it.
     equivalent: Vec<String>,
 }
 
 /// The verdict on what effects did to the windows one by one.
-pub fn judge<P: Progress>(trials: &Trials<P>, alone: Alone) -> Found {
-    let Alone { before, recalibrated, singles } = alone;
+pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
+    let FirstFits { before, recalibrated, singles } = first_fits;
     match joint_error(&before) {
         Some(error) if !singles.is_empty() => Gap { trials, before, recalibrated, error }.judge(singles),
         // Too little moves for anything to show.
@@ -76,14 +77,14 @@ pub fn judge<P: Progress>(trials: &Trials<P>, alone: Alone) -> Found {
 /// A gap between model and measurement, or none.
 struct Gap<'t, P> {
     trials: &'t Trials<'t, P>,
-    before: Tried,
-    recalibrated: Tried,
+    before: FittedHypothesis,
+    recalibrated: FittedHypothesis,
     /// Windowed error of the wall as given.
     error: f64,
 }
 
 impl<P: Progress> Gap<'_, P> {
-    fn judge(self, singles: Vec<Tried>) -> Found {
+    fn judge(self, singles: Vec<FittedHypothesis>) -> Found {
         let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.recalibrated, best));
         if gain < WORTH_A_NAME {
             if is_noise(&self.before) {
@@ -103,7 +104,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// One effect or two by name, or the place of what is missing.
-    fn with_effects(self, singles: Vec<Tried>, gain: f64) -> Found {
+    fn with_effects(self, singles: Vec<FittedHypothesis>, gain: f64) -> Found {
         let singles = self.trials.with_imitations(self.trials.with_far_refined(singles), self.error);
         let one = self.named(&singles, &self.recalibrated);
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
@@ -123,9 +124,14 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// The better of the answer among single effects and that among pairs, and everything tried.
-    fn with_pairs(&self, one: Option<Answer>, mut tried: Vec<Tried>) -> (Option<Answer>, Vec<Tried>) {
+    fn with_pairs(
+        &self,
+        one: Option<Answer>,
+        mut tried: Vec<FittedHypothesis>,
+    ) -> (Option<Answer>, Vec<FittedHypothesis>) {
         let trials = self.trials;
-        let best_single = |tried: &[Tried]| best_answer(tried).unwrap_or(&self.recalibrated).clone();
+        let best_single =
+            |tried: &[FittedHypothesis]| best_answer(tried).unwrap_or(&self.recalibrated).clone();
         let pairs = trials.pairs(&tried, &best_single(&tried), &self.before, self.error, one.is_some());
         let mut one = one;
         // Where one effect of the best pair does nothing, its fit is a better one of the other effect alone.
@@ -141,7 +147,7 @@ impl<P: Progress> Gap<'_, P> {
 
     /// The best hypothesis that closes the gap, is an answer, and is worth its name beside a simpler one; with what cannot
     /// be told from it.
-    fn named(&self, tried: &[Tried], simpler: &Tried) -> Option<Answer> {
+    fn named(&self, tried: &[FittedHypothesis], simpler: &FittedHypothesis) -> Option<Answer> {
         let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
         let best = best_answer(closing.iter().copied())?;
         if self.gain(simpler, best) < WORTH_A_NAME {
@@ -158,10 +164,10 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// Names of the best and of what cannot be told from it; empty if that is nothing.
-    fn equivalent(&self, best: &Tried, closing: &[&Tried]) -> Vec<String> {
+    fn equivalent(&self, best: &FittedHypothesis, closing: &[&FittedHypothesis]) -> Vec<String> {
         let own = kinds(best);
         let limit = against(&self.trials.data, best) + EQUIVALENT;
-        let as_good = |t: &&&Tried| against(&self.trials.data, t) < limit && kinds(t) != own;
+        let as_good = |t: &&&FittedHypothesis| against(&self.trials.data, t) < limit && kinds(t) != own;
         let others = closing.iter().filter(as_good);
         let others =
             others.filter(|t| !t.hypothesis.additions.contains(&Addition::Placebo)).collect::<Vec<_>>();
@@ -177,7 +183,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// A gap that the wall's own numbers close: an answer, unless what moved had not been known and effects do as well.
-    fn within_the_wall(self, singles: Vec<Tried>) -> Found {
+    fn within_the_wall(self, singles: Vec<FittedHypothesis>) -> Found {
         let unknown = self.moved_unknown();
         if !unknown.is_empty() {
             let instead = self.effects_instead();
@@ -191,7 +197,7 @@ impl<P: Progress> Gap<'_, P> {
 
     /// Uncertain numbers of the wall that were not known and moved.
     fn moved_unknown(&self) -> Vec<Nuisance> {
-        let Tried { hypothesis, fit, .. } = &self.recalibrated;
+        let FittedHypothesis { hypothesis, fit, .. } = &self.recalibrated;
         let moved = |nuisance: &&Nuisance| {
             let key = match nuisance {
                 Nuisance::Number(number, _) => number.key.to_owned(),
@@ -205,7 +211,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// Effects in place of numbers of the wall, as if these were known.
-    fn effects_instead(&self) -> Vec<Tried> {
+    fn effects_instead(&self) -> Vec<FittedHypothesis> {
         let known = |n: &Nuisance| match *n {
             Nuisance::Number(number, sd) => Nuisance::Number(number, sd.min(MEASURED_PRIOR)),
             Nuisance::Coefficient(l, sd) => Nuisance::Coefficient(l, sd.min(MEASURED_PRIOR)),
@@ -220,7 +226,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// The class of an effect that does as well as numbers of the wall that were not known, and of these.
-    fn as_good_as_the_wall(&self, instead: &[Tried], unknown: &[Nuisance]) -> Option<Answer> {
+    fn as_good_as_the_wall(&self, instead: &[FittedHypothesis], unknown: &[Nuisance]) -> Option<Answer> {
         let limit = against(&self.trials.data, &self.recalibrated) + EQUIVALENT;
         let answer = self.named(instead, &self.before)?;
         if against(&self.trials.data, &answer.after) >= limit {
@@ -239,7 +245,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// No law of the catalogue follows, but where the force is missing may show.
-    fn placed(self, other_law: Option<OtherLaw>, tried: Vec<Tried>) -> Found {
+    fn placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
         let measured = || {
             let physics = self.before.hypothesis.physics(&self.before.fit.values)?;
@@ -254,11 +260,11 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// What one hypothesis gains over another.
-    fn gain(&self, over: &Tried, of: &Tried) -> f64 {
+    fn gain(&self, over: &FittedHypothesis, of: &FittedHypothesis) -> f64 {
         against(&self.trials.data, over) - against(&self.trials.data, of)
     }
 
-    fn found(self, Answer { verdict, after, equivalent }: Answer, tried: Vec<Tried>) -> Found {
+    fn found(self, Answer { verdict, after, equivalent }: Answer, tried: Vec<FittedHypothesis>) -> Found {
         let Self { before, recalibrated, .. } = self;
         Found { verdict, before, recalibrated, after, equivalent, place: None, other_law: None, tried }
     }

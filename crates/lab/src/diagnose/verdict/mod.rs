@@ -11,7 +11,7 @@ mod other_law;
 mod worth_naming;
 
 use super::hypothesis::{Addition, WallNumber};
-use super::trials::{Tried, kind_of};
+use super::trials::{FittedHypothesis, kind_of};
 pub use judge::{Found, judge};
 pub use other_law::{OtherLaw, Trend};
 use serde::{Deserialize, Serialize};
@@ -53,7 +53,7 @@ impl Verdict {
 }
 
 /// Names by which equivalent hypotheses go in answers: kinds, and last words of keys of the wall.
-pub fn names(tried: &Tried) -> Vec<String> {
+pub fn names(tried: &FittedHypothesis) -> Vec<String> {
     let h = &tried.hypothesis;
     let name = |(index, addition): (usize, &Addition)| match addition {
         Addition::Number(number) => name_of_number(number),

@@ -6,7 +6,7 @@ use super::names;
 use crate::diagnose::fit::{Fit, Loss, Problem, WindowSlopes};
 use crate::diagnose::force::{curve_left, force_points};
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::trials::{Data, Tried};
+use crate::diagnose::trials::{Data, FittedHypothesis};
 use crate::limits::{BENT_FORCE, TREND_NATS, TREND_SHARE};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -23,7 +23,7 @@ pub struct Trend {
 /// The trends of the added numbers of a fitted hypothesis.
 ///
 /// Linear about the fit. Factors of impacts are not asked: they come in sixes. `None` where the slopes cannot be told.
-fn trends_with_amplitude(data: &Data, tried: &Tried) -> Option<Vec<Trend>> {
+fn trends_with_amplitude(data: &Data, tried: &FittedHypothesis) -> Option<Vec<Trend>> {
     let h = &tried.hypothesis;
     let sides = [(data.fit, &tried.fit), (data.held_out, &tried.held_out)];
     let slopes = slopes(h, &tried.fit, sides)?;
@@ -105,14 +105,14 @@ pub struct OtherLaw {
     pub looks_like: Vec<String>,
     /// See [`curve_left`].
     pub curve_left: Option<f64>,
-    /// How a size differs in large motion, and what that gains: of the sizes that differ by more than 4 %, or else of
-    /// all, that which gains most.
+    /// How a size differs in large motion, and what that gains. Sizes that differ by more than 4 % come first; among
+    /// these the one that gains most.
     pub trend_with_amplitude: Option<Trend>,
 }
 
 impl OtherLaw {
     /// Looks at a fitted hypothesis.
-    pub fn beside(data: &Data, named: &Tried) -> Self {
+    pub fn beside(data: &Data, named: &FittedHypothesis) -> Self {
         let physics = named.hypothesis.physics(&named.fit.values);
         let points = physics.map(|physics| force_points(data.fit.tests, &physics));
         Self {

@@ -1,7 +1,7 @@
 //! What is worth naming: how large an effect must be to show, whether a second one shows, and at which place.
 
 use crate::diagnose::fit::{Fit, nats};
-use crate::diagnose::trials::{Data, Tried, against, all_windows, joint_error, kinds};
+use crate::diagnose::trials::{Data, FittedHypothesis, against, all_windows, joint_error, kinds};
 use crate::limits::{
     DETECTED_SD, LEAST_SIZE, PLACE_NATS, PLACE_SQUARED_ERROR, WORTH_A_NAME, WORTH_A_SECOND,
     WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
@@ -21,14 +21,14 @@ pub struct Power {
 }
 
 /// Whether at least half of the effects would have been named at a size that matters.
-pub fn could_show(data: &Data, without: &Tried, singles: &[Tried]) -> bool {
+pub fn could_show(data: &Data, without: &FittedHypothesis, singles: &[FittedHypothesis]) -> bool {
     let powers = singles.iter().filter_map(|t| power(data, without, t)).collect::<Vec<_>>();
     2 * powers.iter().filter(|power| power.named_from < power.matters).count() >= powers.len()
 }
 
-/// What the tests can tell of a single effect, beside the wall `without` it; `None` where its fit leaves no covariance, or it is
-/// no effect.
-pub fn power(data: &Data, without: &Tried, tried: &Tried) -> Option<Power> {
+/// What the tests can tell of a single effect, beside the wall `without` it. `None` where its fit leaves no
+/// covariance, or it is no effect.
+pub fn power(data: &Data, without: &FittedHypothesis, tried: &FittedHypothesis) -> Option<Power> {
     let h = &tried.hypothesis;
     let i = h.nuisances;
     kinds(tried)?;
@@ -43,9 +43,9 @@ pub fn power(data: &Data, without: &Tried, tried: &Tried) -> Option<Power> {
     Some(Power { sd, detected_from: DETECTED_SD * sd, named_from, matters: unknown.scale })
 }
 
-/// The standard deviation of a size from the curvature of likelihood at it, and from what it gains over nothing, where it is
-/// one number alone and gains too little to be named. Near impacts that the noise decides likelihood has many valleys, each of
-/// them sharp: how wide they lie shows in a size that gains less than its curvature says.
+/// The standard deviation of a size: from the curvature of likelihood at it, and from what it gains over nothing. The
+/// gain counts where a size is one number alone and gains too little to be named. Near impacts that the noise decides
+/// likelihood has many sharp maxima. How far they lie apart shows in a size that gains less than its curvature says.
 fn spread(curved: f64, size: f64, gain: Option<f64>) -> f64 {
     match gain {
         // One more, for by chance a size of one standard deviation is found where there is none.
@@ -64,7 +64,7 @@ struct Left {
 }
 
 impl Left {
-    fn of(data: &Data, tried: &Tried) -> Option<Self> {
+    fn of(data: &Data, tried: &FittedHypothesis) -> Option<Self> {
         Some(Self { nats: against(data, tried), error: joint_error(tried)? })
     }
 
@@ -78,7 +78,11 @@ impl Left {
 }
 
 /// The place whose effects take away a good part of what speaks against the wall, if there is one.
-pub fn place(data: &Data, recalibrated: &Tried, tried: &[Tried]) -> Option<&'static str> {
+pub fn place(
+    data: &Data,
+    recalibrated: &FittedHypothesis,
+    tried: &[FittedHypothesis],
+) -> Option<&'static str> {
     let answers = tried.iter().filter(|t| kinds(t).is_some());
     let best = answers.min_by(|a, b| against(data, a).total_cmp(&against(data, b)))?;
     let shrinks = Left::of(data, recalibrated)?.shrinks_to(Left::of(data, best)?);
@@ -86,7 +90,7 @@ pub fn place(data: &Data, recalibrated: &Tried, tried: &[Tried]) -> Option<&'sta
 }
 
 /// Whether a second effect is worth naming beside the first.
-pub fn worth_two(data: &Data, one: &Tried, two: &Tried) -> bool {
+pub fn worth_two(data: &Data, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
     let gain: [f64; 2] = std::array::from_fn(|i| one.against(data)[i] - two.against(data)[i]);
     // A damper in a crack that stays shut in the tests held out is neither seen nor refuted there.
     let seen = gain[1] > WORTH_A_SECOND_HELD_OUT;
@@ -100,14 +104,14 @@ pub fn worth_two(data: &Data, one: &Tried, two: &Tried) -> bool {
 
 /// Whether what a hypothesis leaves is what noise would, to a standard deviation: the squared error of noise has twice its
 /// freedom as variance.
-fn leaves_noise(tried: &Tried) -> bool {
+fn leaves_noise(tried: &FittedHypothesis) -> bool {
     let windows = all_windows(tried);
     let freedom = windows.iter().map(|window| window.freedom).sum::<f64>();
     nats(&windows) < (0.5 * freedom).sqrt()
 }
 
 /// Whether the tests held out could show each effect that one of two hypotheses has more; not known: they could.
-fn shows_held_out(data: &Data, one: &Tried, two: &Tried) -> bool {
+fn shows_held_out(data: &Data, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
     if data.held_out.windows.is_empty() {
         return false;
     }
@@ -117,10 +121,10 @@ fn shows_held_out(data: &Data, one: &Tried, two: &Tried) -> bool {
     new.all(|(_, trace)| trace > WORTH_A_SECOND_HELD_OUT)
 }
 
-/// What each addition of a hypothesis does to the windows held out beyond what their states can do, half its squared size over
-/// the noise: about what taking it away would cost, in natural logarithms of likelihood. Linear; `None` where slopes cannot be
-/// told.
-fn traces_held_out(data: &Data, tried: &Tried) -> Option<Vec<f64>> {
+/// What each addition of a hypothesis does to the windows held out beyond what their states can do. It is half its
+/// squared size over the noise: about the cost of taking it away, in natural logarithms of likelihood. Linear; `None`
+/// where slopes cannot be told.
+fn traces_held_out(data: &Data, tried: &FittedHypothesis) -> Option<Vec<f64>> {
     let h = &tried.hypothesis;
     let at = Fit { values: tried.fit.values.clone(), ..tried.held_out.clone() };
     let (slopes, _) = data.held_out.slopes(h, &at, None)?;
@@ -182,7 +186,7 @@ mod tests {
 
     /// The starter's wall with these effects, followed so that all windows together speak against it by `nats` and each by
     /// as much: those fitted, and those held out.
-    fn tried(names: &[&str], [fit, held_out]: [f64; 2]) -> Tried {
+    fn tried(names: &[&str], [fit, held_out]: [f64; 2]) -> FittedHypothesis {
         let window = |nats: f64| {
             // The bounded loss of a window, turned about: 40 (1 − exp(−excess/40)) at most.
             let excess = -40.0 * (1.0 - nats / WINDOWS as f64 / 40.0).ln();
@@ -194,7 +198,7 @@ mod tests {
             cost: 0.0,
             covariance: None,
         };
-        Tried { hypothesis: starter_with(names), fit: of(fit), held_out: of(held_out) }
+        FittedHypothesis { hypothesis: starter_with(names), fit: of(fit), held_out: of(held_out) }
     }
 
     fn worth(of_one: [f64; 2], of_two: [f64; 2]) -> bool {

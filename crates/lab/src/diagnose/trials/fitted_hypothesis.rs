@@ -16,7 +16,7 @@ use mrbd_kernel::model::EffectKind;
 
 /// A hypothesis, fitted, and judged on tests that the fit has not seen.
 #[derive(Debug, Clone)]
-pub struct Tried {
+pub struct FittedHypothesis {
     /// What was supposed.
     pub hypothesis: Hypothesis,
     /// Fit to the tests for it.
@@ -42,7 +42,7 @@ impl<'a> Data<'a> {
     }
 }
 
-impl Tried {
+impl FittedHypothesis {
     /// Windowed errors: fit, held out.
     pub fn errors(&self) -> [Option<f64>; 2] {
         [windowed_error(&self.fit.windows), windowed_error(&self.held_out.windows)]
@@ -53,8 +53,8 @@ impl Tried {
         self.errors()[0].unwrap_or(f64::INFINITY)
     }
 
-    /// What speaks against it, in natural logarithms of likelihood: windows that were fitted with the prior and half the
-    /// logarithm of their number for each added one (Schwarz), and windows that were held out.
+    /// What speaks against it, in natural logarithms of likelihood: the windows that were fitted, and those held out.
+    /// The first include the prior and, for each added number, half the logarithm of the number of windows (Schwarz).
     pub fn against(&self, data: &Data) -> [f64; 2] {
         [nats(&self.fit.windows) + self.prior() + self.price(data), nats(&self.held_out.windows)]
     }
@@ -77,17 +77,17 @@ impl Tried {
 }
 
 /// Windowed error over fitted and held-out windows together; `None` where there are none.
-pub fn joint_error(tried: &Tried) -> Option<f64> {
+pub fn joint_error(tried: &FittedHypothesis) -> Option<f64> {
     windowed_error(&all_windows(tried))
 }
 
 /// Fitted and held-out windows together.
-pub fn all_windows(tried: &Tried) -> Vec<WindowFit> {
+pub fn all_windows(tried: &FittedHypothesis) -> Vec<WindowFit> {
     [&tried.fit.windows[..], &tried.held_out.windows].concat()
 }
 
 /// Whether what is left is noise.
-pub fn is_noise(tried: &Tried) -> bool {
+pub fn is_noise(tried: &FittedHypothesis) -> bool {
     let fits = all_windows(tried);
     windowed_error(&fits).is_some_and(|error| error < NOISE) && !too_many_poor(&fits)
 }
@@ -100,12 +100,12 @@ fn too_many_poor(fits: &[WindowFit]) -> bool {
 }
 
 /// What speaks against a hypothesis in all windows.
-pub fn against(data: &Data, tried: &Tried) -> f64 {
+pub fn against(data: &Data, tried: &FittedHypothesis) -> f64 {
     tried.against(data).iter().sum()
 }
 
 /// Whether what a hypothesis leaves is near enough to noise to be the truth, for a gap that was `before`.
-pub fn closes(tried: &Tried, before: f64) -> bool {
+pub fn closes(tried: &FittedHypothesis, before: f64) -> bool {
     let Some(after) = joint_error(tried) else { return false };
     let held_out = tried.errors()[1].is_none_or(|error| error < HELD_OUT_ERROR)
         && more_poor_held_out_sd(&tried.fit.windows, &tried.held_out.windows) < MISSED_HELD_OUT_SD;
@@ -114,7 +114,7 @@ pub fn closes(tried: &Tried, before: f64) -> bool {
 }
 
 /// Kinds of a hypothesis' additions, sorted; `None` if one is no answer.
-pub fn kinds(tried: &Tried) -> Option<Vec<EffectKind>> {
+pub fn kinds(tried: &FittedHypothesis) -> Option<Vec<EffectKind>> {
     let h = &tried.hypothesis;
     let kind = |index| kind_of(h, &tried.fit.values, index);
     let mut kinds = (0..h.additions.len()).map(kind).collect::<Option<Vec<_>>>()?;
@@ -122,9 +122,9 @@ pub fn kinds(tried: &Tried) -> Option<Vec<EffectKind>> {
     Some(kinds)
 }
 
-/// Whether every addition of a hypothesis does something: a number of it differs from doing nothing by more than chance,
-/// and by more than a size too small to matter.
-pub fn does_something(tried: &Tried) -> bool {
+/// Whether every addition of a hypothesis does something. A number of it then differs from doing nothing by more than
+/// chance, and by a size that matters.
+pub fn does_something(tried: &FittedHypothesis) -> bool {
     let h = &tried.hypothesis;
     let acts = |i: usize| {
         let unknown = &h.unknowns[i];
@@ -137,6 +137,8 @@ pub fn does_something(tried: &Tried) -> bool {
 }
 
 /// The first of hypotheses in order that is an answer and does something.
-pub fn best_answer<'t>(tried: impl IntoIterator<Item = &'t Tried>) -> Option<&'t Tried> {
+pub fn best_answer<'t>(
+    tried: impl IntoIterator<Item = &'t FittedHypothesis>,
+) -> Option<&'t FittedHypothesis> {
     tried.into_iter().find(|t| kinds(t).is_some() && does_something(t))
 }
