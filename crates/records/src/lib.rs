@@ -14,6 +14,7 @@
 //! | | [`spectral_acceleration_m_s2`] | S_a(T, ξ) = ω² max abs u, the elastic pseudo-acceleration |
 //! | an intensity | [`ScaledMeasure`] | the factor that gives a record this intensity |
 //! | a suite and a [`Site`] | [`SuiteCheck::of`], [`select()`] | the mean spectrum against the code (NTC 2018); suites that fit |
+//! | a record and a [`Building`] | [`floor_motion`], [`FloorSpectrum`] | the record of a floor; floor spectra of the code (C7.2.3) |
 //! | a published table | [`generate()`], [`read_imports`] | records that stand in for its rows, or the user's own |
 //! | a formula | [`Pulse`] | one sine, Ricker, Mavroeidis and Papageorgiou, ... |
 //!
@@ -47,8 +48,11 @@
 //! # Ok::<(), mrbd_files::InputError>(())
 //! ```
 
+mod building;
 mod code_spectrum;
 mod fft;
+mod floor_motion;
+mod floor_spectrum;
 mod formats;
 mod generate;
 mod intensity;
@@ -61,7 +65,10 @@ mod suite;
 mod suite_file;
 mod unit;
 
+pub use building::{Building, Mode};
 pub use code_spectrum::{COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Site, Soil, SuiteCheck, Topography};
+pub use floor_motion::floor_motion;
+pub use floor_spectrum::FloorSpectrum;
 pub use formats::{
     ColumnChoice, FORMATS, Format, NoColumns, ReadOptions, Record, formats_in_words, read, read_bytes,
     write_two_columns,

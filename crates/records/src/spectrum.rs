@@ -16,14 +16,14 @@ const POINTS_IN_PERIOD: f64 = 40.0;
 pub const CODE_DAMPING: f64 = 0.05;
 
 /// The recursion u(t+h), v(t+h) from u, v and the ground acceleration at both ends of a step.
-struct Recursion {
+pub(crate) struct Recursion {
     state: [[f64; 2]; 2],
     ground: [[f64; 2]; 2],
 }
 
 impl Recursion {
     /// For circular frequency ω (rad/s), damping ratio ζ and step h (s): the matrices A and B of the source.
-    fn new(omega: f64, damping: f64, step: f64) -> Self {
+    pub(crate) fn new(omega: f64, damping: f64, step: f64) -> Self {
         let root = (1.0 - damping * damping).sqrt();
         let omega_d = omega * root;
         let decay = (-damping * omega * step).exp();
@@ -53,7 +53,7 @@ impl Recursion {
         Self { state, ground }
     }
 
-    fn advance(&self, [u, v]: [f64; 2], a0: f64, a1: f64) -> [f64; 2] {
+    pub(crate) fn advance(&self, [u, v]: [f64; 2], a0: f64, a1: f64) -> [f64; 2] {
         let row = |i: usize| {
             let (s, g) = (self.state[i], self.ground[i]);
             s[0] * u + s[1] * v + g[0] * a0 + g[1] * a1
