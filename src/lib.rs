@@ -15,6 +15,8 @@
 //! | [`mrbd_files`] | files that people write | walls and coefficients that are valid, or what is wrong with them |
 //! | [`mrbd_statistics`] | numbers | quantiles, correlations, the tails of the normal distribution |
 //! | [`mrbd_records`] | record files | accelerograms, suites, spectra, intensity measures |
+//! | [`mrbd_statics`] | a wall | what it bears, and how far it can be pushed |
+//! | [`mrbd_assessment`] | a wall and a site | the code's check, the dynamics beside it, annual rates |
 //! | [`mrbd_lab`] | measured tests | coefficients of impact, or the effect that the model lacks |
 //!
 //! The rooms of this package, each using only those above it:
@@ -30,6 +32,8 @@
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
 //! | [`margin`] | a wall, a suite | the factor on each record that overturns it, and its fragility |
 //! | [`classics`] | a wall, and what others published | their studies again: the models of Fig. 9, overturning spectra |
+//! | [`assessment`] | a wall, a site, a suite | the code's check and the dynamics, as a folder keeps them |
+//! | [`push`] | a wall | force against displacement as it is pushed slowly |
 //! | [`results`] | what the laboratory found | result folders |
 //! | [`summary`] | result folders | what a page shows, computed before anything is drawn |
 //! | [`report`] | summaries, runs | pages and pictures |
@@ -51,6 +55,7 @@
 //! ```
 
 pub mod aggregate;
+pub mod assessment;
 pub mod check;
 pub mod classics;
 pub mod cli;
@@ -58,6 +63,7 @@ pub mod error;
 pub mod findings;
 pub mod fragility;
 pub mod margin;
+pub mod push;
 pub mod report;
 pub mod results;
 pub mod starter;

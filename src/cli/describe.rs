@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::output;
-use crate::error::{InputError, Result};
+use crate::error::Result;
 use crate::report::wall_svg;
 use crate::store::write_durably;
 use mrbd_files::description::{Body, Description};
@@ -44,7 +44,7 @@ impl DescribeCommand {
         output::check_apart("--plot", self.plot.as_deref(), &[&self.wall])?;
         let description = Description::of(&wall);
         if let Some(path) = &self.plot {
-            check_extension(path)?;
+            output::check_svg(path)?;
             write_durably(path, wall_svg(&wall, &description).as_bytes())?;
         }
         print_questions(&self.wall, &wall);
@@ -53,14 +53,6 @@ impl DescribeCommand {
         } else {
             for_people(&wall, &description)
         })
-    }
-}
-
-fn check_extension(path: &Path) -> Result<(), InputError> {
-    let extension = path.extension().map(|extension| extension.to_string_lossy().into_owned());
-    match extension.filter(|extension| extension.eq_ignore_ascii_case("svg")) {
-        Some(_) => Ok(()),
-        None => Err(InputError::option("--plot", path.display().to_string(), "a file that ends in .svg")),
     }
 }
 

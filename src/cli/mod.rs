@@ -3,6 +3,7 @@
 //! stdout is for data, stderr for people.
 
 mod aggregate;
+mod assess;
 mod calibrate;
 mod check;
 mod check_tolerance;
@@ -18,6 +19,7 @@ mod margin;
 mod merge;
 mod output;
 mod progress;
+mod push;
 mod records;
 mod replay;
 mod report;
@@ -76,6 +78,8 @@ enum Command {
     #[command(after_help = examples::REPORT)]
     Report(report::ReportCommand),
     Margin(margin::MarginCommand),
+    Push(push::PushCommand),
+    Assess(assess::AssessCommand),
     Simulate(simulate::SimulateArgs),
     Completions(completions::CompletionsCommand),
 }
@@ -114,6 +118,8 @@ impl Cli {
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
             Command::Margin(command) => command.execute(),
+            Command::Push(command) => command.execute(),
+            Command::Assess(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),
             Command::Completions(command) => command.execute(),
         }

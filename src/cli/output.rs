@@ -2,8 +2,12 @@
 
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
+use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::error::{Error, InputError, Result};
+use crate::store::write_durably;
+use mrbd_files::FileNote;
+use mrbd_records::Suite;
 
 /// Prints on stdout; a reader that has seen enough (`| head`) is no error.
 ///
@@ -40,6 +44,41 @@ pub fn check_apart(option: &str, written: Option<&Path>, read: &[&Path]) -> Resu
         }
         _ => Ok(()),
     }
+}
+
+/// Refuses a picture that is no .svg.
+///
+/// # Errors
+/// An input error of `--plot`.
+pub fn check_svg(path: &Path) -> Result<(), InputError> {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().into_owned());
+    match extension.filter(|extension| extension.eq_ignore_ascii_case("svg")) {
+        Some(_) => Ok(()),
+        None => Err(InputError::option("--plot", path.display().to_string(), "a file that ends in .svg")),
+    }
+}
+
+/// Writes the manifest of results that are made at once.
+///
+/// # Errors
+/// What the disk says.
+pub fn write_manifest(
+    path: &Path,
+    kind: &str,
+    name: &str,
+    inputs: Vec<FileNote>,
+    suite: Option<&Suite>,
+) -> Result<()> {
+    let manifest = serde_json::json!({
+        "kind": kind,
+        "name": name,
+        "tool_version": env!("CARGO_PKG_VERSION"),
+        "suite": suite.map(|suite| &suite.name),
+        "generated": suite.is_some_and(|suite| suite.generated),
+        "inputs": inputs,
+        "started_unix_s": SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+    });
+    write_durably(path, format!("{manifest:#}\n").as_bytes())
 }
 
 /// An error of a stream as an error of stdout.

@@ -33,6 +33,7 @@ pub fn page(calibrated: &Calibrated) -> Page {
         ],
         provenance: origin(stored, note),
         files: files.map(Link::to).to_vec(),
+        ..Page::default()
     }
 }
 

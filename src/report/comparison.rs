@@ -84,6 +84,7 @@ pub fn page(folder: &Path) -> Result<Page> {
             .chain(histories.is_some().then_some(histories::FILE))
             .map(Link::to)
             .collect(),
+        ..Page::default()
     })
 }
 

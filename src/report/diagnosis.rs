@@ -63,6 +63,7 @@ pub fn page(folder: &Path) -> Result<Page> {
         sections,
         provenance: note.pairs(),
         files: files.into_iter().map(Link::to).collect(),
+        ..Page::default()
     })
 }
 

@@ -34,6 +34,7 @@ pub fn page(drawn: &Drawn) -> Page {
         sections,
         provenance: provenance::of(manifest),
         files: provenance::files(links),
+        ..Page::default()
     }
 }
 

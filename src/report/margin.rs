@@ -51,6 +51,7 @@ pub fn page(folder: &Path) -> Result<Page> {
         }],
         provenance: note.pairs(),
         files: ["margin.json", "margin.parquet"].map(Link::to).to_vec(),
+        ..Page::default()
     })
 }
 

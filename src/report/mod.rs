@@ -13,6 +13,8 @@
 //! | `calibration` | measured against simulated, intervals, convergence (Figs. 6 to 8) |
 //! | `diagnosis` | where model and tests part, the missing force, candidates and rivals, before and after |
 //! | `comparison` | three models of a wall under the same records (Fig. 9) |
+//! | `assessment` | the code's check of a mechanism beside the dynamics: the sheet to hand in |
+//! | `push` | force against displacement of a slow push |
 //! | `overturning` | which pulses overturn a wall |
 //! | `margin` | the factor on each record that takes a wall beyond a limit |
 //!
@@ -27,6 +29,7 @@
 //! | `provenance` | the manifest as names and values, files, sentences on what is generated or assumed |
 //! | `words` | names as people read them |
 
+mod assessment;
 mod calibration;
 mod chart;
 mod comparison;
@@ -37,12 +40,14 @@ mod margin;
 mod overturning;
 mod page;
 mod provenance;
+mod push;
 mod rotations;
 mod run;
 mod sweep;
 mod wall;
 mod words;
 
+pub use push::push_svg;
 pub use run::{ImpactMark, PlotFile, RunPicture, Watch};
 pub use wall::wall_svg;
 
@@ -62,6 +67,8 @@ pub fn html(summary: &Summary) -> Result<String> {
         Summary::Diagnosis(folder) => diagnosis::page(folder),
         Summary::Comparison(folder) => comparison::page(folder),
         Summary::Margin(folder) => margin::page(folder),
+        Summary::Push(folder) => push::page(folder),
+        Summary::Assessment(folder) => assessment::page(folder),
         Summary::Overturning(folder) => overturning::page(folder),
         Summary::History(file) => history::page(file),
     };

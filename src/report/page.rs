@@ -10,6 +10,8 @@ use crate::text::percent_escaped;
 /// A page.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Page {
+    /// Code of its language; empty for English.
+    pub lang: &'static str,
     /// Title.
     pub title: String,
     /// What it shows, in a sentence or two.
@@ -24,6 +26,8 @@ pub struct Page {
     pub sections: Vec<Section>,
     /// Where it comes from: names and values.
     pub provenance: Vec<(String, String)>,
+    /// Whose equation, table and figure numbers it has; empty for the paper's.
+    pub footer: String,
     /// Files behind it.
     pub files: Vec<Link>,
 }

@@ -33,6 +33,7 @@ pub fn page(sweep: &Sweep) -> Page {
         sections,
         provenance: provenance::of(manifest),
         files: provenance::files(links),
+        ..Page::default()
     }
 }
 

@@ -52,6 +52,10 @@ pub enum Summary {
     Overturning(PathBuf),
     /// The folder of a wall's margin, drawn as it is stored.
     Margin(PathBuf),
+    /// The folder of an assessment, drawn as it is stored.
+    Assessment(PathBuf),
+    /// The folder of a slow push, drawn as it is stored.
+    Push(PathBuf),
     /// The file of a history, drawn as it is stored.
     History(PathBuf),
 }
@@ -118,6 +122,8 @@ fn of_folder(folder: &Path, manifest: &Path, site: Option<&Site>) -> Result<Summ
         Some(results::calibration::KIND) => Ok(Summary::Calibration(Box::new(Calibrated::read(folder)?))),
         Some(results::diagnosis::KIND) => Ok(Summary::Diagnosis(folder.to_path_buf())),
         Some(crate::margin::KIND) => Ok(Summary::Margin(folder.to_path_buf())),
+        Some(crate::assessment::KIND) => Ok(Summary::Assessment(folder.to_path_buf())),
+        Some(crate::push::KIND) => Ok(Summary::Push(folder.to_path_buf())),
         Some(crate::classics::comparison::KIND) => Ok(Summary::Comparison(folder.to_path_buf())),
         _ => study(folder, manifest, site),
     }

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of `src/` in the flow of data, and the rooms that each may use.
-const ALLOWED: [(&str, &[&str]); 15] = [
+const ALLOWED: [(&str, &[&str]); 17] = [
     ("error", &[]),
     ("text", &[]),
     ("store", &["error"]),
@@ -19,6 +19,8 @@ const ALLOWED: [(&str, &[&str]); 15] = [
     ("fragility", &["error", "text", "store", "study"]),
     ("margin", &["error", "store", "study", "fragility"]),
     ("classics", &["error", "text", "store", "study"]),
+    ("push", &["error"]),
+    ("assessment", &["error"]),
     ("results", &["error", "store"]),
     ("starter", &["error", "store"]),
     (
@@ -33,6 +35,8 @@ const ALLOWED: [(&str, &[&str]); 15] = [
             "fragility",
             "margin",
             "classics",
+            "push",
+            "assessment",
             "results",
         ],
     ),
@@ -49,6 +53,8 @@ const ALLOWED: [(&str, &[&str]); 15] = [
             "fragility",
             "margin",
             "classics",
+            "push",
+            "assessment",
             "results",
             "summary",
         ],

@@ -48,8 +48,7 @@ impl Building {
 
     /// All modes, the first with ψ_1 = z/H.
     pub fn all_modes(&self) -> Vec<Mode> {
-        let first =
-            Mode { period_s: self.period_s, participation: self.participation() * self.height_ratio };
+        let first = Mode { period_s: self.period_s, participation: self.participation() * self.height_ratio };
         std::iter::once(first).chain(self.modes.iter().copied()).collect()
     }
 

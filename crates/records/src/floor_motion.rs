@@ -16,7 +16,11 @@ const LEFT: f64 = 0.01;
 ///
 /// # Errors
 /// [`InvalidAccelerogram`] for samples that are not finite, which finite records do not give.
-pub fn floor_motion(record: &Accelerogram, modes: &[Mode], damping: f64) -> Result<Accelerogram, InvalidAccelerogram> {
+pub fn floor_motion(
+    record: &Accelerogram,
+    modes: &[Mode],
+    damping: f64,
+) -> Result<Accelerogram, InvalidAccelerogram> {
     let shortest_s = modes.iter().map(|mode| mode.period_s).fold(f64::INFINITY, f64::min);
     let longest_s = modes.iter().map(|mode| mode.period_s).fold(0.0, f64::max);
     let parts = (record.step_s() * SAMPLES_IN_PERIOD / shortest_s).ceil().max(1.0);
@@ -63,14 +67,16 @@ mod tests {
     use crate::{CODE_DAMPING, spectral_acceleration_m_s2};
 
     fn sine(period_s: f64, cycles: u32) -> Accelerogram {
-        let samples = (0..=100 * cycles).map(|i| (std::f64::consts::TAU * f64::from(i) / 100.0).sin()).collect();
+        let samples =
+            (0..=100 * cycles).map(|i| (std::f64::consts::TAU * f64::from(i) / 100.0).sin()).collect();
         Accelerogram::new(period_s / 100.0, samples).expect("samples")
     }
 
     #[test]
     fn analytic_a_floor_that_does_not_move_with_the_building_has_the_ground_s_motion() {
         let record = sine(0.5, 3);
-        let floor = floor_motion(&record, &[Mode { period_s: 0.3, participation: 0.0 }], 0.05).expect("a motion");
+        let floor =
+            floor_motion(&record, &[Mode { period_s: 0.3, participation: 0.0 }], 0.05).expect("a motion");
         let ground = record.acceleration_m_s2();
         assert_eq!(&floor.acceleration_m_s2()[..ground.len()], ground);
         assert!(floor.acceleration_m_s2()[ground.len()..].iter().all(|a| *a == 0.0));
@@ -79,7 +85,8 @@ mod tests {
     #[test]
     fn analytic_a_stiff_building_takes_the_ground_s_motion_to_its_top() {
         let record = sine(1.0, 5);
-        let floor = floor_motion(&record, &[Mode { period_s: 0.05, participation: 1.0 }], 0.05).expect("a motion");
+        let floor =
+            floor_motion(&record, &[Mode { period_s: 0.05, participation: 1.0 }], 0.05).expect("a motion");
         // Quasi-static: what differs is (T_1/T)² of the ground's, and its own free motion from the start.
         assert!((floor.peak_m_s2() - 1.0).abs() < 0.02, "{}", floor.peak_m_s2());
     }
@@ -88,7 +95,8 @@ mod tests {
     fn analytic_resonance_grows_to_the_dynamic_amplification() {
         // Steady state at resonance: √(1 + 4ξ²)/(2ξ) of the ground; 60 cycles leave exp(-2π 60 ξ) of the start.
         let record = sine(0.4, 60);
-        let floor = floor_motion(&record, &[Mode { period_s: 0.4, participation: 1.0 }], 0.05).expect("a motion");
+        let floor =
+            floor_motion(&record, &[Mode { period_s: 0.4, participation: 1.0 }], 0.05).expect("a motion");
         let steady = (1.0_f64 + 0.01).sqrt() / 0.1;
         // A hundred samples a cycle miss a peak by 1 - cos(π/100) = 5e-4 at most.
         assert!((floor.peak_m_s2() / steady - 1.0).abs() < 1e-3, "{}", floor.peak_m_s2());
@@ -97,10 +105,12 @@ mod tests {
     #[test]
     fn analytic_what_is_in_tune_with_a_floor_is_shaken_several_times_as_much_as_the_floor() {
         // Which reading of the commentary's amplification 1.1 ξ_k^-0.5 is meant: 4.9 of relative damping, 0.5 in percent.
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../inputs/records/emilia7/suite.toml");
+        let path =
+            std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../inputs/records/emilia7/suite.toml");
         let suite = crate::Suite::load(&path).expect("the suite");
         let ratio = |record: &crate::SuiteRecord| {
-            let floor = floor_motion(&record.horizontal, &[Mode { period_s: 0.3, participation: 1.0 }], 0.05).expect("a motion");
+            let floor = floor_motion(&record.horizontal, &[Mode { period_s: 0.3, participation: 1.0 }], 0.05)
+                .expect("a motion");
             spectral_acceleration_m_s2(&floor, 0.3, CODE_DAMPING) / floor.peak_m_s2()
         };
         let mean = suite.records.iter().map(ratio).sum::<f64>() / suite.records.len() as f64;

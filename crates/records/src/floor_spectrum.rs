@@ -19,7 +19,12 @@ pub struct FloorSpectrum<'a> {
 impl FloorSpectrum<'_> {
     /// S_eZ(T, ξ, z) (C7.2.5), m/s²: modes by the root of squares; beyond T_1 not below that of the ground.
     pub fn elastic_m_s2(&self, period_s: f64, damping: f64) -> f64 {
-        let squares = self.building.all_modes().iter().map(|mode| self.of_mode(mode, period_s, damping).powi(2)).sum::<f64>();
+        let squares = self
+            .building
+            .all_modes()
+            .iter()
+            .map(|mode| self.of_mode(mode, period_s, damping).powi(2))
+            .sum::<f64>();
         let floor = squares.sqrt();
         if period_s > self.building.period_s { floor.max(self.of_ground(period_s, damping)) } else { floor }
     }
@@ -141,7 +146,9 @@ mod tests {
         let building = building(1.0);
         let floor = FloorSpectrum { site: site(), building: &building };
         let ground = 0.25 * G_M_S2;
-        for (period_s, value) in [(0.2, 10.0 * ground), (0.0, 2.0 * ground), (0.16, 10.0 * ground), (5.0, ground)] {
+        for (period_s, value) in
+            [(0.2, 10.0 * ground), (0.0, 2.0 * ground), (0.16, 10.0 * ground), (5.0, ground)]
+        {
             assert!((floor.framed_m_s2(period_s) / value - 1.0).abs() < 1e-12, "{period_s}");
         }
     }

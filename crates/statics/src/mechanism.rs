@@ -45,8 +45,7 @@ impl Mechanism {
     fn rotations(self, chain: &Chain) -> ([f64; 2], [f64; 2]) {
         let [h_1, h_2] = chain.height_m;
         match self {
-            Self::OneBlock => ([1.0, 1.0], [1.0, 1.0]),
-            Self::UpperBody => ([0.0, 1.0], [1.0, 1.0]),
+            Self::OneBlock | Self::UpperBody => ([1.0, 1.0], [1.0, 1.0]),
             Self::Both => ([1.0, 2.0], [1.0, 1.0]),
             Self::VerticalBending => ([1.0, -h_1 / h_2], [1.0, -1.0]),
         }
@@ -54,8 +53,18 @@ impl Mechanism {
 
     /// The virtual work of a wall in this mechanism; `None` where it has no crack for it.
     pub fn work(self, chain: &Chain) -> Option<VirtualWork> {
+        if !self.exists(chain) {
+            return None;
+        }
         let (rotations, sides) = self.rotations(chain);
-        self.exists(chain).then(|| VirtualWork::of(chain, rotations, sides))
+        Some(match self {
+            // Weights that take no part are none of its sums: what is below it, and what the support holds.
+            Self::UpperBody => VirtualWork::of(&chain.above_crack(), [1.0; 2], [1.0; 2]),
+            Self::VerticalBending => {
+                VirtualWork { pushing_n: chain.weight_n(), ..VirtualWork::of(chain, rotations, sides) }
+            }
+            _ => VirtualWork::of(chain, rotations, sides),
+        })
     }
 }
 
@@ -152,7 +161,8 @@ mod tests {
         assert!((bending.alpha_0() - 4.0 * 0.3 / 4.0).abs() < 1e-15);
         assert!((bending.e_star() - 0.75).abs() < 1e-15 && bending.top_m.abs() < 1e-15);
         // The upper body alone: a block half as high.
-        assert!((work(Mechanism::UpperBody, &cracked).alpha_0() - 0.15).abs() < 1e-15);
+        let upper = work(Mechanism::UpperBody, &cracked);
+        assert!((upper.alpha_0() - 0.15).abs() < 1e-15 && (upper.e_star() - 0.75).abs() < 1e-15);
     }
 
     #[test]

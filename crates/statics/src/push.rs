@@ -145,7 +145,8 @@ impl Push {
     }
 
     fn rest(&self) -> State {
-        let point = Point { displacement_m: 0.0, crack_m: 0.0, top_m: 0.0, theta_rad: [0.0; 2], force_n: 0.0 };
+        let point =
+            Point { displacement_m: 0.0, crack_m: 0.0, top_m: 0.0, theta_rad: [0.0; 2], force_n: 0.0 };
         State { point, plastic_m: 0.0 }
     }
 

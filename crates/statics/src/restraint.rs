@@ -80,7 +80,8 @@ mod tests {
     use mrbd_kernel::model::{Effect, WallParameters};
 
     fn wall(stiffness_n_per_m: f64, effects: &[(&str, &[f64])]) -> Wall {
-        let effects = effects.iter().map(|(name, values)| Effect::with_parameters(name, values).expect("an effect"));
+        let effects =
+            effects.iter().map(|(name, values)| Effect::with_parameters(name, values).expect("an effect"));
         let strip = WallParameters::strip(0.3, 4.0, 1800.0);
         Wall::new(WallParameters { stiffness_n_per_m, effects: effects.collect(), ..strip }).expect("a wall")
     }

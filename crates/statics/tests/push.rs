@@ -56,12 +56,17 @@ fn analytic_a_held_wall_on_beds_follows_the_closed_form() {
             let line = (moments - weight_n * 3.0 * theta / 2.0) / 1.5;
             if line < 0.0 {
                 // The softest bed has let it fall by then.
-                assert!(stiffness == 4e7 && share > 0.3 && curve.end.expect("it falls").crack_m < share * 0.1);
+                assert!(
+                    stiffness == 4e7 && share > 0.3 && curve.end.expect("it falls").crack_m < share * 0.1
+                );
                 continue;
             }
             let found = force_n(&curve, share * 0.1);
             // Squares of rotations as above; lines between points 1 % of b apart.
-            assert!((found - line).abs() < 0.005 * 2.0 * (0.1 / 3.0) * weight_n, "{stiffness} {share}: {found} {line}");
+            assert!(
+                (found - line).abs() < 0.005 * 2.0 * (0.1 / 3.0) * weight_n,
+                "{stiffness} {share}: {found} {line}"
+            );
         }
     }
 }
@@ -114,7 +119,8 @@ fn analytic_a_spring_leads_from_the_free_wall_to_the_held_one() {
     assert!((free / (0.1 / 3.0) - 1.0).abs() < 1e-8 && (stiffest / (4.0 * 0.1 / 3.0) - 1.0).abs() < 1e-4);
     assert!(free < soft && soft < medium && medium < stiff && stiff < stiffest, "{soft} {medium} {stiff}");
     let wall = wall(|_| {});
-    let held = push(&wall, Restraint::Held, Load::Uniform).peak.force_n / (wall.parameters().mass_kg * G_M_S2);
+    let held =
+        push(&wall, Restraint::Held, Load::Uniform).peak.force_n / (wall.parameters().mass_kg * G_M_S2);
     assert!((held / (4.0 * 0.1 / 3.0) - 1.0).abs() < 2e-6, "{held}");
 }
 
@@ -138,14 +144,18 @@ fn analytic_the_work_of_the_push_is_stored_in_weights_springs_and_beds() {
             let moves = chain.moves(point.theta_rad, phi.map(|phi| if phi < 0.0 { -1.0 } else { 1.0 }));
             // The bed's own share: its work less that of sharp edges, which lifts the weights.
             let beds: f64 = (0..2)
-                .map(|i| chain.joints[i].work_j(phi[i]) - Joint::sharp(0.1, chain.joints[i].load_n).work_j(phi[i]))
+                .map(|i| {
+                    chain.joints[i].work_j(phi[i]) - Joint::sharp(0.1, chain.joints[i].load_n).work_j(phi[i])
+                })
                 .sum();
             chain.lifted(&moves).by_m + 0.5 * 30e3 * point.top_m.powi(2) + beds
         };
         let work_j: f64 = curve
             .points
             .windows(2)
-            .map(|pair| 0.5 * (pair[0].force_n + pair[1].force_n) * (pair[1].displacement_m - pair[0].displacement_m))
+            .map(|pair| {
+                0.5 * (pair[0].force_n + pair[1].force_n) * (pair[1].displacement_m - pair[0].displacement_m)
+            })
             .sum();
         let stored = stored_j(curve.points.last().expect("points"));
         // Trapezia over steps of 1 % of b leave a share of about 1e-4.
@@ -162,7 +172,10 @@ fn analytic_the_side_of_the_push_matters_only_off_the_middle() {
         });
         let chain = Chain::of(&wall, Edges::AsTheyAre, side);
         let restraint = Restraint::of(&wall, side);
-        Push { chain, restraint, load: Load::Top, fallen_rad: wall.collapse_rotation_rad() }.curve().peak.force_n
+        Push { chain, restraint, load: Load::Top, fallen_rad: wall.collapse_rotation_rad() }
+            .curve()
+            .peak
+            .force_n
     };
     assert_eq!(peak(0.0, Side::Right), peak(0.0, Side::Left));
     assert_eq!(peak(0.03, Side::Right), peak(-0.03, Side::Left));
