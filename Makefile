@@ -12,7 +12,7 @@ include make/peers.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep monte-carlo fragility measured check readme test stranger test-browser bench blind lint docs clean
+.PHONY: help sweep monte-carlo fragility measured assess-table check readme test stranger test-browser bench blind lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -33,6 +33,10 @@ fragility: ## run drawn façades under scaled records, fit θ/α > 0.1, θ/α > 
 measured: ## joints that give fitted to a wall that was measured, judged on a release held out, both ways round
 	cargo run --release --locked --bin mrbd -- calibrate inputs/measured/griffith_2004/experiment_a.toml --out outputs/measured_a --resume
 	cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/experiment_b.toml --out outputs/measured_b --resume
+
+assess-table: ## the survey's façades by the code's check and by their own dynamics: table and picture
+	cargo run --release --locked --bin mrbd -- assess-survey inputs/survey.toml --coefficients inputs/coefficients.toml \
+		--site inputs/site_mirandola.toml --records $(SUITE) --out outputs/assess_table --force > outputs/assess_table.csv
 
 check: ## run a smaller sweep and compare its medians with the accepted ones
 	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null

@@ -34,6 +34,8 @@
 //! | [`classics`] | a wall, and what others published | their studies again: the models of Fig. 9, overturning spectra |
 //! | [`assessment`] | a wall, a site, a suite | the code's check and the dynamics, as a folder keeps them |
 //! | [`push`] | a wall | force against displacement as it is pushed slowly |
+//! | [`portfolio`] | a survey, a site, a suite | the code's check beside the dynamics, façade by façade |
+//! | [`risk`] | fragilities, a hazard curve | annual rates of limit states |
 //! | [`results`] | what the laboratory found | result folders |
 //! | [`summary`] | result folders | what a page shows, computed before anything is drawn |
 //! | [`report`] | summaries, runs | pages and pictures |
@@ -63,9 +65,11 @@ pub mod error;
 pub mod findings;
 pub mod fragility;
 pub mod margin;
+pub mod portfolio;
 pub mod push;
 pub mod report;
 pub mod results;
+pub mod risk;
 pub mod starter;
 pub mod store;
 pub mod study;

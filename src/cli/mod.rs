@@ -4,6 +4,7 @@
 
 mod aggregate;
 mod assess;
+mod assess_survey;
 mod calibrate;
 mod check;
 mod check_tolerance;
@@ -23,6 +24,7 @@ mod push;
 mod records;
 mod replay;
 mod report;
+mod risk;
 mod run;
 mod shell;
 mod simulate;
@@ -80,6 +82,8 @@ enum Command {
     Margin(margin::MarginCommand),
     Push(push::PushCommand),
     Assess(assess::AssessCommand),
+    AssessSurvey(assess_survey::AssessSurveyCommand),
+    Risk(risk::RiskCommand),
     Simulate(simulate::SimulateArgs),
     Completions(completions::CompletionsCommand),
 }
@@ -120,6 +124,8 @@ impl Cli {
             Command::Margin(command) => command.execute(),
             Command::Push(command) => command.execute(),
             Command::Assess(command) => command.execute(),
+            Command::AssessSurvey(command) => command.execute(),
+            Command::Risk(command) => command.execute(),
             Command::Simulate(args) => simulate::execute(&args),
             Command::Completions(command) => command.execute(),
         }

@@ -14,6 +14,7 @@
 //! | `diagnosis` | where model and tests part, the missing force, candidates and rivals, before and after |
 //! | `comparison` | three models of a wall under the same records (Fig. 9) |
 //! | `assessment` | the code's check of a mechanism beside the dynamics: the sheet to hand in |
+//! | `portfolio` | a survey's façades: ζ static beside ζ dynamic |
 //! | `push` | force against displacement of a slow push |
 //! | `overturning` | which pulses overturn a wall |
 //! | `margin` | the factor on each record that takes a wall beyond a limit |
@@ -39,6 +40,7 @@ mod history;
 mod margin;
 mod overturning;
 mod page;
+mod portfolio;
 mod provenance;
 mod push;
 mod rotations;
@@ -68,6 +70,7 @@ pub fn html(summary: &Summary) -> Result<String> {
         Summary::Comparison(folder) => comparison::page(folder),
         Summary::Margin(folder) => margin::page(folder),
         Summary::Push(folder) => push::page(folder),
+        Summary::Portfolio(folder) => portfolio::page(folder),
         Summary::Assessment(folder) => assessment::page(folder),
         Summary::Overturning(folder) => overturning::page(folder),
         Summary::History(file) => history::page(file),

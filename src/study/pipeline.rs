@@ -12,6 +12,7 @@ use crate::survey::sampling::Sampling;
 use crate::survey::{Assumptions, Changes, Configuration};
 use mrbd_files::toml_file;
 use serde::{Deserialize, Serialize};
+use mrbd_records::Building;
 
 /// A named set of assumptions under which the whole study is run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -37,6 +38,8 @@ pub struct Pipeline {
     pub coefficients: PathBuf,
     /// Suite of records.
     pub suite: PathBuf,
+    /// Building on a floor of which the façades stand; `None`: at the ground.
+    pub floor: Option<Building>,
     /// Kind of the study.
     pub kind: Kind,
     /// Which façades, and how strongly they are shaken.
@@ -52,6 +55,7 @@ struct PipelineFile {
     survey: PathBuf,
     coefficients: PathBuf,
     suite: PathBuf,
+    floor: Option<Building>,
     #[serde(default)]
     assumptions: Changes,
     variants: Vec<VariantTable>,
@@ -100,6 +104,7 @@ impl Pipeline {
             incremental: file.incremental,
         };
         let study = tables.study(path, file.kind, &variants)?;
+        file.floor.as_ref().map_or(Ok(()), |floor| floor.check(path, "floor"))?;
         Ok(Self {
             path: path.to_path_buf(),
             text,
@@ -107,6 +112,7 @@ impl Pipeline {
             survey: beside(file.survey),
             coefficients: beside(file.coefficients),
             suite: beside(file.suite),
+            floor: file.floor,
             kind: file.kind,
             study,
             variants,
@@ -267,6 +273,8 @@ mod tests {
         assert!(refused("length_m = 1.0", "length_m = -1.0").contains("assumptions.length_m: found -1"));
         assert!(refused("length_m = 2.0", "length_m = inf").contains("variants[3].set.length_m: found inf"));
         assert!(refused("name = \"contact\"", "name = \"base\"").contains("variants[1].name"));
+        let floor = "name = \"sweep\"\nfloor = { height_ratio = 2.0, period_s = 0.3, storeys = 2 }";
+        assert!(refused("name = \"sweep\"", floor).contains("floor.height_ratio: found 2"));
         assert!(refused("tail_s = 5.0", "tail = 5.0").contains("tail"));
         assert!(refused("tolerance = 1e-6", "tolerance = 0.0").contains("assumptions.tolerance"));
     }

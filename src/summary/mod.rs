@@ -54,6 +54,8 @@ pub enum Summary {
     Margin(PathBuf),
     /// The folder of an assessment, drawn as it is stored.
     Assessment(PathBuf),
+    /// The folder of a survey's assessments, drawn as it is stored.
+    Portfolio(PathBuf),
     /// The folder of a slow push, drawn as it is stored.
     Push(PathBuf),
     /// The file of a history, drawn as it is stored.
@@ -123,6 +125,7 @@ fn of_folder(folder: &Path, manifest: &Path, site: Option<&Site>) -> Result<Summ
         Some(results::diagnosis::KIND) => Ok(Summary::Diagnosis(folder.to_path_buf())),
         Some(crate::margin::KIND) => Ok(Summary::Margin(folder.to_path_buf())),
         Some(crate::assessment::KIND) => Ok(Summary::Assessment(folder.to_path_buf())),
+        Some(crate::portfolio::KIND) => Ok(Summary::Portfolio(folder.to_path_buf())),
         Some(crate::push::KIND) => Ok(Summary::Push(folder.to_path_buf())),
         Some(crate::classics::comparison::KIND) => Ok(Summary::Comparison(folder.to_path_buf())),
         _ => study(folder, manifest, site),

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of `src/` in the flow of data, and the rooms that each may use.
-const ALLOWED: [(&str, &[&str]); 17] = [
+const ALLOWED: [(&str, &[&str]); 19] = [
     ("error", &[]),
     ("text", &[]),
     ("store", &["error"]),
@@ -21,6 +21,8 @@ const ALLOWED: [(&str, &[&str]); 17] = [
     ("classics", &["error", "text", "store", "study"]),
     ("push", &["error"]),
     ("assessment", &["error"]),
+    ("risk", &["error", "margin"]),
+    ("portfolio", &["error", "store", "study", "survey"]),
     ("results", &["error", "store"]),
     ("starter", &["error", "store"]),
     (
@@ -37,6 +39,7 @@ const ALLOWED: [(&str, &[&str]); 17] = [
             "classics",
             "push",
             "assessment",
+            "portfolio",
             "results",
         ],
     ),
@@ -55,6 +58,7 @@ const ALLOWED: [(&str, &[&str]); 17] = [
             "classics",
             "push",
             "assessment",
+            "portfolio",
             "results",
             "summary",
         ],

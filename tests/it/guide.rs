@@ -28,6 +28,11 @@ fn regress_the_commands_of_the_calibration_run_as_they_stand() {
     run_as_they_stand("docs/calibration.md", 3);
 }
 
+#[test]
+fn regress_the_commands_of_the_assessment_run_as_they_stand() {
+    run_as_they_stand("docs/assessment.md", 3);
+}
+
 /// Runs the blocks of a page one after another, more than `least` of them.
 fn run_as_they_stand(page: &str, least: usize) {
     let page = text(page);

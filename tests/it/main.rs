@@ -3,6 +3,7 @@
 //! Test names carry their kind: `analytic_` (a closed form or an invariant), `published_` (a figure from the literature),
 //! `verified_` (an independent program), `regress_` (our own earlier result), `rejects_` (bad input).
 
+mod assess;
 mod beds;
 mod blind;
 mod calibrate_cli;
@@ -57,6 +58,7 @@ mod pipeline_findings;
 mod pipeline_plan;
 mod pipeline_support;
 mod published;
+mod push;
 mod readme;
 mod replay;
 mod report_browser;

@@ -1,6 +1,6 @@
 //! A record brought to a floor: what the ground's motion becomes at the height of a wall in a building.
 
-use super::Mode;
+use super::{Building, IntensityMeasures, Mode, Suite, SuiteRecord};
 use super::spectrum::Recursion;
 use mrbd_kernel::accelerogram::{Accelerogram, InvalidAccelerogram};
 
@@ -35,6 +35,26 @@ pub fn floor_motion(
         }
     }
     Accelerogram::new(step_s, floor)
+}
+
+impl Suite {
+    /// The suite on a floor of a building: horizontal motions by [`floor_motion`] with their measures, vertical ones as they
+    /// are, at the same step. Names stay.
+    ///
+    /// # Errors
+    /// As [`floor_motion`].
+    pub fn on_floor(self, building: &Building) -> Result<Self, InvalidAccelerogram> {
+        let modes = building.all_modes();
+        let on_floor = |record: SuiteRecord| {
+            let horizontal = floor_motion(&record.horizontal, &modes, building.damping)?;
+            let parts = (record.horizontal.step_s() / horizontal.step_s()).round() as usize;
+            let finer = |up: &Accelerogram| Accelerogram::new(horizontal.step_s(), resampled(up, parts, 0));
+            let vertical = record.vertical.as_ref().map(finer).transpose()?;
+            Ok(SuiteRecord { intensity: IntensityMeasures::of(&horizontal), horizontal, vertical, ..record })
+        };
+        let records = self.records.into_iter().map(on_floor).collect::<Result<_, _>>()?;
+        Ok(Self { records, ..self })
+    }
 }
 
 /// Samples between which there are so many parts, and zeros after them.

@@ -3,6 +3,7 @@
 mod check;
 mod convert;
 mod describe;
+mod floor;
 mod generate;
 mod import;
 mod pulse;
@@ -56,6 +57,7 @@ enum RecordsCommand {
     Select(select::SelectArgs),
     Import(import::ImportArgs),
     Pulse(pulse::PulseArgs),
+    Floor(floor::FloorArgs),
 }
 
 /// Runs the chosen command.
@@ -71,6 +73,7 @@ pub fn execute(args: &RecordsArgs) -> Result<()> {
         RecordsCommand::Select(args) => select::execute(args),
         RecordsCommand::Import(args) => import::execute(args),
         RecordsCommand::Pulse(args) => pulse::execute(args),
+        RecordsCommand::Floor(args) => floor::execute(args),
     }
 }
 

@@ -17,11 +17,6 @@ impl Words {
         .to_owned()
     }
 
-    /// A number with the decimals asked for.
-    pub fn number(self, value: f64, decimals: usize) -> String {
-        format!("{value:.decimals$}")
-    }
-
     /// A mechanism.
     pub fn governing(self, mechanism: Governing) -> String {
         match mechanism {

@@ -40,6 +40,15 @@ enum Settings {
     Drawn(Box<DrawnFacades>),
 }
 
+/// The suite where the façades stand.
+fn on_floor(pipeline: &Pipeline, suite: Suite) -> Result<Suite> {
+    let Some(building) = &pipeline.floor else { return Ok(suite) };
+    let fault = |e: mrbd_records::InvalidAccelerogram| {
+        InputError::key(&pipeline.path, "floor", e.to_string(), "records that a building can follow")
+    };
+    Ok(suite.on_floor(building).map_err(fault)?)
+}
+
 impl Plan {
     /// Reads what the pipeline names and checks it; `suite` replaces the pipeline's own.
     ///
@@ -48,7 +57,7 @@ impl Plan {
     pub fn load(pipeline: &Pipeline, suite: Option<&Path>) -> Result<Self> {
         let survey = Survey::load(&pipeline.survey)?;
         let sets = CoefficientSets::load(&pipeline.coefficients)?;
-        let suite = Suite::load(suite.unwrap_or(&pipeline.suite))?;
+        let suite = on_floor(pipeline, Suite::load(suite.unwrap_or(&pipeline.suite))?)?;
         Self::new(pipeline, survey, sets, suite)
     }
 
