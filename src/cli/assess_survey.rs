@@ -59,7 +59,8 @@ impl AssessSurveyCommand {
     /// # Errors
     /// Bad input; results that cannot be written; a run that could not be finished.
     pub fn execute(self) -> Result<()> {
-        for (option, count) in [("--thicknesses", self.thicknesses), ("--slendernesses", self.slendernesses)] {
+        for (option, count) in [("--thicknesses", self.thicknesses), ("--slendernesses", self.slendernesses)]
+        {
             if !(1..=100).contains(&count) {
                 return Err(InputError::option(option, count.to_string(), "1 to 100").into());
             }
@@ -68,7 +69,8 @@ impl AssessSurveyCommand {
         let coefficients = CoefficientSets::load(&self.coefficients)?.best_fit;
         let site = SiteFile::load(&self.site)?;
         let suite = Suite::load(&self.records)?;
-        let folder = self.out.as_deref().map(|out| WholeFolder::check(out, &FILES, self.force)).transpose()?;
+        let folder =
+            self.out.as_deref().map(|out| WholeFolder::check(out, &FILES, self.force)).transpose()?;
         let motions = motions(&suite.records, site.floor());
         let counts = [self.thicknesses, self.slendernesses];
         let question = Question { survey: &survey, site: &site, coefficients, motions: &motions, counts };

@@ -52,7 +52,10 @@ impl RiskCommand {
         let states = read_fragilities(&self.fragility, &hazard.measure)?;
         let risks: Vec<Risk> = states.iter().map(|state| Risk::of(state, &hazard)).collect();
         if risks.iter().any(|risk| risk.limit_state.measure.is_none()) {
-            eprintln!("mrbd: note: the fragilities do not name their measure; it is taken to be {}", hazard.measure);
+            eprintln!(
+                "mrbd: note: the fragilities do not name their measure; it is taken to be {}",
+                hazard.measure
+            );
         }
         for risk in &risks {
             tell(risk);
@@ -68,20 +71,24 @@ fn tell(risk: &Risk) {
     let name = &risk.limit_state.name;
     if risk.above_share > MUCH {
         let percent = 100.0 * risk.above_share;
-        eprintln!("mrbd: note: {name}: {percent:.0} % of the rate lies beyond the last point of the hazard curve");
+        eprintln!(
+            "mrbd: note: {name}: {percent:.0} % of the rate lies beyond the last point of the hazard curve"
+        );
     }
     if risk.below_share > MUCH {
         let percent = 100.0 * risk.below_share;
-        eprintln!("mrbd: note: {name}: {percent:.0} % of the rate lies below its first point: the rate is no less than told");
+        eprintln!(
+            "mrbd: note: {name}: {percent:.0} % of the rate lies below its first point: the rate is no less than told"
+        );
     }
 }
 
 fn table(risks: &[Risk]) -> String {
     let head = ["limit state", "annual rate, 1/year", "95 % from", "to", "return period, years", "of"];
     let row = |risk: &Risk| {
-        let [low, high] = risk.annual_rate_interval.map_or(["–".to_owned(), "–".to_owned()], |ends| {
-            ends.map(|rate| format!("{rate:.3e}"))
-        });
+        let [low, high] = risk
+            .annual_rate_interval
+            .map_or(["–".to_owned(), "–".to_owned()], |ends| ends.map(|rate| format!("{rate:.3e}")));
         let (rate, years) = (format!("{:.3e}", risk.annual_rate), format!("{:.0}", risk.return_period_years));
         vec![risk.limit_state.name.clone(), rate, low, high, years, risk.interval_of.join("+")]
     };

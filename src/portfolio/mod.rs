@@ -244,7 +244,12 @@ pub static COLUMNS: [Column<Row>; 11] = [
     ),
     Column::input("thickness_m", "m", "thickness b", Read::Number(|r| Some(r.thickness_m))),
     Column::input("slenderness", "", "h/b", Read::Number(|r| Some(r.slenderness))),
-    Column::result("mechanism", "", "that governs", Read::Text(|r| Some(Cow::Borrowed(r.mechanism.as_str())))),
+    Column::result(
+        "mechanism",
+        "",
+        "that governs",
+        Read::Text(|r| Some(Cow::Borrowed(r.mechanism.as_str()))),
+    ),
     Column::result("alpha_0", "", "multiplier of the mechanism", Read::Number(|r| Some(r.alpha_0))),
     Column::result("d_0_m", "m", "displacement at which it vanishes", Read::Number(|r| Some(r.d_0_m))),
     Column::result("zeta_static", "", "a_g,SLV/a_g of the nonlinear check", Read::Number(|r| r.zeta_static)),

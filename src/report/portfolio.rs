@@ -57,8 +57,10 @@ fn numbers(all: &Portfolio) -> Vec<Number> {
 /// ζ dynamic against ζ static.
 fn against(all: &Portfolio) -> Figure {
     let most = LADDER.range[1];
-    let pair = |row: &Row| Some((row.zeta_static?, row.zeta_dynamic.or(row.always_accepted.then_some(most))?));
-    let values = |rows: &[&Row]| rows.iter().filter_map(|row| pair(row)).flat_map(|(x, y)| [x, y]).collect::<Vec<_>>();
+    let pair =
+        |row: &Row| Some((row.zeta_static?, row.zeta_dynamic.or(row.always_accepted.then_some(most))?));
+    let values =
+        |rows: &[&Row]| rows.iter().filter_map(|row| pair(row)).flat_map(|(x, y)| [x, y]).collect::<Vec<_>>();
     let whole: Vec<&Row> = all.rows.iter().collect();
     let panel = |configuration: Configuration| {
         let own: Vec<&Row> = all.rows.iter().filter(|row| row.configuration == configuration).collect();
@@ -76,7 +78,13 @@ fn against(all: &Portfolio) -> Figure {
             })
             .collect::<Vec<_>>()
         };
-        let layer = |agreement, colour, mark| Layer::Dots { colour, mark, size: 6, hollow: false, dots: dots(agreement) };
+        let layer = |agreement, colour, mark| Layer::Dots {
+            colour,
+            mark,
+            size: 6,
+            hollow: false,
+            dots: dots(agreement),
+        };
         let axis = |label: &str| Axis::log_holding(label, values(&whole).into_iter().chain([0.5, 2.0]));
         let [low, high] = axis("").ends();
         let line = |points| Layer::Line { colour: INK, width: 1, dashed: true, name: String::new(), points };
@@ -107,7 +115,9 @@ fn against(all: &Portfolio) -> Figure {
             Key::new("the code accepts what falls", COLLAPSE, Mark::Triangle),
         ],
         panels: Configuration::ALL.map(panel).to_vec(),
-        caption: format!("Façades that the dynamics accept at every factor stand at {most}. Broken lines: ζ = 1, and equal ζ."),
+        caption: format!(
+            "Façades that the dynamics accept at every factor stand at {most}. Broken lines: ζ = 1, and equal ζ."
+        ),
         links: vec![Link::to("portfolio.parquet")],
         ..Figure::default()
     }
@@ -159,8 +169,11 @@ fn shares(all: &Portfolio) -> Table {
     let agreements =
         [Agreement::BothAccept, Agreement::BothRefuse, Agreement::StaticRefuses, Agreement::DynamicRefuses];
     let names = agreements.map(|agreement| agreement_name(agreement).replace('_', " "));
-    let head: Vec<&str> =
-        ["floor"].into_iter().chain(names.iter().map(String::as_str)).chain(["median ζ dynamic/static"]).collect();
+    let head: Vec<&str> = ["floor"]
+        .into_iter()
+        .chain(names.iter().map(String::as_str))
+        .chain(["median ζ dynamic/static"])
+        .collect();
     let rows = all.shares.iter().map(|s| {
         let shares = [s.both_accept, s.both_refuse, s.static_refuses, s.dynamic_refuses];
         let shares = shares.map(|share| format!("{:.0} %", 100.0 * share));

@@ -46,8 +46,11 @@ pub fn read_fragilities(path: &Path, measure: &str) -> Result<Vec<LimitState>> {
     let same = |state: &LimitState| state.measure.as_deref().is_none_or(|known| known == measure);
     let found: Vec<LimitState> = all.iter().filter(|state| same(state)).cloned().collect();
     if found.is_empty() {
-        let found = if given.is_empty() { "no fragility".to_owned() } else { format!("fragilities in {given}") };
-        return Err(InputError::file(path, found, format!("one in {measure}, as the hazard curve has it")).into());
+        let found =
+            if given.is_empty() { "no fragility".to_owned() } else { format!("fragilities in {given}") };
+        return Err(
+            InputError::file(path, found, format!("one in {measure}, as the hazard curve has it")).into()
+        );
     }
     Ok(found)
 }
@@ -57,11 +60,13 @@ fn ends([low, high]: [Option<f64>; 2]) -> Option<[f64; 2]> {
 }
 
 fn from_json(path: &Path, text: &str) -> Result<Vec<LimitState>> {
-    let value: Value = serde_json::from_str(text).map_err(|e| InputError::line(path, e.line(), e.to_string(), ALLOWED))?;
+    let value: Value =
+        serde_json::from_str(text).map_err(|e| InputError::line(path, e.line(), e.to_string(), ALLOWED))?;
     if let Some(groups) = value["groups"].as_array() {
         return Ok(groups.iter().filter_map(of_group).collect());
     }
-    let margin: Margin = serde_json::from_value(value).map_err(|e| InputError::file(path, e.to_string(), ALLOWED))?;
+    let margin: Margin =
+        serde_json::from_value(value).map_err(|e| InputError::file(path, e.to_string(), ALLOWED))?;
     let state = |curve: crate::margin::Curve| {
         Some(LimitState {
             name: format!("{}, {}", margin.wall, margin.limit),

@@ -68,8 +68,14 @@ fn from_csv(path: &Path, text: &str, years: Option<f64>) -> Result<HazardFile> {
         let number = |column: usize| {
             let text = record.get(column).unwrap_or_default();
             let value = text.parse::<f64>().ok().filter(|value| *value >= 0.0 && value.is_finite());
-            let refuse =
-                || InputError::line(path, line, format!("{text:?} for {}", &header[column]), "a number, 0 or more");
+            let refuse = || {
+                InputError::line(
+                    path,
+                    line,
+                    format!("{text:?} for {}", &header[column]),
+                    "a number, 0 or more",
+                )
+            };
             value.ok_or_else(refuse)
         };
         let (intensity, value) = (number(0)?, number(column)?);
@@ -98,8 +104,10 @@ fn from_nrml(path: &Path, text: &str) -> Result<HazardFile> {
         let found = format!("{} curves", of_one_site.len());
         return Err(refuse(&found, "the hazard curve of one site").into());
     };
-    let missing = |name: &str| refuse(&format!("no {name}"), "hazardCurves with investigationTime, IMT, IMLs and poEs");
-    let years = nrml::attribute(curves, &["investigationTime"]).ok_or_else(|| missing("investigationTime"))?;
+    let missing =
+        |name: &str| refuse(&format!("no {name}"), "hazardCurves with investigationTime, IMT, IMLs and poEs");
+    let years =
+        nrml::attribute(curves, &["investigationTime"]).ok_or_else(|| missing("investigationTime"))?;
     let years = nrml::number(path, curves, years)?;
     let imt = nrml::attribute(curves, &["IMT", "imt"]).ok_or_else(|| missing("IMT"))?;
     let texts = |node, name| nrml::elements(node, name).next().ok_or_else(|| missing(name));

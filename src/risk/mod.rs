@@ -43,7 +43,8 @@ impl Risk {
         let rate = annual_rate(&hazard.curve, median, beta);
         // Half-widths of 95 % intervals of logarithms.
         let z = normal::quantile(0.5 + 0.5 * LEVEL);
-        let deviation = |ends: Option<[f64; 2]>| ends.map_or(0.0, |[low, high]| (high / low).ln() / (2.0 * z));
+        let deviation =
+            |ends: Option<[f64; 2]>| ends.map_or(0.0, |[low, high]| (high / low).ln() / (2.0 * z));
         let unknown = Uncertainty {
             ln_median: deviation(limit_state.median_interval),
             ln_beta: deviation(limit_state.beta_interval),

@@ -41,7 +41,8 @@ pub fn numbers(path: &Path, node: Node) -> Result<Vec<f64>> {
 pub fn number(path: &Path, node: Node, word: &str) -> Result<f64> {
     let value = word.parse::<f64>().ok().filter(|value| value.is_finite());
     let line = node.document().text_pos_at(node.range().start).row as usize;
-    let refuse = || InputError::line(path, line, format!("{word:?} in {}", node.tag_name().name()), "a finite number");
+    let refuse =
+        || InputError::line(path, line, format!("{word:?} in {}", node.tag_name().name()), "a finite number");
     Ok(value.ok_or_else(refuse)?)
 }
 

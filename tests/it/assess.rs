@@ -19,7 +19,8 @@ const SUITE: &str = "name = \"pulses\"\ngenerated = true\n\
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let cracked = BLOCK.replace("length_m", "crack_height_m = 1.6\nlength_m");
-    let spring = |stiffness: &str| format!("{cracked}[diaphragm]\nmass_kg = 0.0\nstiffness_n_per_m = {stiffness}\n");
+    let spring =
+        |stiffness: &str| format!("{cracked}[diaphragm]\nmass_kg = 0.0\nstiffness_n_per_m = {stiffness}\n");
     for (name, text) in [
         ("wall.toml", BLOCK.to_owned()),
         ("held.toml", spring("1e9")),
@@ -48,12 +49,20 @@ fn analytic_a_free_block_and_a_held_wall_have_their_closed_forms_under_the_keys_
     let block = json(folder.path(), &["assess", "wall.toml", "--site", "site.toml", "--json"]);
     assert_eq!(block["mechanism"], "one_block");
     // b/h and 3/4; a_0 = α_0 g/(e* FC) with limited knowledge; on rock and rigid a_g,SLD is a_0. Roundings.
-    assert!((number(&block, "alpha_0") - 0.125).abs() < 1e-12 && (number(&block, "e_star") - 0.75).abs() < 1e-12);
+    assert!(
+        (number(&block, "alpha_0") - 0.125).abs() < 1e-12 && (number(&block, "e_star") - 0.75).abs() < 1e-12
+    );
     let a_0 = 0.125 * 9.81 / (0.75 * 1.35);
-    assert!((number(&block, "a_0_m_s2") - a_0).abs() < 1e-12 && (number(&block, "ag_sld_m_s2") - a_0).abs() < 1e-9);
+    assert!(
+        (number(&block, "a_0_m_s2") - a_0).abs() < 1e-12
+            && (number(&block, "ag_sld_m_s2") - a_0).abs() < 1e-9
+    );
     assert!((number(&block["linear"], "ag_slv_m_s2") - 2.0 * a_0).abs() < 1e-9);
     let d_0 = number(&block, "d_0_m");
-    assert!((number(&block, "d_slv_m") / d_0 - 0.4).abs() < 1e-12 && (number(&block, "d_slc_m") / d_0 - 0.6).abs() < 1e-12);
+    assert!(
+        (number(&block, "d_slv_m") / d_0 - 0.4).abs() < 1e-12
+            && (number(&block, "d_slc_m") / d_0 - 0.6).abs() < 1e-12
+    );
     for key in ["t_slv_s", "t_slc_s", "ag_slv_m_s2", "zeta"] {
         assert!(number(&block, key) > 0.0, "{key}");
     }
@@ -86,12 +95,19 @@ fn regress_dynamics_stand_beside_the_check_on_a_page_in_two_languages() {
     let mean: f64 = records.iter().map(|run| number(run, "largest_d_m")).sum::<f64>() / 2.0;
     assert!((mean - number(dynamic, "mean_largest_m")).abs() < 1e-15);
     stdout(&mrbd(folder.path(), &[&run[..], &["--out", "it", "--language", "it"]].concat()));
-    let page = |name: &str| std::fs::read_to_string(folder.path().join(name).join("report.html")).expect("a page");
+    let page =
+        |name: &str| std::fs::read_to_string(folder.path().join(name).join("report.html")).expect("a page");
     let (english, italian) = (page("en"), page("it"));
     assert!(english.contains("<html lang=\"en\">") && english.contains("Not checked:"));
     assert!(english.contains("a borehole") && english.contains("made up") && english.contains("C8.7.1.12"));
-    assert!(italian.contains("<html lang=\"it\">") && italian.contains("Non verificati") && italian.contains("ribaltamento"));
-    assert!([&english, &italian].iter().all(|page| !page.contains("NaN") && page.matches("<figure").count() == 4));
+    assert!(
+        italian.contains("<html lang=\"it\">")
+            && italian.contains("Non verificati")
+            && italian.contains("ribaltamento")
+    );
+    assert!(
+        [&english, &italian].iter().all(|page| !page.contains("NaN") && page.matches("<figure").count() == 4)
+    );
     for name in ["assessment.json", "manifest.json", "governing_run.csv"] {
         assert!(folder.path().join("en").join(name).is_file(), "{name}");
     }
@@ -105,7 +121,10 @@ fn regress_two_walls_are_compared() {
     let folder = folder();
     let run = ["assess", "soft.toml", "--site", "site.toml", "--compare", "held.toml"];
     let found = json(folder.path(), &[&run[..], &["--json"]].concat());
-    assert_eq!((&found["mechanism"], &found["compared"]["mechanism"]), (&"restrained".into(), &"vertical_bending".into()));
+    assert_eq!(
+        (&found["mechanism"], &found["compared"]["mechanism"]),
+        (&"restrained".into(), &"vertical_bending".into())
+    );
     // A stiffer floor bears more.
     assert!(number(&found, "zeta") < number(&found["compared"], "zeta"));
     let table = stdout(&mrbd(folder.path(), &run));
@@ -123,7 +142,11 @@ fn rejects_sites_and_walls_that_cannot_be_assessed() {
         std::fs::write(folder.path().join(name), text).expect("written");
     }
     for (wall, site, told) in [
-        ("wall.toml", "knowledge.toml", &["knowledge.toml", "assessment.confidence_factor", "found 1.1", "1.20"][..]),
+        (
+            "wall.toml",
+            "knowledge.toml",
+            &["knowledge.toml", "assessment.confidence_factor", "found 1.1", "1.20"][..],
+        ),
         ("wall.toml", "storeys.toml", &["building.storeys", "found 0"]),
         ("wall.toml", "key.toml", &["agg_g", "did you mean `ag_g`"]),
         ("uncracked.toml", "site.toml", &["uncracked.toml", "wall.crack_height_m", "without a crack"]),
@@ -138,7 +161,8 @@ fn rejects_sites_and_walls_that_cannot_be_assessed() {
 /// λ = 1e-3 (s/0.1)^-2 at some intensities, and a fragility of median 0.3 and dispersion 0.4 in PGA.
 fn hazard_and_fragility(folder: &Path) {
     let rate = |s: f64| 1e-3 * (s / 0.1_f64).powi(-2);
-    let rows: String = (0..40).map(|i| 0.003 * 1.25f64.powi(i)).map(|s| format!("{s},{}\n", rate(s))).collect();
+    let rows: String =
+        (0..40).map(|i| 0.003 * 1.25f64.powi(i)).map(|s| format!("{s},{}\n", rate(s))).collect();
     std::fs::write(folder.join("hazard.csv"), format!("pga_g,annual_rate\n{rows}")).expect("written");
     let (median, beta) = (0.3_f64, 0.4_f64);
     let mean = median * (0.5 * beta * beta).exp();
@@ -174,9 +198,13 @@ fn analytic_a_hazard_in_nrml_and_in_probabilities_is_the_same() {
         .lines()
         .skip(1)
         .map(|line| line.split_once(',').expect("two"))
-        .map(|(s, rate)| (s.parse().expect("a number"), -(-50.0 * rate.parse::<f64>().expect("a number")).exp_m1()))
+        .map(|(s, rate)| {
+            (s.parse().expect("a number"), -(-50.0 * rate.parse::<f64>().expect("a number")).exp_m1())
+        })
         .collect();
-    let list = |of: fn(&(f64, f64)) -> f64| pairs.iter().map(|p| format!("{:e}", of(p))).collect::<Vec<_>>().join(" ");
+    let list = |of: fn(&(f64, f64)) -> f64| {
+        pairs.iter().map(|p| format!("{:e}", of(p))).collect::<Vec<_>>().join(" ")
+    };
     let xml = format!(
         "<nrml xmlns:gml=\"http://www.opengis.net/gml\" xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\
          <hazardCurves investigationTime=\"50.0\" IMT=\"PGA\" statistics=\"mean\"><IMLs>{}</IMLs><hazardCurve>\
@@ -191,7 +219,8 @@ fn analytic_a_hazard_in_nrml_and_in_probabilities_is_the_same() {
         let found = json(folder.path(), &[&["risk", "fragility.xml", "--json", "--hazard"], hazard].concat());
         number(&found["limit_states"][0], "annual_rate")
     };
-    let [rates, nrml, poe] = [rate(&["hazard.csv"]), rate(&["hazard.xml"]), rate(&["poe.csv", "--years", "50"])];
+    let [rates, nrml, poe] =
+        [rate(&["hazard.csv"]), rate(&["hazard.xml"]), rate(&["poe.csv", "--years", "50"])];
     // Probabilities near 1 keep few digits of a rate; those intensities lie far below the fragility.
     assert!((nrml / rates - 1.0).abs() < 1e-9 && (poe / rates - 1.0).abs() < 1e-9, "{rates} {nrml} {poe}");
 }

