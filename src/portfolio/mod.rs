@@ -12,9 +12,9 @@ use crate::error::{Error, InputError, Result};
 use crate::store::{Column, Read};
 use crate::study::ladder::{Ladder, Search};
 use crate::survey::{Assumptions, Configuration, Facade, Survey};
-use mrbd_assessment::{Agreement, Assessment, Shaken, SiteFile};
+use mrbd_assessment::{Agreement, Assessment, Shaken, SiteFile, Unfinished};
 use mrbd_kernel::accelerogram::Accelerogram;
-use mrbd_kernel::model::Restitution;
+use mrbd_kernel::model::{Restitution, Wall};
 use mrbd_kernel::simulate::Accuracy;
 use mrbd_statistics::{median, normal};
 
@@ -167,19 +167,15 @@ impl Question<'_> {
         let ratio = Assumptions::default().collapse_rotation_ratio;
         let wall = facade.wall(restitution, ratio).map_err(|e| impossible(e.to_string()))?;
         let assessment = Assessment::of(&wall, self.site).map_err(|e| impossible(e.to_string()))?;
-        let shaken = Shaken { wall: &wall, capacity: &assessment.capacity, accuracy: Accuracy::default() };
-        let failed = |e: mrbd_assessment::Unfinished| Error::Run {
+        let failed = |e: Unfinished| Error::Run {
             time_s: e.time_s,
             reason: format!("{}, under {}, {at}", e.reason, e.record),
         };
-        let accepted = shaken.accepts_slv(self.motions, 1.0).map_err(failed)?;
-        let mut refused =
-            |factor: f64| shaken.accepts_slv(self.motions, factor).map(|accepted| (!accepted, ()));
-        let search = LADDER.first_exceeding(&mut refused).map_err(failed)?;
-        let (zeta_dynamic, always_accepted) = match search {
-            Search::Exceeded { below, above, .. } => (Some((below * above).sqrt()), false),
-            Search::Stood { .. } => (None, true),
-            Search::Always { .. } => (Some(0.0), false),
+        let (accepted, search) = self.dynamics(&wall, &assessment).map_err(failed)?;
+        let zeta_dynamic = match search {
+            Search::Exceeded { below, above, .. } => Some((below * above).sqrt()),
+            Search::Stood { .. } => None,
+            Search::Always { .. } => Some(0.0),
         };
         Ok(Row {
             configuration,
@@ -191,14 +187,17 @@ impl Question<'_> {
             zeta_static: assessment.check.zeta,
             zeta_linear: assessment.check.linear.zeta,
             zeta_dynamic,
-            always_accepted,
-            agreement: match (assessment.check.accepted, accepted) {
-                (true, true) => Agreement::BothAccept,
-                (false, false) => Agreement::BothRefuse,
-                (false, true) => Agreement::StaticRefuses,
-                (true, false) => Agreement::DynamicRefuses,
-            },
+            always_accepted: zeta_dynamic.is_none(),
+            agreement: Agreement::between(assessment.check.accepted, accepted),
         })
+    }
+
+    /// Whether the dynamics accept a wall at the records' own scale, and the factor at which they no longer do.
+    fn dynamics(&self, wall: &Wall, assessment: &Assessment) -> Result<(bool, Search<()>), Unfinished> {
+        let shaken = Shaken { wall, capacity: &assessment.capacity, accuracy: Accuracy::default() };
+        let accepted = shaken.accepts_slv(self.motions, 1.0)?;
+        let mut refused = |factor| shaken.accepts_slv(self.motions, factor).map(|accepted| (!accepted, ()));
+        Ok((accepted, LADDER.first_exceeding(&mut refused)?))
     }
 }
 

@@ -56,55 +56,6 @@ fn numbers(all: &Portfolio) -> Vec<Number> {
 
 /// ζ dynamic against ζ static.
 fn against(all: &Portfolio) -> Figure {
-    let most = LADDER.range[1];
-    let pair =
-        |row: &Row| Some((row.zeta_static?, row.zeta_dynamic.or(row.always_accepted.then_some(most))?));
-    let values =
-        |rows: &[&Row]| rows.iter().filter_map(|row| pair(row)).flat_map(|(x, y)| [x, y]).collect::<Vec<_>>();
-    let whole: Vec<&Row> = all.rows.iter().collect();
-    let panel = |configuration: Configuration| {
-        let own: Vec<&Row> = all.rows.iter().filter(|row| row.configuration == configuration).collect();
-        let dots = |agreement: Agreement| {
-            let rows = own.iter().filter(|row| row.agreement == agreement);
-            rows.filter_map(|row| {
-                let (x, y) = pair(row)?;
-                let tip = format!(
-                    "b {:.2} m, h/b {:.1}\nζ static {x:.2}, dynamic {y:.2}\n{}",
-                    row.thickness_m,
-                    row.slenderness,
-                    row.mechanism.replace('_', " ")
-                );
-                Some(Dot { x, y, tip })
-            })
-            .collect::<Vec<_>>()
-        };
-        let layer = |agreement, colour, mark| Layer::Dots {
-            colour,
-            mark,
-            size: 6,
-            hollow: false,
-            dots: dots(agreement),
-        };
-        let axis = |label: &str| Axis::log_holding(label, values(&whole).into_iter().chain([0.5, 2.0]));
-        let [low, high] = axis("").ends();
-        let line = |points| Layer::Line { colour: INK, width: 1, dashed: true, name: String::new(), points };
-        Graph {
-            title: floor(configuration).to_owned(),
-            format: Format::Half,
-            x: axis("ζ static"),
-            y: axis("ζ dynamic"),
-            layers: vec![
-                line(vec![(low, low), (high, high)]),
-                line(vec![(1.0, low), (1.0, high)]),
-                line(vec![(low, 1.0), (high, 1.0)]),
-                layer(Agreement::BothAccept, PALETTE[2], Mark::Circle),
-                layer(Agreement::BothRefuse, PALETTE[6], Mark::Circle),
-                layer(Agreement::StaticRefuses, PALETTE[0], Mark::Square),
-                layer(Agreement::DynamicRefuses, COLLAPSE, Mark::Triangle),
-            ],
-        }
-        .svg()
-    };
     Figure {
         id: "against".into(),
         title: "ζ dynamic against ζ static".into(),
@@ -114,12 +65,52 @@ fn against(all: &Portfolio) -> Figure {
             Key::new("the code refuses what stands", PALETTE[0], Mark::Square),
             Key::new("the code accepts what falls", COLLAPSE, Mark::Triangle),
         ],
-        panels: Configuration::ALL.map(panel).to_vec(),
+        panels: Configuration::ALL.map(|configuration| against_graph(all, configuration).svg()).to_vec(),
         caption: format!(
-            "Façades that the dynamics accept at every factor stand at {most}. Broken lines: ζ = 1, and equal ζ."
+            "Façades that the dynamics accept at every factor stand at {}. Broken lines: ζ = 1, and equal ζ.",
+            LADDER.range[1]
         ),
         links: vec![Link::to("portfolio.parquet")],
         ..Figure::default()
+    }
+}
+
+/// ζ static and ζ dynamic; a façade that is always accepted stands at the last factor.
+fn zetas(row: &Row) -> Option<(f64, f64)> {
+    let always = row.always_accepted.then_some(LADDER.range[1]);
+    Some((row.zeta_static?, row.zeta_dynamic.or(always)?))
+}
+
+fn against_graph(all: &Portfolio, configuration: Configuration) -> Graph {
+    let dot = |row: &Row| {
+        let (x, y) = zetas(row)?;
+        let (b, slenderness, mechanism) = (row.thickness_m, row.slenderness, row.mechanism.replace('_', " "));
+        let tip = format!("b {b:.2} m, h/b {slenderness:.1}\nζ static {x:.2}, dynamic {y:.2}\n{mechanism}");
+        Some(Dot { x, y, tip })
+    };
+    let layer = |agreement, colour, mark| {
+        let own =
+            all.rows.iter().filter(|row| row.configuration == configuration && row.agreement == agreement);
+        Layer::Dots { colour, mark, size: 6, hollow: false, dots: own.filter_map(dot).collect() }
+    };
+    let values: Vec<f64> = all.rows.iter().filter_map(zetas).flat_map(|(x, y)| [x, y]).collect();
+    let axis = |label: &str| Axis::log_holding(label, values.iter().copied().chain([0.5, 2.0]));
+    let [low, high] = axis("").ends();
+    let line = |points| Layer::Line { colour: INK, width: 1, dashed: true, name: String::new(), points };
+    Graph {
+        title: floor(configuration).to_owned(),
+        format: Format::Half,
+        x: axis("ζ static"),
+        y: axis("ζ dynamic"),
+        layers: vec![
+            line(vec![(low, low), (high, high)]),
+            line(vec![(1.0, low), (1.0, high)]),
+            line(vec![(low, 1.0), (high, 1.0)]),
+            layer(Agreement::BothAccept, PALETTE[2], Mark::Circle),
+            layer(Agreement::BothRefuse, PALETTE[6], Mark::Circle),
+            layer(Agreement::StaticRefuses, PALETTE[0], Mark::Square),
+            layer(Agreement::DynamicRefuses, COLLAPSE, Mark::Triangle),
+        ],
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use csv::StringRecord;
+
 use super::nrml;
 use crate::error::{InputError, Result};
 use mrbd_assessment::{Hazard, HazardPoint};
@@ -54,30 +56,19 @@ fn from_csv(path: &Path, text: &str, years: Option<f64>) -> Result<HazardFile> {
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
     let header = reader.headers().map_err(|e| fault(&e))?.clone();
     let place = |name: &str| header.iter().position(|head| head == name);
-    let given = header.iter().collect::<Vec<_>>().join(", ");
     let (column, years) = match (place("annual_rate"), place("poe"), years) {
         (Some(column), _, _) => (column, None),
         (None, Some(column), Some(years)) => (column, Some(years)),
-        _ => return Err(InputError::file(path, format!("the columns {given}"), COLUMNS).into()),
+        _ => {
+            let given = header.iter().collect::<Vec<_>>().join(", ");
+            return Err(InputError::file(path, format!("the columns {given}"), COLUMNS).into());
+        }
     };
     let fractiles = place("annual_rate_16").zip(place("annual_rate_84"));
     let (mut points, mut deviations) = (Vec::new(), Vec::new());
     for record in reader.records() {
         let record = record.map_err(|e| fault(&e))?;
-        let line = record.position().map_or(0, csv::Position::line) as usize;
-        let number = |column: usize| {
-            let text = record.get(column).unwrap_or_default();
-            let value = text.parse::<f64>().ok().filter(|value| *value >= 0.0 && value.is_finite());
-            let refuse = || {
-                InputError::line(
-                    path,
-                    line,
-                    format!("{text:?} for {}", &header[column]),
-                    "a number, 0 or more",
-                )
-            };
-            value.ok_or_else(refuse)
-        };
+        let number = |column: usize| number(path, &header, &record, column);
         let (intensity, value) = (number(0)?, number(column)?);
         let annual_rate = years.map_or(value, |years| rate(value, years));
         points.push(HazardPoint { intensity, annual_rate });
@@ -87,11 +78,23 @@ fn from_csv(path: &Path, text: &str, years: Option<f64>) -> Result<HazardFile> {
         }
     }
     let mean = deviations.iter().sum::<f64>() / deviations.len().max(1) as f64;
-    Ok(HazardFile {
-        measure: header.get(0).unwrap_or_default().to_owned(),
-        curve: curve(path, points)?,
-        ln_rate_deviation: (!deviations.is_empty()).then_some(mean),
-    })
+    let measure = header.get(0).unwrap_or_default().to_owned();
+    let ln_rate_deviation = (!deviations.is_empty()).then_some(mean);
+    Ok(HazardFile { measure, curve: curve(path, points)?, ln_rate_deviation })
+}
+
+/// A cell as a number, 0 or more.
+fn number(
+    path: &Path,
+    header: &StringRecord,
+    record: &StringRecord,
+    column: usize,
+) -> Result<f64, InputError> {
+    let text = record.get(column).unwrap_or_default();
+    let value = text.parse::<f64>().ok().filter(|value| *value >= 0.0 && value.is_finite());
+    let line = record.position().map_or(0, csv::Position::line) as usize;
+    let found = || format!("{text:?} for {}", &header[column]);
+    value.ok_or_else(|| InputError::line(path, line, found(), "a number, 0 or more"))
 }
 
 fn from_nrml(path: &Path, text: &str) -> Result<HazardFile> {

@@ -34,6 +34,18 @@ pub enum Agreement {
     DynamicRefuses,
 }
 
+impl Agreement {
+    /// Of the static check and of the dynamics: whether each accepts.
+    pub fn between(by_code: bool, by_dynamics: bool) -> Self {
+        match (by_code, by_dynamics) {
+            (true, true) => Self::BothAccept,
+            (false, false) => Self::BothRefuse,
+            (false, true) => Self::StaticRefuses,
+            (true, false) => Self::DynamicRefuses,
+        }
+    }
+}
+
 /// The capacity with other edges of the joints, side by side.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct EdgeRow {
@@ -126,12 +138,7 @@ impl Assessment {
 
     /// With the dynamics beside the code's check.
     pub fn with_dynamic(self, dynamic: Dynamic) -> Self {
-        let agreement = match (self.check.accepted, dynamic.accepted_slv) {
-            (true, true) => Agreement::BothAccept,
-            (false, false) => Agreement::BothRefuse,
-            (false, true) => Agreement::StaticRefuses,
-            (true, false) => Agreement::DynamicRefuses,
-        };
+        let agreement = Agreement::between(self.check.accepted, dynamic.accepted_slv);
         Self { dynamic: Some(dynamic), agreement: Some(agreement), ..self }
     }
 }

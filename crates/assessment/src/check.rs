@@ -91,22 +91,13 @@ impl StaticCheck {
         let building = file.floor().filter(|_| !at_ground);
         let place = Place { site: file.site, building };
         let assumed = &file.assessment;
-        let ag_m_s2 = file.site.ag_g * G_M_S2;
-        let a = |d_m: f64| capacity.acceleration_m_s2(d_m, assumed.confidence_factor);
         let a_0_m_s2 = capacity.alpha_0 * G_M_S2 / (capacity.e_star * assumed.confidence_factor);
         let t_0_s = own_period_s(wall, capacity.mechanism, assumed);
         let [of_sld, of_slv, of_slc] = DAMPING;
         let ag_sld_m_s2 = place.ag_reaching_m_s2(a_0_m_s2, |place| place.acceleration_m_s2(t_0_s, of_sld));
-        let [d_slv_m, d_slc_m] = LIMIT_STATES.map(|share| share * capacity.d_0_m);
-        let [a_slv_m_s2, a_slc_m_s2] = [d_slv_m, d_slc_m].map(a);
-        let t_slv_s = PERIODS[0] * (d_slv_m / a_slv_m_s2).sqrt();
-        let t_slc_s = PERIODS[1] * (d_slc_m / a_slc_m_s2).sqrt();
-        let reaching = |d_m: f64, t_s: f64, damping: f64| {
-            place.ag_reaching_m_s2(d_m, |place| place.displacement_m(t_s, damping))
-        };
-        let ag_slv_m_s2 = reaching(d_slv_m, t_slv_s, of_slv);
-        let ag_slc_m_s2 = reaching(d_slc_m, t_slc_s, of_slc);
-        let over = |ag: Option<f64>, site_g: Option<f64>| Some(ag? / (site_g? * G_M_S2));
+        let slv = LimitState::of(capacity, assumed, LIMIT_STATES[0], PERIODS[0]);
+        let slc = LimitState::of(capacity, assumed, LIMIT_STATES[1], PERIODS[1]);
+        let [ag_slv_m_s2, ag_slc_m_s2] = [(slv, of_slv), (slc, of_slc)].map(|(s, xi)| s.ag_m_s2(&place, xi));
         let site_g = Some(file.site.ag_g);
         let linear_m_s2 = ag_sld_m_s2.map(|ag| Q * ag);
         Self {
@@ -114,22 +105,49 @@ impl StaticCheck {
             a_0_m_s2,
             t_0_s,
             ag_sld_m_s2,
-            zeta_sld: over(ag_sld_m_s2, assumed.ag_sld_g),
-            d_slv_m,
-            d_slc_m,
-            a_slv_m_s2,
-            a_slc_m_s2,
-            t_slv_s,
-            t_slc_s,
-            demand_slv_m: place.displacement_m(t_slv_s, of_slv),
+            zeta_sld: zeta(ag_sld_m_s2, assumed.ag_sld_g),
+            d_slv_m: slv.d_m,
+            d_slc_m: slc.d_m,
+            a_slv_m_s2: slv.a_m_s2,
+            a_slc_m_s2: slc.a_m_s2,
+            t_slv_s: slv.t_s,
+            t_slc_s: slc.t_s,
+            demand_slv_m: place.displacement_m(slv.t_s, of_slv),
             ag_slv_m_s2,
-            zeta: over(ag_slv_m_s2, site_g),
+            zeta: zeta(ag_slv_m_s2, site_g),
             ag_slc_m_s2,
-            zeta_slc: over(ag_slc_m_s2, assumed.ag_slc_g),
-            accepted: ag_slv_m_s2.is_none_or(|ag| ag >= ag_m_s2),
-            linear: Linear { q: Q, ag_slv_m_s2: linear_m_s2, zeta: over(linear_m_s2, site_g) },
+            zeta_slc: zeta(ag_slc_m_s2, assumed.ag_slc_g),
+            accepted: zeta(ag_slv_m_s2, site_g).is_none_or(|zeta| zeta >= 1.0),
+            linear: Linear { q: Q, ag_slv_m_s2: linear_m_s2, zeta: zeta(linear_m_s2, site_g) },
             circolare_617: building.is_none().then(|| earlier(capacity, &place, assumed)),
         }
+    }
+}
+
+/// ζ: an a_g over the site's, both known.
+fn zeta(ag_m_s2: Option<f64>, site_g: Option<f64>) -> Option<f64> {
+    Some(ag_m_s2? / (site_g? * G_M_S2))
+}
+
+/// The wall at a limit state: displacement, acceleration there, period of the secant.
+#[derive(Debug, Clone, Copy)]
+struct LimitState {
+    d_m: f64,
+    a_m_s2: f64,
+    t_s: f64,
+}
+
+impl LimitState {
+    /// At a share of d_0, with T = factor √(d/a).
+    fn of(capacity: &Capacity, assumed: &Assumed, share: f64, factor: f64) -> Self {
+        let d_m = share * capacity.d_0_m;
+        let a_m_s2 = capacity.acceleration_m_s2(d_m, assumed.confidence_factor);
+        Self { d_m, a_m_s2, t_s: factor * (d_m / a_m_s2).sqrt() }
+    }
+
+    /// The a_g at which the demand at T is d (C8.7.1.12), m/s².
+    fn ag_m_s2(self, place: &Place, damping: f64) -> Option<f64> {
+        place.ag_reaching_m_s2(self.d_m, |place| place.displacement_m(self.t_s, damping))
     }
 }
 
@@ -154,8 +172,7 @@ fn earlier(capacity: &Capacity, place: &Place, assumed: &Assumed) -> Earlier {
     let a_s_m_s2 = capacity.acceleration_m_s2(d_s_m, assumed.confidence_factor);
     let t_s_s = TAU * (d_s_m / a_s_m_s2).sqrt();
     let ag_slv_m_s2 = place.ag_reaching_m_s2(d_u_m, |place| place.displacement_m(t_s_s, DAMPING[0]));
-    let zeta = ag_slv_m_s2.map(|ag| ag / (place.site.ag_g * G_M_S2));
-    Earlier { d_u_m, d_s_m, t_s_s, ag_slv_m_s2, zeta }
+    Earlier { d_u_m, d_s_m, t_s_s, ag_slv_m_s2, zeta: zeta(ag_slv_m_s2, Some(place.site.ag_g)) }
 }
 
 #[cfg(test)]

@@ -84,18 +84,7 @@ pub(super) fn execute(args: &FloorArgs) -> Result<()> {
         let found = format!("{}, which exists", args.out.display());
         return Err(InputError::option("OUT", found, "a file that does not exist yet").into());
     }
-    let building = Building {
-        height_ratio: args.height_ratio,
-        period_s: args.period,
-        storeys: args.storeys,
-        damping: args.damping,
-        modes: args.mode.clone(),
-    };
-    building.check(Path::new("command line"), "building")?;
-    if !(0.005..=0.3).contains(&args.spectrum_damping) {
-        let found = args.spectrum_damping.to_string();
-        return Err(InputError::option("--spectrum-damping", found, "0.005 to 0.3").into());
-    }
+    let building = args.building()?;
     let site = args.site.as_deref().map(Site::load).transpose()?;
     let record = args.read.read(&args.file)?;
     let floor = floor_motion(&record.accelerogram, &building.all_modes(), building.damping)
@@ -110,10 +99,30 @@ pub(super) fn execute(args: &FloorArgs) -> Result<()> {
         code_m_s2: code.as_ref().map(|code| code.elastic_m_s2(period_s, damping)),
         framed_m_s2: code.as_ref().map(|code| code.framed_m_s2(period_s)),
     };
-    let rows: Vec<Row> = PERIODS_S.map(row).into_iter().collect();
-    if args.json {
-        return print_json(&rows);
+    let rows = PERIODS_S.map(row);
+    if args.json { print_json(&rows) } else { print_rows(&rows) }
+}
+
+impl FloorArgs {
+    /// The building, checked with the damping of the spectra.
+    fn building(&self) -> Result<Building> {
+        let building = Building {
+            height_ratio: self.height_ratio,
+            period_s: self.period,
+            storeys: self.storeys,
+            damping: self.damping,
+            modes: self.mode.clone(),
+        };
+        building.check(Path::new("command line"), "building")?;
+        if !(0.005..=0.3).contains(&self.spectrum_damping) {
+            let found = self.spectrum_damping.to_string();
+            return Err(InputError::option("--spectrum-damping", found, "0.005 to 0.3").into());
+        }
+        Ok(building)
     }
+}
+
+fn print_rows(rows: &[Row]) -> Result<()> {
     let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.3}"));
     let texts = |row: &Row| {
         let values = [Some(row.ground_m_s2), Some(row.floor_m_s2), row.code_m_s2, row.framed_m_s2];

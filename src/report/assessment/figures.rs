@@ -8,74 +8,73 @@ use super::super::chart::{
 use super::super::page::{Figure, Key};
 use super::words::Words;
 use crate::assessment::GoverningRow;
-use mrbd_assessment::{Assessment, DAMPING, Dynamic, LIMIT_STATES, Place};
+use mrbd_assessment::{Assessment, DAMPING, Dynamic, LIMIT_STATES, Place, RecordRun};
 use mrbd_records::Site;
 
 /// Periods of a drawn spectrum, s: from here to twice T_SLC.
 const FIRST_PERIOD_S: f64 = 0.02;
 /// Points of a drawn spectrum.
 const POINTS: u32 = 300;
+/// Where walls that went far beyond d_0 stand, over d_0.
+const HIGHEST: f64 = 1.2;
+
+/// Abscissa and ordinate.
+type Pair = (f64, f64);
 
 /// a(d) of the wall, and what the code asks at the site's a_g and at a_g,SLV: acceleration against displacement.
 pub fn capacity(w: Words, a: &Assessment) -> Figure {
-    let fc = a.site.assessment.confidence_factor;
-    let wall: Vec<(f64, f64)> = a
-        .capacity
-        .curve
-        .iter()
-        .map(|point| (point.d_m, a.capacity.acceleration_m_s2(point.d_m, fc)))
-        .collect();
-    let asked = demand(a, a.site.site.ag_g);
-    let reached = a.check.ag_slv_m_s2.map(|ag| demand(a, ag / mrbd_kernel::model::G_M_S2));
-    let line = |colour, dashed, name: String, points: &Vec<(f64, f64)>| Layer::Line {
-        colour,
-        width: 5,
-        dashed,
-        name,
-        points: points.clone(),
-    };
-    let say_reached = w.say("demand at a_g,SLV", "domanda ad a_g,SLV");
-    let mut layers = vec![
-        line(PALETTE[1], false, w.say("demand at a_g", "domanda ad a_g"), &asked),
-        line(PALETTE[0], false, w.say("capacity", "capacità"), &wall),
-    ];
-    layers.extend(reached.as_ref().map(|points| line(PALETTE[1], true, say_reached.clone(), points)));
-    layers.push(marks(a));
-    let highest = a.capacity.curve.iter().map(|point| a.capacity.acceleration_m_s2(point.d_m, fc));
-    let highest = highest.fold(a.check.a_0_m_s2, f64::max);
-    // Spectra go on far beyond what a wall can: they are cut off, not the wall.
-    let shown =
-        |points: &[(f64, f64)]| points.iter().map(|point| point.1).fold(0.0, f64::max).min(3.0 * highest);
-    let graph = Graph {
-        title: String::new(),
-        format: Format::Wide,
-        x: Axis::holding("d, m", [1.1 * a.d_0_m]),
-        y: Axis::holding("a, m/s²", [highest, shown(&asked)]),
-        layers: clipped(layers, 1.2 * a.d_0_m),
-    };
-    let mut legend = vec![
-        Key::new(w.say("capacity a(d)", "capacità a(d)"), PALETTE[0], Mark::None),
-        Key::new(
-            w.say(
-                "demand at the site's a_g, ξ = 8 % (dashed: at a_g,SLV)",
-                "domanda all'a_g del sito, ξ = 8 % (a tratti: ad a_g,SLV)",
-            ),
-            PALETTE[1],
-            Mark::None,
-        ),
-    ];
-    legend.push(Key::new("d_SLV, d_SLC", INK, Mark::Circle));
     Figure {
         id: "capacity".into(),
         title: w.say("Capacity against demand", "Capacità e domanda"),
-        legend,
-        panels: vec![graph.svg()],
+        legend: vec![
+            Key::new(w.say("capacity a(d)", "capacità a(d)"), PALETTE[0], Mark::None),
+            Key::new(
+                w.say(
+                    "demand at the site's a_g, ξ = 8 % (dashed: at a_g,SLV)",
+                    "domanda all'a_g del sito, ξ = 8 % (a tratti: ad a_g,SLV)",
+                ),
+                PALETTE[1],
+                Mark::None,
+            ),
+            Key::new("d_SLV, d_SLC", INK, Mark::Circle),
+        ],
+        panels: vec![capacity_graph(w, a).svg()],
         wide: true,
         caption: w.say(
             "The demand is the spectrum as acceleration against displacement; T_SLV, not the crossing of the curves, decides.",
             "La domanda è lo spettro accelerazione-spostamento; decide T_SLV, non l'incrocio delle curve.",
         ),
         ..Figure::default()
+    }
+}
+
+fn capacity_graph(w: Words, a: &Assessment) -> Graph {
+    let fc = a.site.assessment.confidence_factor;
+    let curve = a.capacity.curve.iter();
+    let wall: Vec<Pair> = curve.map(|p| (p.d_m, a.capacity.acceleration_m_s2(p.d_m, fc))).collect();
+    let asked = demand(a, a.site.site.ag_g);
+    let reached = a.check.ag_slv_m_s2.map(|ag| demand(a, ag / mrbd_kernel::model::G_M_S2));
+    let highest = wall.iter().map(|point| point.1).fold(a.check.a_0_m_s2, f64::max);
+    // Spectra go on far beyond what a wall can: they are cut off, not the wall.
+    let shown = asked.iter().map(|point| point.1).fold(0.0, f64::max).min(3.0 * highest);
+    // Lines end where they leave the graph, so that none runs along its edge.
+    let line = |colour, dashed, name: String, points: Vec<Pair>| {
+        let points = points.into_iter().filter(|(d_m, _)| *d_m <= 1.2 * a.d_0_m).collect();
+        Layer::Line { colour, width: 5, dashed, name, points }
+    };
+    let mut layers = vec![
+        line(PALETTE[1], false, w.say("demand at a_g", "domanda ad a_g"), asked),
+        line(PALETTE[0], false, w.say("capacity", "capacità"), wall),
+    ];
+    let name = w.say("demand at a_g,SLV", "domanda ad a_g,SLV");
+    layers.extend(reached.map(|points| line(PALETTE[1], true, name, points)));
+    layers.push(marks(a));
+    Graph {
+        title: String::new(),
+        format: Format::Wide,
+        x: Axis::holding("d, m", [1.1 * a.d_0_m]),
+        y: Axis::holding("a, m/s²", [highest, shown]),
+        layers,
     }
 }
 
@@ -106,63 +105,8 @@ fn marks(a: &Assessment) -> Layer {
     Layer::Dots { colour: INK, mark: Mark::Circle, size: 10, hollow: false, dots }
 }
 
-/// Lines end at a displacement, so that none runs along the edge of the graph.
-fn clipped(layers: Vec<Layer>, most_m: f64) -> Vec<Layer> {
-    let clip = |layer| match layer {
-        Layer::Line { colour, width, dashed, name, points } => {
-            let points = points.into_iter().filter(|(d_m, _)| *d_m <= most_m).collect();
-            Layer::Line { colour, width, dashed, name, points }
-        }
-        other => other,
-    };
-    layers.into_iter().map(clip).collect()
-}
-
 /// The largest displacement under each record against d_SLV, d_SLC and d_0.
 pub fn largest(w: Words, a: &Assessment, dynamic: &Dynamic) -> Figure {
-    let share = |d_m: f64| d_m / a.d_0_m;
-    let dot = |(k, run): (usize, &mrbd_assessment::RecordRun)| Dot {
-        x: k as f64 + 1.0,
-        y: share(run.largest_d_m).min(1.2),
-        tip: format!("{}\n{:.4} m", run.record, run.largest_d_m),
-    };
-    let span = |(k, run): (usize, &mrbd_assessment::RecordRun)| {
-        run.spread_d_m.map(|d_m| (k as f64 + 1.0, share(d_m).min(1.2)))
-    };
-    let (fell, stood): (Vec<_>, Vec<_>) =
-        dynamic.records.iter().enumerate().partition(|(_, run)| run.beyond_d_0);
-    let dots =
-        |runs: &[(usize, &mrbd_assessment::RecordRun)]| runs.iter().copied().map(dot).collect::<Vec<_>>();
-    let spans: Vec<_> = dynamic.records.iter().enumerate().map(span).collect();
-    let count = dynamic.records.len() as f64;
-    let along = |share: f64, colour: Colour, dashed: bool, name: &str| Layer::Line {
-        colour,
-        width: 3,
-        dashed,
-        name: name.into(),
-        points: vec![(0.5, share), (count + 0.5, share)],
-    };
-    let graph = Graph {
-        title: String::new(),
-        format: Format::Low,
-        x: Axis::linear(&w.say("record", "accelerogramma"), 0.5, count + 0.5),
-        y: Axis::linear("d/d_0", 0.0, 1.25),
-        layers: vec![
-            along(LIMIT_STATES[0], PALETTE[2], true, "d_SLV"),
-            along(LIMIT_STATES[1], PALETTE[4], true, "d_SLC"),
-            along(1.0, COLLAPSE, true, "d_0"),
-            along(share(dynamic.mean_largest_m).min(1.2), PALETTE[0], false, &w.say("mean", "media")),
-            Layer::Spans { colour: PALETTE[5], width: 9, spans },
-            Layer::Dots {
-                colour: PALETTE[0],
-                mark: Mark::Circle,
-                size: 9,
-                hollow: false,
-                dots: dots(&stood),
-            },
-            Layer::Dots { colour: COLLAPSE, mark: Mark::Square, size: 9, hollow: false, dots: dots(&fell) },
-        ],
-    };
     Figure {
         id: "largest".into(),
         title: w.say("Largest displacements", "Spostamenti massimi"),
@@ -172,13 +116,47 @@ pub fn largest(w: Words, a: &Assessment, dynamic: &Dynamic) -> Figure {
             Key::new("d_SLV = 0.4 d_0", PALETTE[2], Mark::None),
             Key::new("d_SLC = 0.6 d_0", PALETTE[4], Mark::None),
         ],
-        panels: vec![graph.svg()],
+        panels: vec![largest_graph(w, a, dynamic).svg()],
         wide: true,
         caption: w.say(
             "Bars: runs that differ by what nobody can know. Walls that fell stand at the top.",
             "Barre: analisi che differiscono per quanto nessuno può conoscere. Le pareti cadute stanno in alto.",
         ),
         ..Figure::default()
+    }
+}
+
+fn largest_graph(w: Words, a: &Assessment, dynamic: &Dynamic) -> Graph {
+    let share = |d_m: f64| (d_m / a.d_0_m).min(HIGHEST);
+    let records = || (1..).map(f64::from).zip(&dynamic.records);
+    let dots = |beyond: bool| {
+        let shown = records().filter(|(_, run)| run.beyond_d_0 == beyond);
+        let tip = |run: &RecordRun| format!("{}\n{:.4} m", run.record, run.largest_d_m);
+        shown.map(|(x, run)| Dot { x, y: share(run.largest_d_m), tip: tip(run) }).collect()
+    };
+    let spans = records().map(|(x, run)| run.spread_d_m.map(|d_m| (x, share(d_m)))).collect();
+    let last = dynamic.records.len() as f64 + 0.5;
+    let along = |y: f64, colour: Colour, dashed: bool, name: String| Layer::Line {
+        colour,
+        width: 3,
+        dashed,
+        name,
+        points: vec![(0.5, y), (last, y)],
+    };
+    Graph {
+        title: String::new(),
+        format: Format::Low,
+        x: Axis::linear(&w.say("record", "accelerogramma"), 0.5, last),
+        y: Axis::linear("d/d_0", 0.0, HIGHEST + 0.05),
+        layers: vec![
+            along(LIMIT_STATES[0], PALETTE[2], true, "d_SLV".into()),
+            along(LIMIT_STATES[1], PALETTE[4], true, "d_SLC".into()),
+            along(1.0, COLLAPSE, true, "d_0".into()),
+            along(share(dynamic.mean_largest_m), PALETTE[0], false, w.say("mean", "media")),
+            Layer::Spans { colour: PALETTE[5], width: 9, spans },
+            Layer::Dots { colour: PALETTE[0], mark: Mark::Circle, size: 9, hollow: false, dots: dots(false) },
+            Layer::Dots { colour: COLLAPSE, mark: Mark::Square, size: 9, hollow: false, dots: dots(true) },
+        ],
     }
 }
 

@@ -130,59 +130,9 @@ fn alpha_0(a: &Assessment) -> String {
 }
 
 fn check_rows(w: Words, a: &Assessment, c: &StaticCheck) -> Vec<Row> {
-    let fc = a.site.assessment.confidence_factor;
-    let ag = a.site.site.ag_g * G_M_S2;
-    let m_s2 = |value: Option<f64>| value.map_or("> 10 g".into(), |value| format!("{value:.3} m/s²"));
-    let zeta = |value: Option<f64>| value.map_or("–".into(), |value: f64| format!("{value:.3}"));
-    let over = |value: Option<f64>| value.map_or("–".into(), |value| format!("{value:.3}/{ag:.3}"));
-    let [spectrum, asked] = if c.place == "floor" { ["S_eZ", "S_eZ T²/4π²"] } else { ["S_e", "S_De"] };
-    let period = |factor: f64, d_m: f64, a_m_s2: f64| format!("{factor} π √({d_m:.4}/{a_m_s2:.4})");
-    let percent = DAMPING.map(|xi| 100.0 * xi);
-    let mut rows = vec![
-        row(
-            "a_0",
-            "C8.7.1.3",
-            format!("α_0 g/(e* FC) = {:.4} · 9.81/({:.4} · {fc:.2})", a.alpha_0, a.e_star),
-            format!("{:.3} m/s²", c.a_0_m_s2),
-        ),
-        row("T_0", "C8.7.1.7", own_period(w, a), format!("{:.3} s", c.t_0_s)),
-        row(
-            "a_g,SLD",
-            "C8.7.1.8, .9",
-            format!("{spectrum}(T_0, {} %) = a_0", percent[0]),
-            m_s2(c.ag_sld_m_s2),
-        ),
-        row("a_g,SLV, q = 2", "", "q a_g,SLD".into(), m_s2(c.linear.ag_slv_m_s2)),
-        row(
-            &format!("ζ, {}", w.say("linear", "lineare")),
-            "",
-            over(c.linear.ag_slv_m_s2),
-            zeta(c.linear.zeta),
-        ),
-        row("d_SLV", "", format!("0.4 · {:.4}", a.d_0_m), format!("{:.4} m", c.d_slv_m)),
-        row("T_SLV", "C8.7.1.10", period(1.68, c.d_slv_m, c.a_slv_m_s2), format!("{:.3} s", c.t_slv_s)),
-        row(
-            &w.say("demand at a_g", "domanda ad a_g"),
-            "C8.7.1.12",
-            format!("{asked}(T_SLV, {} %)", percent[1]),
-            format!("{:.4} m", c.demand_slv_m),
-        ),
-        row(
-            "a_g,SLV",
-            "C8.7.1.12",
-            format!("{asked}(T_SLV, {} %) = {:.4} m", percent[1], c.d_slv_m),
-            m_s2(c.ag_slv_m_s2),
-        ),
-        row("ζ", "", over(c.ag_slv_m_s2), zeta(c.zeta)),
-        row("d_SLC", "", format!("0.6 · {:.4}", a.d_0_m), format!("{:.4} m", c.d_slc_m)),
-        row("T_SLC", "C8.7.1.11", period(1.56, c.d_slc_m, c.a_slc_m_s2), format!("{:.3} s", c.t_slc_s)),
-        row(
-            "a_g,SLC",
-            "C8.7.1.12",
-            format!("{asked}(T_SLC, {} %) = {:.4} m", percent[2], c.d_slc_m),
-            m_s2(c.ag_slc_m_s2),
-        ),
-    ];
+    let floor = c.place == "floor";
+    let mut rows = linear_rows(w, a, c, if floor { "S_eZ" } else { "S_e" });
+    rows.extend(nonlinear_rows(w, a, c, if floor { "S_eZ T²/4π²" } else { "S_De" }));
     rows.extend(c.zeta_sld.map(|_| row("ζ_SLD", "", "a_g,SLD/a_g(SLD)".into(), zeta(c.zeta_sld))));
     rows.extend(c.zeta_slc.map(|_| row("ζ_SLC", "", "a_g,SLC/a_g(SLC)".into(), zeta(c.zeta_slc))));
     rows.extend(c.circolare_617.as_ref().map(|old| {
@@ -191,6 +141,51 @@ fn check_rows(w: Words, a: &Assessment, c: &StaticCheck) -> Vec<Row> {
         row("ζ, Circolare 617/2009", "", formula, zeta(old.zeta))
     }));
     rows
+}
+
+fn m_s2(value: Option<f64>) -> String {
+    value.map_or("> 10 g".into(), |value| format!("{value:.3} m/s²"))
+}
+
+fn zeta(value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| format!("{value:.3}"))
+}
+
+/// An acceleration over the site's a_g.
+fn over_ag(a: &Assessment, value: Option<f64>) -> String {
+    value.map_or("–".into(), |value| format!("{value:.3}/{:.3}", a.site.site.ag_g * G_M_S2))
+}
+
+fn linear_rows(w: Words, a: &Assessment, c: &StaticCheck, spectrum: &str) -> Vec<Row> {
+    let fc = a.site.assessment.confidence_factor;
+    let a_0 = format!("α_0 g/(e* FC) = {:.4} · 9.81/({:.4} · {fc:.2})", a.alpha_0, a.e_star);
+    let reached = format!("{spectrum}(T_0, {} %) = a_0", 100.0 * DAMPING[0]);
+    let linear = format!("ζ, {}", w.say("linear", "lineare"));
+    vec![
+        row("a_0", "C8.7.1.3", a_0, format!("{:.3} m/s²", c.a_0_m_s2)),
+        row("T_0", "C8.7.1.7", own_period(w, a), format!("{:.3} s", c.t_0_s)),
+        row("a_g,SLD", "C8.7.1.8, .9", reached, m_s2(c.ag_sld_m_s2)),
+        row("a_g,SLV, q = 2", "", "q a_g,SLD".into(), m_s2(c.linear.ag_slv_m_s2)),
+        row(&linear, "", over_ag(a, c.linear.ag_slv_m_s2), zeta(c.linear.zeta)),
+    ]
+}
+
+fn nonlinear_rows(w: Words, a: &Assessment, c: &StaticCheck, asked: &str) -> Vec<Row> {
+    let period = |factor: f64, d_m: f64, a_m_s2: f64| format!("{factor} π √({d_m:.4}/{a_m_s2:.4})");
+    let [_, slv, slc] = DAMPING.map(|xi| 100.0 * xi);
+    let m = |d_m: f64| format!("{d_m:.4} m");
+    let demand = w.say("demand at a_g", "domanda ad a_g");
+    let reached = |of: &str, xi: f64, d_m: f64| format!("{asked}({of}, {xi} %) = {d_m:.4} m");
+    vec![
+        row("d_SLV", "", format!("0.4 · {:.4}", a.d_0_m), m(c.d_slv_m)),
+        row("T_SLV", "C8.7.1.10", period(1.68, c.d_slv_m, c.a_slv_m_s2), format!("{:.3} s", c.t_slv_s)),
+        row(&demand, "C8.7.1.12", format!("{asked}(T_SLV, {slv} %)"), m(c.demand_slv_m)),
+        row("a_g,SLV", "C8.7.1.12", reached("T_SLV", slv, c.d_slv_m), m_s2(c.ag_slv_m_s2)),
+        row("ζ", "", over_ag(a, c.ag_slv_m_s2), zeta(c.zeta)),
+        row("d_SLC", "", format!("0.6 · {:.4}", a.d_0_m), m(c.d_slc_m)),
+        row("T_SLC", "C8.7.1.11", period(1.56, c.d_slc_m, c.a_slc_m_s2), format!("{:.3} s", c.t_slc_s)),
+        row("a_g,SLC", "C8.7.1.12", reached("T_SLC", slc, c.d_slc_m), m_s2(c.ag_slc_m_s2)),
+    ]
 }
 
 fn own_period(w: Words, a: &Assessment) -> String {

@@ -34,65 +34,38 @@ type Row = (String, &'static str, String, bool);
 
 fn wall(w: Words, assessed: &Assessed) -> Vec<Row> {
     let p = &assessed.wall;
-    let [b_1, b_2] = p.width_m;
+    let m = |length_m: f64| format!("{length_m:.3} m");
+    let row = |english: &str, italian: &str, key, value: String| (w.say(english, italian), key, value, true);
     let mut rows = vec![
-        (w.say("thickness b", "spessore b"), "thickness_m", format!("{:.3} m", p.thickness_m), true),
-        (w.say("height h", "altezza h"), "height_m", format!("{:.3} m", p.height_m), true),
-        (
-            w.say("length of the strip L", "lunghezza della striscia L"),
-            "length_m",
-            format!("{:.3} m", p.length_m),
-            true,
-        ),
-        (w.say("mass m", "massa m"), "mass_kg", format!("{:.1} kg", p.mass_kg), true),
-        (
-            w.say("width of the foot b₁", "larghezza al piede b₁"),
-            "lower_width_m",
-            format!("{b_1:.3} m"),
-            true,
-        ),
+        row("thickness b", "spessore b", "thickness_m", m(p.thickness_m)),
+        row("height h", "altezza h", "height_m", m(p.height_m)),
+        row("length of the strip L", "lunghezza della striscia L", "length_m", m(p.length_m)),
+        row("mass m", "massa m", "mass_kg", format!("{:.1} kg", p.mass_kg)),
+        row("width of the foot b₁", "larghezza al piede b₁", "lower_width_m", m(p.width_m[0])),
     ];
     if let Some(h_1) = p.crack_height_m {
-        rows.push((
-            w.say("height of the crack h₁", "altezza della fessura h₁"),
-            "crack_height_m",
-            format!("{h_1:.3} m"),
-            true,
-        ));
-        rows.push((
-            w.say("width at the crack b₂", "larghezza alla fessura b₂"),
+        rows.push(row("height of the crack h₁", "altezza della fessura h₁", "crack_height_m", m(h_1)));
+        rows.push(row(
+            "width at the crack b₂",
+            "larghezza alla fessura b₂",
             "upper_width_m",
-            format!("{b_2:.3} m"),
-            true,
+            m(p.width_m[1]),
         ));
     }
+    let kg = |mass_kg: f64| format!("{mass_kg:.1} kg");
+    let stiffness = format!("{} N/m", p.stiffness_n_per_m);
     rows.extend([
-        (
-            w.say("floor, carried m_d", "solaio, portata m_d"),
-            "diaphragm.mass_kg",
-            format!("{:.1} kg", p.diaphragm_mass_kg),
-            true,
-        ),
-        (
-            w.say("floor, pushing only m_dp", "solaio, sola inerzia m_dp"),
+        row("floor, carried m_d", "solaio, portata m_d", "diaphragm.mass_kg", kg(p.diaphragm_mass_kg)),
+        row(
+            "floor, pushing only m_dp",
+            "solaio, sola inerzia m_dp",
             "diaphragm.carriage_mass_kg",
-            format!("{:.1} kg", p.carriage_mass_kg),
-            true,
+            kg(p.carriage_mass_kg),
         ),
-        (
-            w.say("stiffness at the top k_d", "rigidezza in sommità k_d"),
-            "diaphragm.stiffness_n_per_m",
-            format!("{} N/m", p.stiffness_n_per_m),
-            true,
-        ),
-        (
-            w.say("eccentricity e_C", "eccentricità e_C"),
-            "diaphragm.eccentricity_m",
-            format!("{:.3} m", p.eccentricity_m),
-            true,
-        ),
+        row("stiffness at the top k_d", "rigidezza in sommità k_d", "diaphragm.stiffness_n_per_m", stiffness),
+        row("eccentricity e_C", "eccentricità e_C", "diaphragm.eccentricity_m", m(p.eccentricity_m)),
     ]);
-    rows.extend(p.effects.iter().map(|effect| (w.say("effect", "effetto"), "effects", effect.clone(), true)));
+    rows.extend(p.effects.iter().map(|effect| row("effect", "effetto", "effects", effect.clone())));
     rows
 }
 

@@ -1,6 +1,6 @@
 //! Words of the page in two languages, and what it says of its assumptions.
 
-use crate::assessment::{Assessed, Language};
+use crate::assessment::{Assessed, Language, SuiteNote};
 use mrbd_assessment::{Agreement, Governing};
 
 /// The language of a page.
@@ -39,33 +39,8 @@ impl Words {
 /// What to know first.
 pub fn notes(w: Words, assessed: &Assessed) -> Vec<String> {
     let a = &assessed.assessment;
-    let mut notes = Vec::new();
-    match a.agreement {
-        Some(Agreement::StaticRefuses) => notes.push(w.say(
-            "The static check refuses what the dynamics accept.",
-            "La verifica statica rifiuta ciò che la dinamica accetta.",
-        )),
-        Some(Agreement::DynamicRefuses) => notes.push(w.say(
-            "The static check accepts what the dynamics refuse.",
-            "La verifica statica accetta ciò che la dinamica rifiuta.",
-        )),
-        _ => {}
-    }
-    if let Some(suite) = &assessed.suite {
-        if suite.generated {
-            notes.push(w.say(
-                "The records are generated, not natural: C8.7.1.2.1.9 asks for natural ones.",
-                "Gli accelerogrammi sono generati, non naturali: la C8.7.1.2.1.9 richiede accelerogrammi naturali.",
-            ));
-        }
-        if !suite.compatible {
-            let [low, high] = suite.deviation.map(|d| 100.0 * d);
-            notes.push(w.say(
-                &format!("The mean spectrum lies {low:+.0} % to {high:+.0} % about the code's: not compatible."),
-                &format!("Lo spettro medio scarta da {low:+.0} % a {high:+.0} % da quello di norma: non è compatibile."),
-            ));
-        }
-    }
+    let mut notes: Vec<String> = parted(w, a.agreement).into_iter().collect();
+    notes.extend(assessed.suite.iter().flat_map(|suite| of_suite(w, suite)));
     if !a.capacity.vanishes {
         notes.push(w.say(
             "The multiplier does not vanish; d_0 is where the wall counts as fallen.",
@@ -80,6 +55,41 @@ pub fn notes(w: Words, assessed: &Assessed) -> Vec<String> {
         ));
     }
     notes
+}
+
+/// Where the static check and the dynamics part.
+fn parted(w: Words, agreement: Option<Agreement>) -> Option<String> {
+    match agreement? {
+        Agreement::StaticRefuses => Some(w.say(
+            "The static check refuses what the dynamics accept.",
+            "La verifica statica rifiuta ciò che la dinamica accetta.",
+        )),
+        Agreement::DynamicRefuses => Some(w.say(
+            "The static check accepts what the dynamics refuse.",
+            "La verifica statica accetta ciò che la dinamica rifiuta.",
+        )),
+        Agreement::BothAccept | Agreement::BothRefuse => None,
+    }
+}
+
+/// Records that are generated, or not compatible with the site.
+fn of_suite(w: Words, suite: &SuiteNote) -> Vec<String> {
+    let generated = suite.generated.then(|| {
+        w.say(
+            "The records are generated, not natural: C8.7.1.2.1.9 asks for natural ones.",
+            "Gli accelerogrammi sono generati, non naturali: la C8.7.1.2.1.9 richiede accelerogrammi naturali.",
+        )
+    });
+    let [low, high] = suite.deviation.map(|d| 100.0 * d);
+    let apart = (!suite.compatible).then(|| {
+        w.say(
+            &format!("The mean spectrum lies {low:+.0} % to {high:+.0} % about the code's: not compatible."),
+            &format!(
+                "Lo spettro medio scarta da {low:+.0} % a {high:+.0} % da quello di norma: non è compatibile."
+            ),
+        )
+    });
+    generated.into_iter().chain(apart).collect()
 }
 
 /// What is assumed, and what is not checked.
