@@ -37,11 +37,13 @@ pub fn governing_run(wall: &Wall, capacity: &Capacity, motion: &Accelerogram) ->
         ground_m_s2: ground.get(k).copied().unwrap_or(0.0),
         theta1_rad: row.theta_rad[0],
         theta2_rad: row.theta_rad[1],
-        d_m: capacity.d_over_control
-            * match capacity.control {
+        d_m: {
+            let control_m = match capacity.control {
                 Control::Top => rocking.top_displacement_m(row.contact, row.theta_rad),
                 Control::Crack => rocking.crack_displacement_m(row.theta_rad[0]),
-            },
+            };
+            capacity.d_of_control_m(control_m.abs()).copysign(control_m)
+        },
     };
     history.rows.iter().enumerate().map(row).collect()
 }

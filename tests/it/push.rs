@@ -62,6 +62,27 @@ fn regress_a_push_is_a_table_a_picture_a_folder_and_a_page() {
 }
 
 #[test]
+fn analytic_a_bed_of_the_wall_file_is_the_bed_of_the_command() {
+    let folder = folder();
+    let effect = |joint: &str| {
+        format!(
+            "{HELD}[[effects]]\nkind = \"compliant_joint\"\njoint = \"{joint}\"\nstiffness_pa_per_m = 1e9\n"
+        )
+    };
+    for (name, joint) in [("both.toml", "both"), ("crack.toml", "crack")] {
+        std::fs::write(folder.path().join(name), effect(joint)).expect("written");
+    }
+    let push = |wall: &str, more: &[&str]| json(folder.path(), &[&["push", wall, "--json"], more].concat());
+    let [of_file, of_command, at_crack] =
+        [push("both.toml", &[]), push("wall.toml", &["--bed", "1e9"]), push("crack.toml", &[])];
+    assert_eq!((&of_file["curve"], &of_file["rigid"]), (&of_command["curve"], &of_command["rigid"]));
+    assert_eq!(at_crack["beds_pa_per_m"], serde_json::json!([null, 1e9]));
+    let largest = |found: &Value| found["curve"]["largest_force_over_weight"].as_f64().expect("a number");
+    // Each bed takes its part of the force.
+    assert!(largest(&of_file) < largest(&at_crack) && largest(&at_crack) < largest(&push("wall.toml", &[])));
+}
+
+#[test]
 fn rejects_what_is_no_push() {
     let folder = folder();
     std::fs::write(folder.path().join("m.csv"), "x,y\n1,2\n").expect("written");

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use mrbd_kernel::model::{G_M_S2, Wall};
 use mrbd_statics::{
-    Chain, Edges, LeastCrack, Load, Mechanism, Point, Push, Restraint, Side, VirtualWork, beds_pa_per_m,
-    least_crack_height,
+    Chain, Curve, Edges, LeastCrack, Load, Mechanism, Point, Push, Restraint, Side, VirtualWork,
+    beds_pa_per_m, least_crack_height,
 };
 
 /// Share of the displacement of the crack by which a support that counts as rigid lets the top move.
@@ -56,6 +56,8 @@ pub enum Control {
 pub struct CurvePoint {
     /// d: displacement of the equivalent oscillator, m.
     pub d_m: f64,
+    /// Displacement of the point that is followed, m.
+    pub control_m: f64,
     /// α: multiplier of the weights.
     pub alpha: f64,
     /// Rotations of the bodies, rad.
@@ -79,7 +81,8 @@ pub struct Capacity {
     pub m_star_kg: f64,
     /// The point that is followed.
     pub control: Control,
-    /// d over the displacement of that point (C8.7.1.4).
+    /// d over the displacement of that point (C8.7.1.4); of a wall on springs, whose bodies change their share on the
+    /// way, the ratio at d_0.
     pub d_over_control: f64,
     /// d_0, m.
     pub d_0_m: f64,
@@ -135,6 +138,22 @@ impl Capacity {
         a.alpha + (b.alpha - a.alpha) * (d_m - a.d_m) / (b.d_m - a.d_m)
     }
 
+    /// d at a displacement of the point that is followed, m: by the constant ratio of a mechanism, or along the curve of a
+    /// wall on springs; beyond its end by the ratio there.
+    pub fn d_of_control_m(&self, control_m: f64) -> f64 {
+        if self.mechanism != Governing::Restrained || control_m >= self.d_0_control_m {
+            return self.d_over_control * control_m;
+        }
+        let after = self.curve.partition_point(|point| point.control_m < control_m);
+        let [a, b] = [after.max(1) - 1, after.max(1)].map(|i| self.curve[i.min(self.curve.len() - 1)]);
+        let share = if b.control_m > a.control_m {
+            (control_m - a.control_m) / (b.control_m - a.control_m)
+        } else {
+            1.0
+        };
+        a.d_m + share * (b.d_m - a.d_m)
+    }
+
     /// a(d) = α g/(e* FC) (C8.7.1.3), m/s².
     pub fn acceleration_m_s2(&self, d_m: f64, confidence_factor: f64) -> f64 {
         self.alpha(d_m) * G_M_S2 / (self.e_star * confidence_factor)
@@ -178,7 +197,7 @@ fn free(wall: &Wall, edges: Edges, side: Side) -> Result<Capacity, NoMechanism> 
         work,
         control: Control::Top,
     };
-    found.capacity(&curve, chain.pushing_n())
+    found.capacity(&curve, &chain)
 }
 
 /// A wall on springs follows its equilibrium; where they are as good as rigid, that is vertical bending.
@@ -213,7 +232,7 @@ fn restrained(wall: &Wall, edges: Edges, side: Side, restraint: Restraint) -> Re
             Found { mechanism, side, alpha_0: peak_n / chain.pushing_n(), alpha_first, work, control }
         }
     };
-    found.capacity(&curve, chain.pushing_n())
+    found.capacity(&curve, &chain)
 }
 
 /// The state at 0.4 of the displacement at which the wall falls: how it moves on its way there.
@@ -231,6 +250,16 @@ fn work_of_shape(chain: &Chain, shape: &Point) -> VirtualWork {
     VirtualWork::of(chain, [theta_1 / size, theta_2 / size], sides)
 }
 
+/// d of a state: Σ (P + Q) x²/Σ (P + Q) x, C8.7.1.4 with displacements in the place of virtual ones, m.
+fn spectral_m(chain: &Chain, point: &Point) -> f64 {
+    if point.displacement_m == 0.0 {
+        return 0.0;
+    }
+    let work = work_of_shape(chain, point);
+    let size = point.theta_rad[0].abs().max(point.theta_rad[1].abs());
+    work.squares_n_m2 / work.pushing_j * size
+}
+
 /// A mechanism, before its displacements are known.
 struct Found {
     mechanism: Governing,
@@ -242,19 +271,25 @@ struct Found {
 }
 
 impl Found {
-    fn capacity(self, curve: &mrbd_statics::Curve, pushing_n: f64) -> Result<Capacity, NoMechanism> {
+    fn capacity(self, curve: &Curve, chain: &Chain) -> Result<Capacity, NoMechanism> {
         let Self { mechanism, side, alpha_0, alpha_first, work, control } = self;
         let (control_m, of_point): (f64, fn(&Point) -> f64) = match control {
             Control::Top => (work.top_m, |point| point.top_m),
             Control::Crack => (work.crack_m, |point| point.crack_m),
         };
-        let d_over_control = work.spectral_over(control_m.abs());
+        let ratio = work.spectral_over(control_m.abs());
+        let d_m = |point: &Point| match mechanism {
+            // C8.7.1.4 with the displacements of the state itself: the bodies change their share on the way.
+            Governing::Restrained => spectral_m(chain, point),
+            _ => ratio * of_point(point).abs(),
+        };
         let mut points: Vec<CurvePoint> = Vec::new();
         for point in &curve.points {
-            let d_m = d_over_control * of_point(point).abs();
-            // A point that goes back while the wall goes on would make the curve two-valued: it is left out.
-            if points.last().is_none_or(|last| d_m > last.d_m) {
-                points.push(CurvePoint { d_m, alpha: point.force_n / pushing_n, theta_rad: point.theta_rad });
+            let (d_m, control_m) = (d_m(point), of_point(point).abs());
+            // Where the springs bring the top back d may stand still for a while: a(d) has one value there.
+            if points.last().is_none_or(|last| d_m > last.d_m && control_m > last.control_m) {
+                let alpha = point.force_n / chain.pushing_n();
+                points.push(CurvePoint { d_m, control_m, alpha, theta_rad: point.theta_rad });
             }
         }
         let last = points.last().filter(|_| points.len() > 2).ok_or(NoMechanism::Unstable)?;
@@ -266,9 +301,9 @@ impl Found {
             e_star: work.e_star(),
             m_star_kg: work.m_star_kg(),
             control,
-            d_over_control,
+            d_over_control: last.d_m / last.control_m,
             d_0_m: last.d_m,
-            d_0_control_m: last.d_m / d_over_control,
+            d_0_control_m: last.control_m,
             vanishes: curve.end.is_some(),
             work,
             curve: points,

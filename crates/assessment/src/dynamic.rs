@@ -143,7 +143,7 @@ impl Shaken<'_> {
             Control::Top => response.top_displacement_m,
             Control::Crack => response.crack_displacement_m,
         };
-        peak.value.abs() * self.capacity.d_over_control
+        self.capacity.d_of_control_m(peak.value.abs())
     }
 
     fn is_beyond(&self, response: &Response) -> bool {

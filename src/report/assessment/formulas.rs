@@ -3,7 +3,7 @@
 use super::super::page::Table;
 use super::words::Words;
 use crate::assessment::{Assessed, Compared};
-use mrbd_assessment::{Assessment, DAMPING, Dynamic, EdgeName, StaticCheck};
+use mrbd_assessment::{Assessment, DAMPING, Dynamic, EdgeName, Governing, StaticCheck};
 use mrbd_kernel::model::G_M_S2;
 use mrbd_statics::Mechanism;
 
@@ -94,6 +94,13 @@ fn capacity_rows(a: &Assessment) -> Vec<Row> {
         "(Σ(P+Q)δ)²/(Σ(P+Q) Σ(P+Q)δ²) = {:.1}²/({:.1} · {:.1})",
         work.pushing_j, work.pushing_n, work.squares_n_m2
     );
+    let ratio = match a.mechanism {
+        Governing::Restrained => "Σ(P+Q)x²/(x_C Σ(P+Q)x), d_0".into(),
+        _ => format!(
+            "Σ(P+Q)δ²/(δ_C Σ(P+Q)δ) = {:.1}/({control_m:.3} · {:.1})",
+            work.squares_n_m2, work.pushing_j
+        ),
+    };
     vec![
         row("α_0", "C8.7.1.1", alpha_0(a), format!("{:.4}", a.alpha_0)),
         row("e*", "C8.7.1.5", e_star, format!("{:.4}", a.e_star)),
@@ -103,13 +110,7 @@ fn capacity_rows(a: &Assessment) -> Vec<Row> {
             format!("e* Σ(P+Q)/g = {:.4} · {:.1}/9.81", a.e_star, work.pushing_n),
             format!("{:.1} kg", c.m_star_kg),
         ),
-        row(
-            "d/d_C",
-            "C8.7.1.4",
-            format!(
-                "Σ(P+Q)δ²/(δ_C Σ(P+Q)δ) = {:.1}/({control_m:.3} · {:.1})",
-                work.squares_n_m2, work.pushing_j
-            ),
+        row("d/d_C", "C8.7.1.4", ratio, format!("{:.4}", c.d_over_control)),
             format!("{:.4}", c.d_over_control),
         ),
         row(
@@ -124,7 +125,7 @@ fn capacity_rows(a: &Assessment) -> Vec<Row> {
 fn alpha_0(a: &Assessment) -> String {
     let work = &a.capacity.work;
     match a.mechanism {
-        mrbd_assessment::Governing::Restrained => "max α(d)".into(),
+        Governing::Restrained => "max α(d)".into(),
         _ => format!("Σ P δ_Py/Σ(P+Q) δ_PQx = {:.1}/{:.1}", work.lifting_j, work.pushing_j),
     }
 }
