@@ -111,8 +111,6 @@ fn capacity_rows(a: &Assessment) -> Vec<Row> {
             format!("{:.1} kg", c.m_star_kg),
         ),
         row("d/d_C", "C8.7.1.4", ratio, format!("{:.4}", c.d_over_control)),
-            format!("{:.4}", c.d_over_control),
-        ),
         row(
             "d_0",
             "",
