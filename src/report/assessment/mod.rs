@@ -44,6 +44,7 @@ pub fn page(folder: &Path) -> Result<Page> {
             "I numeri di equazione che iniziano con C sono quelli della Circolare 21 gennaio 2019, n. 7 (NTC 2018).",
         ),
         files,
+        ..Page::default()
     })
 }
 
