@@ -286,11 +286,12 @@ impl Found {
         let mut points: Vec<CurvePoint> = Vec::new();
         for point in &curve.points {
             let (d_m, control_m) = (d_m(point), of_point(point).abs());
-            // Where the springs bring the top back d may stand still for a while: a(d) has one value there.
-            if points.last().is_none_or(|last| d_m > last.d_m && control_m > last.control_m) {
-                let alpha = point.force_n / chain.pushing_n();
-                points.push(CurvePoint { d_m, control_m, alpha, theta_rad: point.theta_rad });
+            // Where the springs bring the top back d may go back for a while. The later state counts: it leads to the end.
+            while points.last().is_some_and(|last| last.d_m >= d_m || last.control_m >= control_m) {
+                points.pop();
             }
+            let alpha = point.force_n / chain.pushing_n();
+            points.push(CurvePoint { d_m, control_m, alpha, theta_rad: point.theta_rad });
         }
         let last = points.last().filter(|_| points.len() > 2).ok_or(NoMechanism::Unstable)?;
         Ok(Capacity {
