@@ -11,8 +11,8 @@ use crate::error::{InputError, Result};
 use crate::survey::sampling::Sampling;
 use crate::survey::{Assumptions, Changes, Configuration};
 use mrbd_files::toml_file;
-use serde::{Deserialize, Serialize};
 use mrbd_records::Building;
+use serde::{Deserialize, Serialize};
 
 /// A named set of assumptions under which the whole study is run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
