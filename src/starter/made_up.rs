@@ -50,7 +50,9 @@ fn measured(wall: &Wall, test: &TestTable, seed: u64) -> Result<String> {
 }
 
 fn record(test: &TestTable) -> Result<Accelerogram> {
-    let record = test.record.as_deref().unwrap_or(Path::new(""));
+    let none =
+        || InputError::file(&test.measured, "a test without a record", "records for tests that are made up");
+    let record = test.record.as_deref().ok_or_else(none)?;
     let name = name_of(record);
     let text = FILES.iter().find(|(file, _)| *file == name).map_or("", |(_, text)| text);
     Ok(read_bytes(record, text.as_bytes(), &ReadOptions::default())?.accelerogram.scaled(test.scale))

@@ -70,6 +70,7 @@ mod slurm;
 #[cfg(target_os = "linux")]
 mod slurm_cluster;
 mod stranger;
+mod stranger_inputs;
 mod symmetry;
 mod traps;
 mod unfinished;

@@ -221,8 +221,8 @@ impl Motion {
 
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
-        if let Some(rate) = self.bedded_rate(theta, omega, ground) {
-            return rate.into();
+        if let Some(bedded) = &self.bedded {
+            return bedded.rate(&self.laws, self.held, theta, omega, ground).into();
         }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
         dispatch!(self.level, _ => self.rate_at(&self.configuration(theta), omega, ground)).into()
@@ -232,13 +232,6 @@ impl Motion {
     #[inline]
     pub fn is_bedded(&self) -> bool {
         self.bedded.is_some()
-    }
-
-    /// The rate where joints give; `None` where all are sharp.
-    #[inline]
-    pub fn bedded_rate(&self, theta: Pair, omega: Pair, ground: Vector) -> Option<BeddedRate> {
-        let bedded = self.bedded.as_ref()?;
-        Some(bedded.rate(&self.laws, self.held, theta, omega, ground))
     }
 
     /// The same in a configuration that is known.

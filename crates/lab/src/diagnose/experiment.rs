@@ -269,22 +269,21 @@ fn likeliest(share: impl Fn(usize) -> Option<f64>, limit: f64) -> Option<(usize,
 pub fn windowed_errors(experiment: &Experiment, wall: &Wall) -> [Option<f64>; 2] {
     let of = |purpose: Purpose| {
         let tests = experiment.tests.iter().filter(|test| test.purpose == purpose).cloned();
-        let tests = tests.collect::<Vec<_>>();
-        let windows = windows(&tests);
-        let all = Problem { tests: &tests, windows: &windows };
-        let data = Data { fit: all, held_out: Problem { windows: &[], ..all } };
-        let h = Hypothesis::new(wall.parameters(), &experiment.scales, &[], &[]);
-        windowed_error(&untouched(&data, h)?.fit.windows).filter(|error| *error > 0.0)
+        error_in(&tests.collect::<Vec<_>>(), wall, &experiment.scales)
     };
     [Purpose::Fit, Purpose::HoldOut].map(of)
 }
 
+/// Windowed error of a wall as it is in some tests; `None` where nothing moves.
+fn error_in(tests: &[TestData], wall: &Wall, scales: &Scales) -> Option<f64> {
+    let windows = windows(tests);
+    let all = Problem { tests, windows: &windows };
+    let data = Data { fit: all, held_out: Problem { windows: &[], ..all } };
+    let h = Hypothesis::new(wall.parameters(), scales, &[], &[]);
+    windowed_error(&untouched(&data, h)?.fit.windows).filter(|error| *error > 0.0)
+}
+
 /// Windowed error of the wall as given in one test; `None` where nothing moves.
 fn misfit(readings: &Readings, test: &TestData) -> Option<f64> {
-    let tests = [test.clone()];
-    let windows = windows(&tests);
-    let all = Problem { tests: &tests, windows: &windows };
-    let data = Data { fit: all, held_out: Problem { windows: &[], ..all } };
-    let h = Hypothesis::new(readings.wall.parameters(), readings.scales, &[], &[]);
-    windowed_error(&untouched(&data, h)?.fit.windows).filter(|error| *error > 0.0)
+    error_in(std::slice::from_ref(test), readings.wall, readings.scales)
 }

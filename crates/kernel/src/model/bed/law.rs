@@ -130,11 +130,13 @@ impl Bed {
         let half_m = self.width_m / 2.0;
         let [(u, cos, v), (u_c, _, v_c)] = [phi, phi_c].map(turned);
         // Beyond a quarter turn, where u falls again, the zone stays as wide as it was there.
-        let (risen, narrows) = match phi <= FRAC_PI_2 {
-            true => (u * (1.0 - (u_c / u).sqrt()).powi(2), 0.5 * (u_c / u).sqrt() * cos * cos / u),
-            false => ((1.0 - u_c.sqrt()) * (u - u_c.sqrt()), 0.0),
+        let (open_y, risen, narrows) = if phi <= FRAC_PI_2 {
+            let part_y = (u_c / u).sqrt();
+            (1.0 - part_y, u * (1.0 - part_y).powi(2), 0.5 * part_y * cos * cos / u)
+        } else {
+            let open_y = 1.0 - u_c.sqrt();
+            (open_y, open_y * (u - u_c.sqrt()), 0.0)
         };
-        let open_y = 1.0 - if phi <= FRAC_PI_2 { (u_c / u).sqrt() } else { u_c.sqrt() };
         let part_x = (v_c / v).sqrt().sqrt();
         let c = self.partial_contact_m(phi);
         let place =
