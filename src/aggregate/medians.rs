@@ -1,7 +1,9 @@
 //! The table of medians: what the tables and the findings are made from.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
+use super::draws::Draws;
 use super::quantile::MEDIAN;
 use crate::study::pipeline::Parameter;
 use crate::study::plan::Level;
@@ -72,6 +74,8 @@ pub struct Median {
     pub failed: u64,
     /// Quantiles at [`super::LEVELS`]; none where they land among collapses.
     pub quantiles: [Option<f64>; 7],
+    /// Where the median lies in nine of ten draws of records and ensembles; `None` of too few records.
+    pub interval: Option<[Middle; 2]>,
 }
 
 /// The middle of a group of runs, some of which may have collapsed; ordered, collapse last.
@@ -81,6 +85,26 @@ pub enum Middle {
     Rotation(f64),
     /// The median run collapsed.
     Collapsed,
+}
+
+impl Middle {
+    /// Order by size: a collapse lies above every rotation.
+    pub fn by_size(&self, other: &Self) -> Ordering {
+        match (self, other) {
+            (Middle::Rotation(a), Middle::Rotation(b)) => a.total_cmp(b),
+            (Middle::Collapsed, Middle::Collapsed) => Ordering::Equal,
+            (Middle::Rotation(_), Middle::Collapsed) => Ordering::Less,
+            (Middle::Collapsed, Middle::Rotation(_)) => Ordering::Greater,
+        }
+    }
+
+    /// The rotation; `None` of a collapse.
+    pub fn rotation(self) -> Option<f64> {
+        match self {
+            Middle::Rotation(rotation) => Some(rotation),
+            Middle::Collapsed => None,
+        }
+    }
 }
 
 impl Median {
@@ -132,6 +156,23 @@ pub struct VariantNote {
     pub failed: u64,
     /// Largest energy not accounted for, over the energy that passed through.
     pub energy_residual: Option<f64>,
+    /// Free motion after the record, s.
+    pub tail_s: f64,
+    /// Rotation over α_i at which a wall counts as collapsed.
+    pub collapse_rotation_ratio: f64,
+    /// Whether vertical components act.
+    pub vertical: bool,
+}
+
+impl VariantNote {
+    /// Whether another variant has the same assumptions but for tolerance or capture velocity, which no wall has.
+    pub(super) fn differs_in_accuracy_alone(&self, other: &Self) -> bool {
+        let assumed = |note: &Self| {
+            let of_wall = [note.length_m, note.density_kg_m3, note.collapse_rotation_ratio, note.tail_s];
+            (of_wall.map(f64::to_bits), note.law.clone(), note.vertical)
+        };
+        self.name != other.name && assumed(self) == assumed(other)
+    }
 }
 
 /// How many runs of a variant come out differently from the same runs of the first variant.
@@ -156,23 +197,77 @@ pub struct Medians {
     pub moved: Vec<Moved>,
     /// How much of its plan the study has run; `None` where nobody knows.
     pub completeness: Option<Completeness>,
+    /// What tells how sure the medians of each variant are, in the order of the variants.
+    pub draws: Vec<Draws>,
     rows: Vec<Median>,
+    /// The rows of each variant; draws of medians are asked a thousand times over, so texts are compared once.
+    of_variants: Vec<OfVariant>,
+    slendernesses: Vec<f64>,
+}
+
+/// The rows of a variant.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct OfVariant {
+    name: String,
+    rows: Vec<usize>,
     by_case: BTreeMap<Key, usize>,
+    /// Parameters under each floor, in the order of the rows.
+    parameters: Vec<(Configuration, Parameter)>,
 }
 
 /// Slendernesses are inputs, so their bits identify them; positive floats order as their bits do.
-type Key = (String, Configuration, Parameter, Level, u64, Measure);
+type Key = (Configuration, Parameter, Level, u64, Measure);
 
-fn key(case: &Case, measure: Measure) -> Key {
-    let bits = case.slenderness.to_bits();
-    (case.variant.clone(), case.configuration, case.parameter, case.level, bits, measure)
+impl OfVariant {
+    fn add(&mut self, row: usize, median: &Median) {
+        let Case { configuration, parameter, level, slenderness, .. } = median.case;
+        self.rows.push(row);
+        self.by_case.insert((configuration, parameter, level, slenderness.to_bits(), median.measure), row);
+        if self.parameters.last() != Some(&(configuration, parameter))
+            && !self.parameters.contains(&(configuration, parameter))
+        {
+            self.parameters.push((configuration, parameter));
+        }
+    }
+}
+
+/// The rows of each variant, in the order of the rows.
+fn of_variants(rows: &[Median]) -> Vec<OfVariant> {
+    let mut all: Vec<OfVariant> = Vec::new();
+    for (row, median) in rows.iter().enumerate() {
+        let place = all.iter().rposition(|variant| variant.name == median.case.variant);
+        let place = place.unwrap_or_else(|| {
+            all.push(OfVariant { name: median.case.variant.clone(), ..OfVariant::default() });
+            all.len() - 1
+        });
+        all[place].add(row, median);
+    }
+    all
 }
 
 impl Medians {
     /// A table of these rows, in their order.
     pub fn new(variants: Vec<VariantNote>, rows: Vec<Median>) -> Self {
-        let by_case = rows.iter().enumerate().map(|(i, row)| (key(&row.case, row.measure), i)).collect();
-        Self { variants, moved: Vec::new(), completeness: None, rows, by_case }
+        let mut slendernesses: Vec<f64> = rows.iter().map(|row| row.case.slenderness).collect();
+        slendernesses.sort_unstable_by(f64::total_cmp);
+        slendernesses.dedup();
+        let of_variants = of_variants(&rows);
+        let (moved, draws) = (Vec::new(), Vec::new());
+        Self { variants, moved, completeness: None, draws, rows, of_variants, slendernesses }
+    }
+
+    /// The same table with the interval of every median.
+    #[must_use]
+    pub fn with_draws(mut self, draws: Vec<Draws>) -> Self {
+        for of_variant in draws.iter().filter(|draws| draws.tell()) {
+            for (case, measure, interval) in of_variant.intervals() {
+                if let Some(row) = self.place(case, measure) {
+                    self.rows[row].interval = interval;
+                }
+            }
+        }
+        self.draws = draws;
+        self
     }
 
     /// The same table with what comparing runs with runs told.
@@ -196,14 +291,43 @@ impl Medians {
 
     /// The row of a case; none if the study has no such case.
     pub fn get(&self, case: &Case, measure: Measure) -> Option<&Median> {
-        self.by_case.get(&key(case, measure)).map(|&i| &self.rows[i])
+        self.place(case, measure).map(|row| &self.rows[row])
+    }
+
+    fn place(&self, case: &Case, measure: Measure) -> Option<usize> {
+        let Case { configuration, parameter, level, slenderness, .. } = *case;
+        let key = (configuration, parameter, level, slenderness.to_bits(), measure);
+        self.of_variants.get(self.variant(&case.variant)?)?.by_case.get(&key).copied()
+    }
+
+    /// The place of a variant among those that have rows.
+    pub(crate) fn variant(&self, name: &str) -> Option<usize> {
+        self.of_variants.iter().position(|variant| variant.name == name)
+    }
+
+    /// The row of a case of the variant at a place; none if the study has no such case.
+    pub(crate) fn row(
+        &self,
+        variant: usize,
+        (configuration, parameter, level): (Configuration, Parameter, Level),
+        (slenderness, measure): (f64, Measure),
+    ) -> Option<&Median> {
+        let key = (configuration, parameter, level, slenderness.to_bits(), measure);
+        self.of_variants[variant].by_case.get(&key).map(|&row| &self.rows[row])
+    }
+
+    /// The rows of the variant at a place.
+    pub(crate) fn rows_of(&self, variant: usize) -> impl Iterator<Item = &Median> {
+        self.of_variants[variant].rows.iter().map(|&row| &self.rows[row])
+    }
+
+    /// The parameters of the variant at a place, by floor, in the order of the rows.
+    pub(crate) fn parameters(&self, variant: usize) -> &[(Configuration, Parameter)] {
+        &self.of_variants[variant].parameters
     }
 
     /// The slendernesses of the study, increasing.
-    pub fn slendernesses(&self) -> Vec<f64> {
-        let mut all: Vec<f64> = self.rows.iter().map(|row| row.case.slenderness).collect();
-        all.sort_by(f64::total_cmp);
-        all.dedup();
-        all
+    pub fn slendernesses(&self) -> &[f64] {
+        &self.slendernesses
     }
 }

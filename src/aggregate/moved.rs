@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use polars::prelude::{Float64Chunked, PolarsResult, UInt64Chunked};
 
 use super::medians::{Moved, VariantNote};
+use super::variants::MEMBER_OF;
 use crate::store::frame::{Frame, Texts, read};
 
 /// A largest rotation has moved if it differs by more than this share: what an engineer would call another result.
@@ -44,7 +45,7 @@ pub(super) fn moved(
     };
     let keys = comparison.keys();
     // A run that lacks what tells it apart is the same as no other.
-    let frame = read(files, &comparison.columns())?.without_nulls(&keys)?;
+    let frame = read(files, &comparison.columns())?.with_null(MEMBER_OF)?.without_nulls(&keys)?;
     let runs = Runs::of(&frame, comparison)?;
     let mut tallies = Tallies::new();
     for same in frame.groups(&keys)?.iter() {
@@ -70,7 +71,7 @@ impl Comparison {
 
     fn columns(&self) -> Vec<&'static str> {
         let mut columns = self.keys();
-        columns.extend(["run", "variant", self.outcome]);
+        columns.extend(["run", "variant", MEMBER_OF, self.outcome]);
         columns.extend(self.compared);
         columns
     }
@@ -156,6 +157,7 @@ mod tests {
         let columns: Vec<(&str, ArrayRef)> = vec![
             ("run", Arc::new(UInt64Array::from_iter_values(0..12))),
             ("variant", Arc::new(variants)),
+            (MEMBER_OF, Arc::new([None::<&str>; 12].into_iter().collect::<DictionaryArray<Int32Type>>())),
             ("configuration", text("parallel")),
             ("record", text("r")),
             ("draw", Arc::new(draws.iter().chain(&draws).copied().collect::<UInt64Array>())),
@@ -178,6 +180,9 @@ mod tests {
             runs: 6,
             collapsed: 0,
             failed: 1,
+            tail_s: 5.0,
+            collapse_rotation_ratio: 2.0,
+            vertical: false,
             energy_residual: None,
         }
     }

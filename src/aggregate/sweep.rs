@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use polars::prelude::PolarsResult;
 
+use super::draws::draws;
 use super::group::{Group, in_plan_order};
 use super::medians::{Case, Measure, Median, Medians};
 use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
 use super::row::Row;
-use super::variants::variant_notes;
+use super::variants::{MEMBER_OF, variant_notes};
 use crate::error::{Error, Result};
 use crate::store::frame::{Frame, read};
 use crate::study::pipeline::Parameter;
@@ -18,7 +19,7 @@ use crate::study::runs::{Completeness, run_files};
 use crate::survey::Configuration;
 
 /// Columns that tell the cases apart; records are what the quantiles run over.
-const CASE: [&str; 5] = ["variant", "configuration", "parameter", "level", "slenderness"];
+pub(super) const CASE: [&str; 5] = ["variant", "configuration", "parameter", "level", "slenderness"];
 
 /// How the runs of a sweep are compared between variants.
 const COMPARISON: Comparison = Comparison {
@@ -39,16 +40,18 @@ pub fn aggregate(folder: &Path) -> Result<Medians> {
     let read = || -> PolarsResult<Medians> {
         let variants = variant_notes(&files)?;
         let moved = moved(&files, &variants, &COMPARISON)?;
-        Ok(Medians::new(variants, medians(&files)?).with_moved(moved).of_study(completeness))
+        let draws = draws(&files, &variants)?;
+        let medians = Medians::new(variants, medians(&files)?).with_moved(moved);
+        Ok(medians.with_draws(draws).of_study(completeness))
     };
     read().map_err(|e| Error::table(folder, e))
 }
 
 fn medians(files: &[PathBuf]) -> PolarsResult<Vec<Median>> {
-    let mut columns = vec!["run", "outcome", "parameter_value"];
+    let mut columns = vec!["run", "outcome", "parameter_value", MEMBER_OF];
     columns.extend(CASE);
     columns.extend(Measure::ALL.map(Measure::column));
-    let frame = read(files, &columns)?;
+    let frame = read(files, &columns)?.with_null(MEMBER_OF)?;
     let mut rows = Vec::new();
     for group in in_plan_order(&frame, &CASE)? {
         rows.extend(medians_of(&frame, &group)?);
@@ -72,12 +75,13 @@ fn medians_of(frame: &Frame, group: &Group) -> PolarsResult<Vec<Median>> {
             collapsed,
             failed,
             quantiles: quantiles(&standing, collapsed as usize),
+            interval: None,
         })
     };
     Measure::ALL.into_iter().map(median).collect()
 }
 
-fn case(run: Row<'_>) -> PolarsResult<Case> {
+pub(super) fn case(run: Row<'_>) -> PolarsResult<Case> {
     Ok(Case {
         variant: run.text("variant")?,
         configuration: run.named("configuration", |name| {

@@ -54,6 +54,8 @@ const COLUMNS: &[Column<OfStudy<Median>>] = &[
     Column::result("q16", "", "16 % quantile", Read::Number(|m| m.quantiles[1])),
     Column::result("q25", "", "25 % quantile", Read::Number(|m| m.quantiles[2])),
     Column::result("median", "", "50 % quantile", Read::Number(|m| m.quantiles[3])),
+    Column::result("median_low", "", "5 % quantile of the median over draws of the records and of ensembles; null where it is a collapse, or of fewer than five records", Read::Number(|m| m.interval.and_then(|interval| interval[0].rotation()))),
+    Column::result("median_high", "", "95 % quantile of the median over these draws", Read::Number(|m| m.interval.and_then(|interval| interval[1].rotation()))),
     Column::result("q75", "", "75 % quantile", Read::Number(|m| m.quantiles[4])),
     Column::result("q84", "", "84 % quantile", Read::Number(|m| m.quantiles[5])),
     Column::result("q95", "", "95 % quantile", Read::Number(|m| m.quantiles[6])),

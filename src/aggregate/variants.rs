@@ -8,8 +8,9 @@ use super::group::{Group, in_plan_order};
 use super::medians::VariantNote;
 use crate::store::frame::{Frame, read};
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 15] = [
     "run",
+    MEMBER_OF,
     "variant",
     "outcome",
     "length_m",
@@ -20,14 +21,20 @@ const COLUMNS: [&str; 11] = [
     "suite",
     "suite_generated",
     "energy_residual",
+    "tail_s",
+    "collapse_rotation_ratio",
+    "vertical",
 ];
+
+/// The column that is null for runs as they are planned, and names the variant of whose ensemble others are members.
+pub(super) const MEMBER_OF: &str = "member_of";
 
 /// The variants in the order of the plan.
 ///
 /// # Errors
 /// Files that cannot be read, and runs without a value that every run has.
 pub(super) fn variant_notes(files: &[PathBuf]) -> PolarsResult<Vec<VariantNote>> {
-    let frame = read(files, &COLUMNS)?;
+    let frame = read(files, &COLUMNS)?.with_null(MEMBER_OF)?;
     in_plan_order(&frame, &["variant"])?.iter().map(|group| note(&frame, group)).collect()
 }
 
@@ -48,5 +55,8 @@ fn note(frame: &Frame, group: &Group) -> PolarsResult<VariantNote> {
         collapsed: group.how_many(outcomes, "collapsed"),
         failed: group.how_many(outcomes, "failed"),
         energy_residual: group.rows.iter().filter_map(|&row| residuals.get(row)).reduce(f64::max),
+        tail_s: first.number("tail_s")?,
+        collapse_rotation_ratio: first.number("collapse_rotation_ratio")?,
+        vertical: frame.flags("vertical")?.get(first.row).unwrap_or(false),
     })
 }

@@ -7,7 +7,7 @@ use clap::Args;
 use super::output;
 use crate::aggregate::{Distributions, Medians, aggregate, distributions, print_medians, write_medians};
 use crate::error::Result;
-use crate::findings::{report, report_distributions, write_findings};
+use crate::findings::{Conclusions, conclusions, report, report_distributions, write_findings};
 use crate::study::pipeline::Kind;
 use crate::study::runs::{Completeness, Manifest};
 
@@ -29,7 +29,7 @@ impl AggregateCommand {
     pub fn execute(self) -> Result<()> {
         let aggregated = read(&self.folder)?;
         match (&aggregated, self.csv) {
-            (Aggregated::Sweep(medians), true) => {
+            (Aggregated::Sweep(medians, _), true) => {
                 output::to_stdout(|out| print_medians(out, medians).map_err(output::failed))?;
             }
             (Aggregated::Drawn(study), true) => {
@@ -46,7 +46,7 @@ impl AggregateCommand {
 
 /// What a study tells, by its kind.
 enum Aggregated {
-    Sweep(Medians),
+    Sweep(Medians, Vec<Conclusions>),
     Drawn(Distributions),
 }
 
@@ -63,7 +63,7 @@ pub(super) fn aggregate_and_print(folder: &Path) -> Result<()> {
 fn print(aggregated: &Aggregated) -> Result<()> {
     output::to_stdout(|out| {
         let printed = match aggregated {
-            Aggregated::Sweep(medians) => report(out, medians),
+            Aggregated::Sweep(medians, conclusions) => report(out, medians, conclusions),
             Aggregated::Drawn(study) => report_distributions(out, study),
         };
         printed.map_err(output::failed)
@@ -72,11 +72,15 @@ fn print(aggregated: &Aggregated) -> Result<()> {
 
 fn read(folder: &Path) -> Result<Aggregated> {
     let aggregated = match kind_of(folder)? {
-        Kind::Sweep => Aggregated::Sweep(aggregate(folder)?),
+        Kind::Sweep => {
+            let medians = aggregate(folder)?;
+            let conclusions = conclusions(&medians);
+            Aggregated::Sweep(medians, conclusions)
+        }
         kind => Aggregated::Drawn(distributions(folder, kind)?),
     };
     let completeness = match &aggregated {
-        Aggregated::Sweep(medians) => medians.completeness,
+        Aggregated::Sweep(medians, _) => medians.completeness,
         Aggregated::Drawn(study) => study.completeness,
     };
     tell_unfinished(completeness);
@@ -86,9 +90,9 @@ fn read(folder: &Path) -> Result<Aggregated> {
 fn keep(folder: &Path, aggregated: &Aggregated) -> Result<()> {
     let file = folder.join("medians.parquet");
     match aggregated {
-        Aggregated::Sweep(medians) => {
+        Aggregated::Sweep(medians, conclusions) => {
             write_medians(&file, medians)?;
-            write_findings(&folder.join("findings.csv"), medians)
+            write_findings(&folder.join("findings.csv"), medians, conclusions)
         }
         Aggregated::Drawn(study) => study.write(&file),
     }

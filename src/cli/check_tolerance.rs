@@ -47,7 +47,9 @@ impl CheckToleranceCommand {
         let plan = replay::plan_of(&folder)?;
         self.check_tolerance(&plan)?;
         let compared = Compared::of(plan.kind());
-        let positions = sampled(plan.len(), self.sample.get(), self.seed);
+        let mut positions = sampled(plan.len(), self.sample.get(), self.seed);
+        // A member of an ensemble is itself a run again.
+        positions.retain(|&position| plan.run(position).variant.member.is_none());
         tell_unfinished(Completeness::of(folder.path())?);
         let stored = stored_answers(folder.path(), &positions, &compared)?;
         eprintln!("mrbd: {} runs again at a tighter tolerance", stored.len());

@@ -5,6 +5,7 @@
 
 mod amplitude;
 mod change;
+mod conclusion;
 mod diaphragm;
 mod distributions;
 mod geometry;
@@ -19,6 +20,7 @@ mod vote;
 
 use needs::Needs;
 
+pub use conclusion::{Conclusion, Conclusions, Sureness, conclusions, sure_rules, sureness};
 pub use distributions::report_distributions;
 pub use report::{report, write_findings};
 pub use verdict::{Answer, Verdict};
@@ -84,15 +86,11 @@ pub struct Held {
 }
 
 impl Held {
-    /// Of the medians of one variant.
-    pub fn of(view: &View) -> Self {
-        Self::among(&FINDINGS.map(|finding| finding.answer(view)))
-    }
-
-    /// Of the answers to all findings.
-    pub fn among(answers: &[Answer]) -> Self {
-        let count =
-            |keep: fn(&Verdict) -> bool| answers.iter().filter(|answer| keep(&answer.verdict)).count();
+    /// Of the conclusions under one variant.
+    pub fn among(conclusions: &[Conclusion]) -> Self {
+        let count = |keep: fn(&Verdict) -> bool| {
+            conclusions.iter().filter(|conclusion| keep(&conclusion.verdict())).count()
+        };
         Self {
             holds: count(|verdict| *verdict == Verdict::Holds),
             asked: count(|verdict| *verdict != Verdict::NotAsked),

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::conclusion::{Conclusion, Conclusions, Sureness, percent, sure_rules};
 use super::tables::print_tables;
 use super::variants::shift;
 use super::vote::{noticeable, rules};
@@ -14,12 +15,14 @@ use crate::study::runs::Completeness;
 use crate::survey::Configuration;
 use crate::text::{TERMINAL, aligned, wrapped};
 
-/// Prints everything; the first variant is the one whose medians are shown whole.
+/// Prints everything; the first variant is the one whose medians are shown whole. `conclusions` are those of the medians.
 ///
 /// # Errors
 /// What the stream says.
-pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
-    let Some(base) = medians.variants.first() else { return Ok(()) };
+pub fn report(out: &mut dyn Write, medians: &Medians, conclusions: &[Conclusions]) -> io::Result<()> {
+    let (Some(base), Some(under_base)) = (medians.variants.first(), conclusions.first()) else {
+        return Ok(());
+    };
     let view = View::new(medians, &base.name);
     assumptions(out, &medians.variants)?;
     unfinished(out, medians.completeness)?;
@@ -35,11 +38,12 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
     heading(out, &format!("Conclusions of the source against these medians, variant {:?}", base.name))?;
     unfinished(out, medians.completeness)?;
     writeln!(out, "{}", wrapped(&rules(), 0, TERMINAL))?;
-    findings(out, &view)?;
-    writeln!(out, "{}", wrapped(&held(&view, medians.completeness), 0, TERMINAL))?;
+    writeln!(out, "{}", wrapped(&sure_rules(), 0, TERMINAL))?;
+    findings(out, &under_base.all)?;
+    writeln!(out, "{}", wrapped(&held(&under_base.all, medians.completeness), 0, TERMINAL))?;
     if medians.variants.len() > 1 {
         heading(out, "The same conclusions under every variant")?;
-        matrix(out, medians)?;
+        matrix(out, conclusions)?;
         heading(out, &format!("How far the medians of θi/αi move from variant {:?}", base.name))?;
         shifts(out, medians, base)?;
     }
@@ -50,30 +54,44 @@ pub fn report(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
 ///
 /// # Errors
 /// [`mrbd_files::Error::Io`] if the disk refuses.
-pub fn write_findings(path: &Path, medians: &Medians) -> Result<()> {
+pub fn write_findings(path: &Path, medians: &Medians, conclusions: &[Conclusions]) -> Result<()> {
     let failed = |e: csv::Error| Error::table(path, e);
     let mut csv = csv::Writer::from_writer(Vec::new());
     let head = ["variant", "finding", "answer", "numbers", "claim", "source", "holds_if", "noticeable"];
+    let sure = ["at_hand", "holds_share", "does_not_share", "records", "members"];
     let study = ["study_runs", "planned_runs"];
-    csv.write_record(head.into_iter().chain(study)).map_err(failed)?;
+    csv.write_record(head.into_iter().chain(sure).chain(study)).map_err(failed)?;
     let noticeable = noticeable();
     let count =
         |of: fn(Completeness) -> u64| medians.completeness.map_or(String::new(), |c| of(c).to_string());
     let judged_over = [count(|c| c.runs), count(|c| c.planned_runs)];
-    for variant in &medians.variants {
-        let view = View::new(medians, &variant.name);
-        for finding in &FINDINGS {
-            let answer = finding.answer(&view);
+    for Conclusions { variant, all } in conclusions {
+        for (finding, conclusion) in FINDINGS.iter().zip(all) {
             let Finding { name, claim, source, criterion, .. } = finding;
-            let (verdict, numbers) = (answer.verdict.name(), &answer.numbers);
-            let row: [&str; 8] =
-                [&variant.name, name, verdict, numbers, claim, source, criterion, &noticeable];
-            csv.write_record(row.into_iter().chain(judged_over.iter().map(String::as_str)))
-                .map_err(failed)?;
+            let (verdict, numbers) = (conclusion.verdict().name(), &conclusion.answer.numbers);
+            let row: [&str; 8] = [variant, name, verdict, numbers, claim, source, criterion, &noticeable];
+            let sure = sure_cells(conclusion);
+            let further = sure.iter().chain(&judged_over).map(String::as_str);
+            csv.write_record(row.into_iter().chain(further)).map_err(failed)?;
         }
     }
     let bytes = csv.into_inner().map_err(|e| Error::table(path, e))?;
     write_durably(path, &bytes)
+}
+
+/// The verdict of the medians at hand, shares of the draws, and of what they are draws; empty where there are none.
+fn sure_cells(conclusion: &Conclusion) -> [String; 5] {
+    let at_hand = conclusion.answer.verdict.name().to_owned();
+    match conclusion.sureness {
+        None => [at_hand, String::new(), String::new(), String::new(), String::new()],
+        Some(sure) => [
+            at_hand,
+            sure.holds.to_string(),
+            sure.does_not.to_string(),
+            sure.records.to_string(),
+            sure.members.to_string(),
+        ],
+    }
 }
 
 /// An underlined heading.
@@ -151,10 +169,10 @@ fn suite(variant: &VariantNote) -> String {
     }
 }
 
-fn findings(out: &mut dyn Write, view: &View) -> io::Result<()> {
-    for (index, finding) in FINDINGS.iter().enumerate() {
-        let answer = finding.answer(view);
-        writeln!(out, "{:>2}. {}: {}", index + 1, finding.name, answer.verdict.name().to_uppercase())?;
+fn findings(out: &mut dyn Write, conclusions: &[Conclusion]) -> io::Result<()> {
+    for (index, (finding, conclusion)) in FINDINGS.iter().zip(conclusions).enumerate() {
+        let Conclusion { answer, sureness } = conclusion;
+        writeln!(out, "{:>2}. {}: {}", index + 1, finding.name, conclusion.verdict().name().to_uppercase())?;
         writeln!(
             out,
             "{}",
@@ -162,12 +180,15 @@ fn findings(out: &mut dyn Write, view: &View) -> io::Result<()> {
         )?;
         writeln!(out, "{}", wrapped(&format!("Holds if {}.", finding.criterion), 4, TERMINAL))?;
         writeln!(out, "{}", wrapped(&format!("Found: {}.", answer.numbers), 4, TERMINAL))?;
+        if let Some(sureness) = sureness {
+            writeln!(out, "{}", wrapped(&format!("Sure: {}.", sureness.tell()), 4, TERMINAL))?;
+        }
     }
     Ok(())
 }
 
-fn held(view: &View, study: Option<Completeness>) -> String {
-    let held = Held::of(view);
+fn held(conclusions: &[Conclusion], study: Option<Completeness>) -> String {
+    let held = Held::among(conclusions);
     let over = study
         .filter(|study| !study.is_whole())
         .map_or(String::new(), |study| format!(", judged over {study}"));
@@ -179,20 +200,32 @@ fn held(view: &View, study: Option<Completeness>) -> String {
 }
 
 /// Conclusions that no variant varies have no row.
-fn matrix(out: &mut dyn Write, medians: &Medians) -> io::Result<()> {
+fn matrix(out: &mut dyn Write, conclusions: &[Conclusions]) -> io::Result<()> {
     let mut head = vec!["conclusion".to_owned()];
-    head.extend(medians.variants.iter().map(|variant| variant.name.clone()));
+    head.extend(conclusions.iter().map(|under| under.variant.clone()));
     let mut rows = vec![head];
     for (index, finding) in FINDINGS.iter().enumerate() {
-        let of = |variant: &VariantNote| finding.answer(&View::new(medians, &variant.name)).verdict;
-        let verdicts: Vec<Verdict> = medians.variants.iter().map(of).collect();
-        if verdicts.iter().any(|verdict| *verdict != Verdict::NotAsked) {
+        let of_variants: Vec<&Conclusion> = conclusions.iter().map(|under| &under.all[index]).collect();
+        if of_variants.iter().any(|conclusion| conclusion.verdict() != Verdict::NotAsked) {
             let name = format!("{:>2}. {}", index + 1, finding.name);
-            let verdicts = verdicts.into_iter().map(|verdict| verdict.name().to_owned());
-            rows.push(std::iter::once(name).chain(verdicts).collect());
+            rows.push(std::iter::once(name).chain(of_variants.into_iter().map(cell)).collect());
         }
     }
-    writeln!(out, "{}", aligned(&rows))
+    writeln!(out, "{}", aligned(&rows))?;
+    let notes = "With the share of the draws that say so; undecided: those that hold, and those that do not. Ensembles answer for the variant that has them.";
+    writeln!(out, "{}", wrapped(notes, 0, TERMINAL))
+}
+
+/// "holds 97 %", "undecided 62:5 %".
+fn cell(conclusion: &Conclusion) -> String {
+    let verdict = conclusion.verdict();
+    match (verdict, conclusion.sureness) {
+        (_, None) => verdict.name().to_owned(),
+        (Verdict::Undecided, Some(Sureness { holds, does_not, .. })) => {
+            format!("{} {}:{} %", verdict.name(), percent(holds), percent(does_not))
+        }
+        (_, Some(sureness)) => format!("{} {}", verdict.name(), sureness.short()),
+    }
 }
 
 fn shifts(out: &mut dyn Write, medians: &Medians, base: &VariantNote) -> io::Result<()> {

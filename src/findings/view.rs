@@ -1,6 +1,6 @@
 //! The medians of one variant, as the findings ask for them.
 
-use crate::aggregate::{Case, Measure, Median, Medians, Middle};
+use crate::aggregate::{Measure, Median, Medians, Middle};
 use crate::study::pipeline::Parameter;
 use crate::study::plan::Level;
 use crate::survey::Configuration;
@@ -44,6 +44,8 @@ impl Slender {
 pub struct View<'a> {
     medians: &'a Medians,
     variant: &'a str,
+    /// Its place among the variants; `None` of one without medians.
+    place: Option<usize>,
 }
 
 /// One point of a curve: a slenderness and a body.
@@ -52,7 +54,7 @@ pub type Point = (f64, Measure);
 impl<'a> View<'a> {
     /// The medians of a variant of a study.
     pub fn new(medians: &'a Medians, variant: &'a str) -> Self {
-        Self { medians, variant }
+        Self { medians, variant, place: medians.variant(variant) }
     }
 
     /// Name of the variant.
@@ -62,13 +64,13 @@ impl<'a> View<'a> {
 
     /// All rows of the variant.
     pub fn rows(&self) -> impl Iterator<Item = &'a Median> {
-        let variant = self.variant;
-        self.medians.rows().iter().filter(move |row| row.case.variant == variant)
+        self.place.into_iter().flat_map(|place| self.medians.rows_of(place))
     }
 
     /// Slendernesses of the study, increasing.
     pub fn slendernesses(&self, which: Slender) -> Vec<f64> {
-        self.medians.slendernesses().into_iter().filter(|&slenderness| which.holds(slenderness)).collect()
+        let all = self.medians.slendernesses().iter().copied();
+        all.filter(|&slenderness| which.holds(slenderness)).collect()
     }
 
     /// Both bodies at these slendernesses.
@@ -83,10 +85,9 @@ impl<'a> View<'a> {
         configuration: Configuration,
         parameter: Parameter,
         level: Level,
-        (slenderness, measure): Point,
+        point: Point,
     ) -> Option<&'a Median> {
-        let variant = self.variant.to_owned();
-        self.medians.get(&Case { variant, configuration, parameter, level, slenderness }, measure)
+        self.medians.row(self.place?, (configuration, parameter, level), point)
     }
 
     /// The median of a case.
@@ -102,13 +103,12 @@ impl<'a> View<'a> {
 
     /// Parameters of a configuration, in the order of the plan.
     pub fn parameters(&self, configuration: Configuration) -> Vec<Parameter> {
-        let mut parameters = Vec::new();
-        for row in self.rows().filter(|row| row.case.configuration == configuration) {
-            if !parameters.contains(&row.case.parameter) {
-                parameters.push(row.case.parameter);
-            }
-        }
-        parameters
+        self.of_floor(configuration).collect()
+    }
+
+    fn of_floor(&self, configuration: Configuration) -> impl Iterator<Item = Parameter> {
+        let all = self.place.map_or(&[][..], |place| self.medians.parameters(place));
+        all.iter().filter(move |(floor, _)| *floor == configuration).map(|&(_, parameter)| parameter)
     }
 
     /// Parameters that both configurations have.
@@ -120,18 +120,17 @@ impl<'a> View<'a> {
 
     /// The row of the reference façade, all parameters at their means: every parameter's curve holds it.
     pub fn reference(&self, configuration: Configuration, point: Point) -> Option<&'a Median> {
-        let any = *self.parameters(configuration).first()?;
+        let any = self.of_floor(configuration).next()?;
         self.row(configuration, any, Level::Mean, point)
     }
 
     /// The levels with the smallest and the largest value of a parameter: the source lists the crack heights downwards.
     pub fn smallest_and_largest(&self, configuration: Configuration, parameter: Parameter) -> (Level, Level) {
         let value = |level: Level| {
-            let mut rows = self.rows().map(|row| (&row.case, row.parameter_value));
-            let of_level = |case: &Case| {
-                (case.configuration, case.parameter, case.level) == (configuration, parameter, level)
-            };
-            rows.find(|(case, _)| of_level(case)).and_then(|(_, value)| value)
+            let points =
+                self.medians.slendernesses().iter().map(|&slenderness| (slenderness, Measure::LowerOwn));
+            let mut rows = points.filter_map(|point| self.row(configuration, parameter, level, point));
+            rows.next().and_then(|row| row.parameter_value)
         };
         match (value(Level::Low), value(Level::High)) {
             (Some(low), Some(high)) if high < low => (Level::High, Level::Low),

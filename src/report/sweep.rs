@@ -8,9 +8,9 @@ mod tables;
 use super::page::{Number, Page, Section};
 use super::provenance;
 use crate::aggregate::{Medians, VariantNote};
-use crate::findings::{Held, rules};
+use crate::findings::{Conclusions, Held, rules, sure_rules};
 use crate::study::runs::Manifest;
-use crate::summary::{Conclusions, Sweep};
+use crate::summary::Sweep;
 pub(super) use spectra::section as spectra_section;
 
 /// The page of a sweep.
@@ -50,7 +50,7 @@ fn lead(manifest: &Manifest, records: usize) -> String {
 
 fn numbers(medians: &Medians, conclusions: &[Conclusions]) -> Vec<Number> {
     let total = |of: fn(&VariantNote) -> u64| -> u64 { medians.variants.iter().map(of).sum() };
-    let held = Held::among(conclusions.first().map_or(&[], |base| &base.answers));
+    let held = Held::among(conclusions.first().map_or(&[], |base| &base.all));
     let unfinished = medians.completeness.filter(|study| !study.is_whole());
     let judged_over = unfinished.map_or(String::new(), |study| format!(", judged over {study}"));
     let others = match held.not_asked() {
@@ -80,6 +80,7 @@ fn findings(conclusions: &[Conclusions]) -> Section {
         text: vec![
             "Each conclusion has a criterion that was fixed beforehand; the numbers decide. Nothing is fitted.".into(),
             rules(),
+            sure_rules(),
         ],
         tables,
         ..Section::default()

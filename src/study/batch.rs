@@ -7,10 +7,11 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::ladder::Search;
-use super::pipeline::Limit;
+use super::pipeline::{Limit, Variant};
 use super::plan::{Growth, Plan, Run};
 use indicatif::ProgressBar;
 use mrbd_kernel::model::Wall;
@@ -276,7 +277,7 @@ impl Thread<'_> {
     }
 
     fn run_side_by_side(&self, at_work: &RefCell<BTreeMap<usize, Finished>>) {
-        let mut ready: Option<(Shaking, Simulator)> = None;
+        let mut ready: Option<Ready> = None;
         let mut next = || {
             loop {
                 let index = self.next.fetch_add(1, Ordering::Relaxed);
@@ -305,16 +306,38 @@ impl Thread<'_> {
     }
 }
 
+/// What serves again for the next run, where it is shaken as the one before.
+struct Ready {
+    variant: Arc<Variant>,
+    record_index: usize,
+    factor: f64,
+    shaking: Shaking,
+    simulator: Simulator,
+}
+
+impl Ready {
+    /// Whether a run has the motion of the one before: scaled samples, of a member too, need not be scaled again.
+    fn shakes(&self, run: &Run) -> bool {
+        Arc::ptr_eq(&self.variant, &run.variant)
+            && (self.record_index, self.factor) == (run.record_index, run.factor)
+    }
+}
+
 /// Makes a run ready; the samples of the run before serve again where the shaking is the same.
-fn prepare(run: &crate::study::plan::Run, ready: &mut Option<(Shaking, Simulator)>) -> Option<Prepared> {
-    let (wall, shaking, accuracy) = (run.wall.as_ref().ok()?, run.shaking(), run.accuracy());
+fn prepare(run: &Run, ready: &mut Option<Ready>) -> Option<Prepared> {
+    let (wall, accuracy) = (run.wall.as_ref().ok()?, run.accuracy());
+    let shaking = match ready {
+        Some(ready) if ready.shakes(run) => ready.shaking.clone(),
+        _ => run.shaking(),
+    };
     let simulator = match ready {
-        Some((before, simulator)) if before.shares_samples_with(&shaking) => {
-            simulator.with_wall(wall, accuracy)
+        Some(ready) if ready.shaking.shares_samples_with(&shaking) => {
+            ready.simulator.with_wall(wall, accuracy)
         }
         _ => Simulator::new(wall, &shaking, accuracy),
     };
     let prepared = simulator.prepared();
-    *ready = Some((shaking, simulator));
+    let (variant, record_index, factor) = (Arc::clone(&run.variant), run.record_index, run.factor);
+    *ready = Some(Ready { variant, record_index, factor, shaking, simulator });
     Some(prepared)
 }

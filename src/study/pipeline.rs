@@ -11,6 +11,7 @@ use crate::error::{InputError, Result};
 use crate::survey::sampling::Sampling;
 use crate::survey::{Assumptions, Changes, Configuration};
 use mrbd_files::toml_file;
+use mrbd_kernel::simulate::Change;
 use mrbd_records::Building;
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +22,29 @@ pub struct Variant {
     pub name: String,
     /// What it assumes.
     pub assumptions: Assumptions,
+    /// The run of the ensemble of another variant that its runs are; `None` of a variant by itself.
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    pub member: Option<Member>,
+}
+
+/// The place of a variant in the ensemble of another: the same runs, changed by what nobody can know.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Member {
+    /// Name of the variant whose ensemble it is.
+    pub member_of: String,
+    /// Number in the ensemble, from 1; the variant itself is 0.
+    #[serde(rename = "member")]
+    pub number: usize,
+}
+
+/// Most members beside a variant: a probability of collapse is then known to some percent.
+const MOST_MEMBERS: usize = 100;
+
+impl Variant {
+    /// How its runs differ from those as they are planned.
+    pub fn change(&self) -> Change {
+        Change::of(self.member.as_ref().map_or(0, |member| member.number))
+    }
 }
 
 /// A pipeline file, checked; its paths are resolved against its folder.
@@ -75,6 +99,8 @@ struct VariantTable {
     name: String,
     #[serde(default)]
     set: Changes,
+    #[serde(default)]
+    members: usize,
 }
 
 impl Pipeline {
@@ -104,6 +130,7 @@ impl Pipeline {
             incremental: file.incremental,
         };
         let study = tables.study(path, file.kind, &variants)?;
+        check_members(path, file.kind, &variants)?;
         file.floor.as_ref().map_or(Ok(()), |floor| floor.check(path, "floor"))?;
         Ok(Self {
             path: path.to_path_buf(),
@@ -138,6 +165,7 @@ fn variants(path: &Path, common: Changes, tables: Vec<VariantTable>) -> Result<V
     }
     let mut names = BTreeSet::new();
     let mut variants = Vec::with_capacity(tables.len());
+    let mut ensembles = Vec::new();
     for (index, table) in tables.into_iter().enumerate() {
         let key = format!("variants[{index}]");
         if table.name.is_empty() || !names.insert(table.name.clone()) {
@@ -146,9 +174,36 @@ fn variants(path: &Path, common: Changes, tables: Vec<VariantTable>) -> Result<V
         }
         let assumptions = table.set.onto(&common);
         assumptions.check(path, &format!("{key}.set"))?;
-        variants.push(Variant { name: table.name, assumptions });
+        if table.members > MOST_MEMBERS {
+            let (found, allowed) = (table.members.to_string(), format!("0 to {MOST_MEMBERS}"));
+            return Err(InputError::key(path, format!("{key}.members"), found, allowed).into());
+        }
+        ensembles.extend((1..=table.members).map(|number| member(&table.name, &assumptions, number)));
+        variants.push(Variant { name: table.name, assumptions, member: None });
     }
-    Ok(variants)
+    match ensembles.iter().find(|member| names.contains(&member.name)) {
+        Some(twice) => {
+            let found = format!("{:?}, which is a member of the ensemble of another", twice.name);
+            Err(InputError::key(path, "variants", found, "a name, each once").into())
+        }
+        None => Ok([variants, ensembles].concat()),
+    }
+}
+
+/// Only what a sweep says is judged by ensembles.
+fn check_members(path: &Path, kind: Kind, variants: &[Variant]) -> Result<()> {
+    match variants.iter().find_map(|variant| variant.member.as_ref()) {
+        Some(Member { member_of, .. }) if kind.is_drawn() => {
+            let found = format!("those of {member_of:?} in a study of kind {:?}", kind.name());
+            Err(InputError::key(path, "variants.members", found, "members only in a sweep").into())
+        }
+        _ => Ok(()),
+    }
+}
+
+fn member(of: &str, assumptions: &Assumptions, number: usize) -> Variant {
+    let member = Some(Member { member_of: of.to_owned(), number });
+    Variant { name: format!("{of} ~{number}"), assumptions: assumptions.clone(), member }
 }
 
 /// A parameter of the façade that a sweep takes through its three levels.
@@ -273,6 +328,14 @@ mod tests {
         assert!(refused("length_m = 1.0", "length_m = -1.0").contains("assumptions.length_m: found -1"));
         assert!(refused("length_m = 2.0", "length_m = inf").contains("variants[3].set.length_m: found inf"));
         assert!(refused("name = \"contact\"", "name = \"base\"").contains("variants[1].name"));
+        assert!(
+            refused("members = 10", "members = 101")
+                .contains("variants[0].members: found 101; allowed: 0 to 100")
+        );
+        assert!(
+            refused("name = \"contact\"", "name = \"base ~3\"")
+                .contains("variants: found \"base ~3\", which")
+        );
         let floor = "name = \"sweep\"\nfloor = { height_ratio = 2.0, period_s = 0.3, storeys = 2 }";
         assert!(refused("name = \"sweep\"", floor).contains("floor.height_ratio: found 2"));
         assert!(refused("tail_s = 5.0", "tail = 5.0").contains("tail"));

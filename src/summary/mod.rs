@@ -24,7 +24,7 @@ pub use file::{Note, read_json};
 pub use fragility::{DEFAULT_INTENSITY, LEVEL, LimitFragility};
 pub use samples::{FloorSamples, Samples};
 pub use spectra::{CodeSpectrum, Spectra};
-pub use sweep::{Conclusions, Sweep};
+pub use sweep::Sweep;
 
 use std::path::{Path, PathBuf};
 

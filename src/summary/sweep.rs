@@ -6,19 +6,10 @@ use super::file::first;
 use super::spectra::Spectra;
 use crate::aggregate::{Medians, ReferenceRun, aggregate, reference_runs, write_medians};
 use crate::error::Result;
-use crate::findings::{Answer, FINDINGS, View};
+use crate::findings::{Conclusions, View, conclusions};
 use crate::study::runs::{Manifest, listed_run_files};
 use crate::survey::Configuration;
 use mrbd_records::Site;
-
-/// Answers under the assumptions of a variant.
-#[derive(Debug)]
-pub struct Conclusions {
-    /// Name of the variant.
-    pub variant: String,
-    /// An answer to each of [`FINDINGS`], in their order.
-    pub answers: Vec<Answer>,
-}
 
 /// A sweep as its page shows it.
 #[derive(Debug)]
@@ -82,15 +73,6 @@ fn reference(folder: &Path, view: &View) -> Result<Vec<ReferenceRun>> {
     let first = |c: Configuration| view.parameters(c).first().map(|&parameter| (c, parameter));
     let among: Vec<_> = Configuration::ALL.into_iter().filter_map(first).collect();
     reference_runs(folder, view.variant(), &among)
-}
-
-fn conclusions(medians: &Medians) -> Vec<Conclusions> {
-    let under = |variant: &str| {
-        let view = View::new(medians, variant);
-        let answers = FINDINGS.iter().map(|finding| finding.answer(&view)).collect();
-        Conclusions { variant: variant.to_owned(), answers }
-    };
-    medians.variants.iter().map(|variant| under(&variant.name)).collect()
 }
 
 /// Run files of a study, from its folder.

@@ -5,6 +5,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
+use mrbd::study::runs::SCHEMA_VERSION;
+
 use crate::campaign::contents;
 use crate::drawn_support::{drawn, incremental, monte_carlo, stripes};
 use crate::pipeline_cli::{mrbd, stdout, study};
@@ -36,7 +38,11 @@ fn regress_a_study_of_each_kind_runs_from_pipeline_to_quantiles() {
         let manifest = fs::read_to_string(at.join("out/manifest.json")).expect("a manifest");
         let manifest: serde_json::Value = serde_json::from_str(&manifest).expect("JSON");
         assert_eq!((manifest["kind"].as_str(), manifest["runs"].as_u64()), (Some(kind), Some(runs)));
-        assert_eq!((manifest["seed"].as_u64(), manifest["schema_version"].as_u64()), (Some(3), Some(2)));
+        let version = u64::from(SCHEMA_VERSION);
+        assert_eq!(
+            (manifest["seed"].as_u64(), manifest["schema_version"].as_u64()),
+            (Some(3), Some(version))
+        );
         let cut = &manifest["study"]["truncated_probability"]["parallel"]["crack_height_ratio"];
         // 1 - Φ(ln(0.95/0.62)/β), β = ½ ln(0.73/0.52): 0.005934 by hand.
         assert!((cut.as_f64().expect("a probability") - 0.005934).abs() < 1e-6, "{cut}");
@@ -203,7 +209,8 @@ fn rejects_results_with_columns_of_another_version() {
     stdout(&mrbd(at, &["run", "study.toml", "--out", "out"]));
     let path = at.join("out/manifest.json");
     let text = fs::read_to_string(&path).expect("a manifest");
-    fs::write(&path, text.replace("\"schema_version\": 2", "\"schema_version\": 1")).expect("written");
+    let now = format!("\"schema_version\": {SCHEMA_VERSION}");
+    fs::write(&path, text.replace(&now, "\"schema_version\": 1")).expect("written");
     for command in
         [&["aggregate", "out"][..], &["status", "out"], &["replay", "out", "1"], &["fragility", "out"]]
     {

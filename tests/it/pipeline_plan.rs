@@ -1,13 +1,15 @@
 //! The plan of the sweep: its size, its ids, and the walls its façades become.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
-use mrbd::study::pipeline::Parameter;
+use mrbd::study::pipeline::{Parameter, Pipeline};
 use mrbd::study::plan::{Level, Plan};
 use mrbd::survey::Configuration;
 use mrbd::survey::Facade;
 use mrbd_files::load_wall;
 use mrbd_kernel::model::Restitution;
+use mrbd_kernel::simulate::{simulate, simulate_members};
 
 use crate::pipeline_support::{SMALL, SWEEP, plan, suite, try_plan};
 use crate::shared;
@@ -30,7 +32,42 @@ fn published_sweep_has_189_runs_per_reference_case() {
         assert_eq!(cases.iter().filter(|&&count| count == 189).count(), 6, "{cases:?}");
         assert_eq!(cases.iter().sum::<usize>(), 6 * 189);
     }
-    assert_eq!(plan.len(), 6 * 2268, "six variants");
+    assert_eq!(plan.len(), 16 * 2268, "six variants and ten members of the first one's ensemble");
+}
+
+#[test]
+fn regress_a_member_is_that_of_the_ensemble_of_a_run() {
+    let text = SMALL.replacen("name = \"base\"", "name = \"base\"\nmembers = 4", 1);
+    let plan = plan(&text, 1);
+    let of_variant = |variant: &str| {
+        let mut runs = (0..plan.len()).map(|i| plan.run(i)).filter(|run| run.variant.name == variant);
+        runs.next().expect("a run")
+    };
+    let base = of_variant("base");
+    let (wall, shaking) = (base.wall.clone().expect("a wall"), base.shaking());
+    let ensemble = simulate_members(&wall, &shaking, base.accuracy(), 0..5);
+    for number in 1..=4 {
+        let member = of_variant(&format!("base ~{number}"));
+        assert_eq!(member.wall.as_ref().ok(), Some(&wall));
+        assert_eq!(
+            simulate(&wall, &member.shaking(), member.accuracy()),
+            ensemble[number],
+            "member {number}"
+        );
+        assert_ne!(member.id, base.id);
+    }
+    assert_eq!(plan.len(), 36 + 4 * 18);
+}
+
+#[test]
+fn rejects_ensembles_of_drawn_facades() {
+    let text = include_str!("../../pipelines/monte_carlo.toml");
+    let text = text.replacen("name = \"base\"", "name = \"base\"\nmembers = 2", 1);
+    let refused = Pipeline::parse(Path::new("study.toml"), text).expect_err("members of draws").to_string();
+    assert!(
+        refused.contains("variants.members: found those of \"base\" in a study of kind \"monte_carlo\""),
+        "{refused}"
+    );
 }
 
 #[test]

@@ -20,7 +20,9 @@ pub fn section(view: &View, records: usize) -> Section {
     };
     let hollow = match records {
         1 => "",
-        _ => " A hollow point: some records did, the median one did not.",
+        _ => {
+            " A hollow point: some records did, the median one did not. Bands: where the median lies in nine of ten draws of the records and of the ensembles of the runs; to the end of the axis where it may be a collapse."
+        }
     };
     Section {
         id: "medians".into(),
@@ -156,8 +158,26 @@ impl Frame {
             let points = view.slendernesses(Slender::Any).into_iter().filter_map(point).collect();
             rotations::curve(level.index(), Level::ALL.len(), points)
         };
-        over_slenderness(view, &self.shown, (configuration, body), Level::ALL.map(curve).to_vec())
+        let mut graph =
+            over_slenderness(view, &self.shown, (configuration, body), Level::ALL.map(curve).to_vec());
+        let rows = |level: Level| {
+            let points = view.slendernesses(Slender::Any).into_iter();
+            points
+                .filter_map(move |slenderness| view.row(configuration, parameter, level, (slenderness, body)))
+        };
+        let top = graph.y.ends()[1];
+        graph.layers.splice(0..0, Level::ALL.map(|level| band(level, top, rows(level))));
+        graph
     }
+}
+
+/// Where the medians of a level lie in nine of ten draws; up to the end of the axis where they may be collapses.
+fn band<'a>(level: Level, top: f64, rows: impl Iterator<Item = &'a Median>) -> Layer {
+    let ends = |row: &Median| {
+        let [low, high] = row.interval?.map(|end| rotations::number(&end).unwrap_or(top));
+        Some((row.case.slenderness, low, high))
+    };
+    Layer::Band { colour: of_curve(level.index()).0, points: rows.filter_map(ends).collect() }
 }
 
 /// Curves of a body under a floor, over slenderness.
@@ -185,13 +205,22 @@ fn point(median: &Median, body: Measure) -> Option<CurvePoint> {
         Middle::Collapsed => "the median record collapsed".into(),
     };
     let tip = format!(
-        "{}\nh/b {}: {value}\n{} of {} records collapsed",
+        "{}\nh/b {}: {value}{}\n{} of {} records collapsed",
         words::level(case.parameter, case.level, median.parameter_value),
         case.slenderness,
+        median.interval.map_or_else(String::new, of_draws),
         median.collapsed,
         median.runs - median.failed
     );
     Some(CurvePoint { x: case.slenderness, y: rotations::number(&y), hollow: median.collapsed > 0, tip })
+}
+
+fn of_draws(interval: [Middle; 2]) -> String {
+    let [low, high] = interval.map(|end| match end {
+        Middle::Rotation(rotation) => format!("{rotation:.4}"),
+        Middle::Collapsed => "collapse".to_owned(),
+    });
+    format!("\n{low} to {high} in nine of ten draws")
 }
 
 fn title(configuration: Configuration, body: Measure) -> String {

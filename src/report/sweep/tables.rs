@@ -2,17 +2,17 @@
 
 use super::super::page::{Cell, Table};
 use crate::aggregate::VariantNote;
-use crate::findings::{Answer, FINDINGS, Finding, Verdict};
-use crate::summary::Conclusions;
+use crate::findings::{Conclusion, Conclusions, FINDINGS, Finding, Verdict};
 
-fn verdict(verdict: Verdict) -> Cell {
-    let class = match verdict {
+/// The verdict, with the share of the draws that say so.
+fn verdict(conclusion: &Conclusion) -> Cell {
+    let class = match conclusion.verdict() {
         Verdict::Holds => "holds",
         Verdict::DoesNot => "does-not",
         Verdict::Undecided => "undecided",
         Verdict::NotAsked => "not-asked",
     };
-    Cell { text: verdict.name().to_owned(), class }
+    Cell { text: conclusion.short(), class }
 }
 
 fn heads(heads: &[&str]) -> Vec<String> {
@@ -21,12 +21,12 @@ fn heads(heads: &[&str]) -> Vec<String> {
 
 /// Every conclusion with its criterion, its verdict and the numbers that decide.
 pub fn findings(conclusions: &Conclusions) -> Table {
-    let row = |(index, (finding, answer)): (usize, (&Finding, &Answer))| {
+    let row = |(index, (finding, conclusion)): (usize, (&Finding, &Conclusion))| {
         vec![
             Cell::from(format!("{}. {}", index + 1, finding.name)),
-            verdict(answer.verdict),
+            verdict(conclusion),
             Cell::from(format!("{} ({})", finding.claim, finding.source)),
-            Cell::from(answer.numbers.clone()),
+            Cell::from(conclusion.answer.numbers.clone()),
             Cell::from(finding.criterion.to_owned()),
         ]
     };
@@ -34,7 +34,7 @@ pub fn findings(conclusions: &Conclusions) -> Table {
         prose: true,
         caption: format!("Conclusions under variant “{}”", conclusions.variant),
         head: heads(&["conclusion", "verdict", "the paper says", "found", "holds if"]),
-        rows: FINDINGS.iter().zip(&conclusions.answers).enumerate().map(row).collect(),
+        rows: FINDINGS.iter().zip(&conclusions.all).enumerate().map(row).collect(),
     }
 }
 
@@ -44,7 +44,7 @@ pub fn by_variant(conclusions: &[Conclusions]) -> Table {
     head.extend(conclusions.iter().map(|under| under.variant.clone()));
     let row = |(index, finding): (usize, &Finding)| {
         let mut row = vec![Cell::from(format!("{}. {}", index + 1, finding.name))];
-        row.extend(conclusions.iter().map(|under| verdict(under.answers[index].verdict)));
+        row.extend(conclusions.iter().map(|under| verdict(&under.all[index])));
         row
     };
     Table {

@@ -114,6 +114,14 @@ impl Frame {
         Ok(self.of(self.rows.drop_nulls(Some(names))?))
     }
 
+    /// The rows with a null in this column.
+    ///
+    /// # Errors
+    /// As [`Frame::numbers`].
+    pub fn with_null(&self, name: &str) -> PolarsResult<Self> {
+        Ok(self.of(self.rows.filter(&self.rows.column(name)?.is_null())?))
+    }
+
     /// The rows in increasing order of these columns, none of which is one of texts.
     ///
     /// # Errors

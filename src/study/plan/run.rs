@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::level::Level;
 use crate::study::ladder::Ladder;
-use crate::study::pipeline::{Limit, Parameter, Variant};
+use crate::study::pipeline::{Limit, Member, Parameter, Variant};
 use crate::survey::{Configuration, Facade, ImpossibleFacade};
 use mrbd_kernel::model::{Effect, Restitution, Wall, WallParameters};
 use mrbd_kernel::simulate::{Accuracy, Shaking};
@@ -147,7 +147,7 @@ impl Run {
         let record = self.record();
         let assumptions = &self.variant.assumptions;
         // The samples of a suite are shared by its runs unless they are scaled.
-        let scaled = |motion: &Accelerogram| match self.factor {
+        let scaled = |motion: &Accelerogram| match self.factor * self.variant.change().amplitude {
             1.0 => motion.clone(),
             factor => motion.scaled(factor),
         };
@@ -160,7 +160,7 @@ impl Run {
 
     /// How accurately to run.
     pub fn accuracy(&self) -> Accuracy {
-        Accuracy { tolerance: self.variant.assumptions.tolerance }
+        self.variant.change().accuracy(Accuracy { tolerance: self.variant.assumptions.tolerance })
     }
 
     /// The id: what was asked for, the wall that came out, the samples that shake it and the accuracy.
@@ -190,6 +190,7 @@ impl Run {
             .text("horizontal", &hash.horizontal)
             .text("vertical", vertical.unwrap_or("none"))
             .numbers("time", &[assumptions.tail_s, assumptions.tolerance])
+            .member(self.variant.member.as_ref())
             .id();
         self
     }
@@ -301,6 +302,16 @@ impl Fingerprint {
             .number("collapse", *collapse_rotation_ratio)
             .numbers("initial", initial_rotation_rad)
             .effects(effects)
+    }
+
+    /// Adds the place in an ensemble, of which the factors on motion and tolerance follow; nothing of a run as planned.
+    fn member(self, member: Option<&Member>) -> Self {
+        match member {
+            None => self,
+            Some(Member { member_of, number }) => {
+                self.text("member of", member_of).text("member", &number.to_string())
+            }
+        }
     }
 
     fn effects(self, effects: &[Effect]) -> Self {

@@ -14,7 +14,7 @@ use mrbd_kernel::simulate::Outcome;
 use mrbd_records::SuiteRecord;
 
 /// Version of the columns; it changes whenever one is added, removed or changes its meaning.
-pub const SCHEMA_VERSION: u32 = 2;
+pub const SCHEMA_VERSION: u32 = 3;
 
 /// The wall; none of a drawn façade that is none.
 fn wall(f: &Finished) -> Option<&WallParameters> {
@@ -82,6 +82,8 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::input("run", "", "position in the plan, from 0", Read::Count(|f| Some(f.run.position))),
     Column::<Finished>::input("id", "", "first 16 hexadecimal digits of the SHA-256 of all inputs of the run", text!(|f| &f.run.id)).distinct(),
     Column::input("variant", "", "set of assumptions the study was run under", text!(|f| &f.run.variant.name)),
+    Column::input("member_of", "", "variant of whose ensemble the run is a member: its ground motion is changed by up to a millionth, that of member 3 its tolerance; null for a run as it is planned", Read::Text(|f| f.run.variant.member.as_ref().map(|member| Cow::Borrowed(member.member_of.as_str())))),
+    Column::input("member", "", "number of the member in that ensemble, from 1; null for a run as it is planned", Read::Count(|f| f.run.variant.member.as_ref().map(|member| member.number as u64))),
     Column::input("configuration", "", "how the floor runs: perpendicular (beams rest on the façade) or parallel", text!(|f| f.run.configuration.name())),
     Column::input("parameter", "", "parameter taken through its levels, the others at their means; null for a drawn façade, which has a draw", Read::Text(|f| f.run.parameter().map(|parameter| Cow::Borrowed(parameter.name())))),
     Column::input("level", "", "level of that parameter: mu_minus_sigma, mu, mu_plus_sigma; lower_bound, best_fit, upper_bound", Read::Text(|f| f.run.level().zip(f.run.parameter()).map(|(level, parameter)| Cow::Borrowed(level.name(parameter))))),
@@ -121,7 +123,7 @@ pub const COLUMNS: &[Column<Finished>] = &[
     // How it acts.
     Column::input("vertical", "", "whether the vertical component of the record acts too", Read::Flag(|f| Some(assumed(f).vertical))),
     Column::input("tail_s", "s", "free motion after the record", number!(|f| assumed(f).tail_s)),
-    Column::input("tolerance", "", "error allowed in rotations relative to α_i", number!(|f| assumed(f).tolerance)),
+    Column::input("tolerance", "", "error allowed in rotations relative to α_i", number!(|f| f.run.accuracy().tolerance)),
     // The façade.
     Column::drawn("slenderness", "", "h_tot / b", number!(|f| f.run.facade.slenderness)),
     Column::drawn("crack_height_ratio", "", "h_1 / h_tot", number!(|f| f.run.facade.crack_height_ratio)),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use mrbd::aggregate::{Medians, aggregate};
-use mrbd::findings::{Answer, FINDINGS, View, rules};
+use mrbd::findings::{Conclusion, FINDINGS, conclusions, rules, sure_rules};
 
 use super::block::{Page, grouped, row};
 use super::studies::Study;
@@ -21,7 +21,9 @@ pub fn blocks(page: &mut Page) {
     });
     let table = table(&generated, measured.as_ref(), &cells_of(page.block("conclusions")));
     page.put_lines("conclusions", &table);
-    page.put_prose("rules", &format!("({} *k* of *n*: so many of the noticeable comparisons agree; two such numbers: under the perpendicular and the parallel floor, or as the conclusion has two parts.)", rules()));
+    page.put_prose("rules", &format!("({} *k* of *n*: so many of the noticeable comparisons agree; two such numbers: under the perpendicular and the parallel floor, or as the conclusion has two parts. {})", rules(), sure_rules()));
+    let planned = generated.variants.iter().map(|variant| variant.runs).sum();
+    page.put("planned runs of the sweep", &grouped(planned));
     page.put("emilia7 collapsed", &collapsed(&generated));
     match measured {
         Some(measured) => page.put("natural7 collapsed", &collapsed(&measured)),
@@ -31,23 +33,22 @@ pub fn blocks(page: &mut Page) {
 
 fn table(generated: &Medians, measured: Option<&Medians>, before: &BTreeMap<String, String>) -> String {
     let mut table = row(&HEAD) + &row(&["---"; 3]);
+    let (generated, measured) = (under_base(generated), measured.map(under_base));
     for (i, finding) in FINDINGS.iter().enumerate() {
         let kept = || before.get(finding.label).cloned().unwrap_or_default();
-        let measured = measured.map_or_else(kept, |medians| cell(&answers(medians)[i]));
-        table += &row(&[finding.label.to_owned(), cell(&answers(generated)[i]), measured]);
+        let measured = measured.as_ref().map_or_else(kept, |all| cell(&all[i]));
+        table += &row(&[finding.label.to_owned(), cell(&generated[i]), measured]);
     }
     table
 }
 
-/// The answers under the first variant.
-fn answers(medians: &Medians) -> Vec<Answer> {
-    let base = &medians.variants.first().expect("a variant").name;
-    let view = View::new(medians, base);
-    FINDINGS.iter().map(|finding| finding.answer(&view)).collect()
+/// The conclusions under the first variant.
+fn under_base(medians: &Medians) -> Vec<Conclusion> {
+    conclusions(medians).swap_remove(0).all
 }
 
-fn cell(answer: &Answer) -> String {
-    format!("{}: {}", answer.verdict.name(), answer.short)
+fn cell(conclusion: &Conclusion) -> String {
+    format!("{}: {}", conclusion.short(), conclusion.answer.short)
 }
 
 /// The last cell of each row of a table, by its first.

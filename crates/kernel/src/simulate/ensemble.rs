@@ -25,17 +25,17 @@ const MOST_DIGITS: i32 = 6;
 
 /// How a member differs from the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Change {
+pub struct Change {
     /// Factor on the ground motion and on the rotations of a release.
-    amplitude: f64,
+    pub amplitude: f64,
     /// Factor on the tolerance.
-    tolerance: f64,
+    pub tolerance: f64,
 }
 
 impl Change {
     /// Of a member by its number. 0 is the run, 1 and 2 shake by a millionth less and more, 3 is more accurate.
     /// Those after it shake by δ/2, δ/3, … less and more, no two alike.
-    fn of(member: usize) -> Self {
+    pub fn of(member: usize) -> Self {
         let sign = if member.is_multiple_of(2) { 1.0 } else { -1.0 };
         let amplitude = match member {
             0 | 3 => 0.0,
@@ -45,8 +45,12 @@ impl Change {
         Self { amplitude: 1.0 + amplitude, tolerance: if member == 3 { TIGHTER } else { 1.0 } }
     }
 
+    /// The accuracy of the member, where the run has this one; never below what can be asked for.
+    pub fn accuracy(self, run: Accuracy) -> Accuracy {
+        Accuracy { tolerance: (self.tolerance * run.tolerance).max(*Accuracy::TOLERANCES.start()) }
+    }
+
     fn prepared(self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Prepared {
-        let tolerance = (self.tolerance * accuracy.tolerance).max(*Accuracy::TOLERANCES.start());
         let scaled = |motion: &Option<_>| {
             motion.as_ref().map(|a: &crate::accelerogram::Accelerogram| a.scaled(self.amplitude))
         };
@@ -55,7 +59,7 @@ impl Change {
             vertical: scaled(&shaking.vertical),
             tail_s: shaking.tail_s,
         };
-        let simulator = Simulator::new(wall, &shaking, Accuracy { tolerance });
+        let simulator = Simulator::new(wall, &shaking, self.accuracy(accuracy));
         let State { theta, omega } = simulator.release().state;
         let state = State { theta: theta.map(|theta_i| theta_i * self.amplitude), omega };
         simulator.prepared_from(&Start { state, ..Start::default() }, simulator.end_s(), ())

@@ -14,7 +14,9 @@ mod simulator;
 mod totals;
 
 pub use beyond_model::{BeyondModel, beyond_model, floor_period_s};
-pub use ensemble::{Ensemble, MEMBERS, MEMBERS_IN_CHAOS, Verdict, simulate_ensemble, simulate_members};
+pub use ensemble::{
+    Change, Ensemble, MEMBERS, MEMBERS_IN_CHAOS, Verdict, simulate_ensemble, simulate_members,
+};
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
 pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
