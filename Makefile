@@ -12,7 +12,7 @@ include make/peers.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep monte-carlo fragility measured assess-table check readme test stranger test-browser bench blind lint docs clean
+.PHONY: help sweep suites measures monte-carlo fragility measured assess-table check readme test stranger test-browser bench blind lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -37,6 +37,24 @@ measured: ## joints that give fitted to a wall that was measured, judged on a re
 assess-table: ## the survey's façades by the code's check and by their own dynamics: table and picture
 	cargo run --release --locked --bin mrbd -- assess-survey inputs/survey.toml --coefficients inputs/coefficients.toml \
 		--site inputs/site_mirandola.toml --records $(SUITE) --out outputs/assess_table --force > outputs/assess_table.csv
+
+# A suite of measured records beside those of `make suites`.
+MEASURED ?=
+SUITES := outputs/suites
+SWEEP_OF = cargo run --release --locked --quiet --bin mrbd -- run pipelines/sweep.toml --force --out $(SUITES)
+
+suites: ## the paper's study under shipped, measured (MEASURED=SUITE) and FEMA P-695 records side by side
+	$(SWEEP_OF)/emilia7 --suite inputs/records/emilia7/suite.toml > /dev/null
+	$(if $(MEASURED),$(SWEEP_OF)/measured --suite $(MEASURED) > /dev/null,@echo "no MEASURED=SUITE given: shipped and FEMA P-695 records alone")
+	@if $(MAKE) --no-print-directory $(P695_SCALED); then $(SWEEP_OF)/p695 --suite $(P695_SCALED) > /dev/null; else \
+		rm -rf $(SUITES)/p695; echo "SKIPPED: the package registry does not answer, no records of FEMA P-695"; fi
+	cargo run --release --locked --quiet --bin mrbd -- suites $(SUITES)/emilia7 $(if $(MEASURED),$(SUITES)/measured) \
+		$$(test -d $(SUITES)/p695 && echo $(SUITES)/p695) --out $(SUITES)/page --force
+
+measures: ## which intensity measure foretells the response: drawn façades under the 44 components of FEMA P-695
+	@$(MAKE) --no-print-directory $(P695_SCALED)
+	cargo run --release --locked --bin mrbd -- run pipelines/cloud.toml --suite $(P695_SCALED) --out outputs/cloud_p695 --force > /dev/null
+	cargo run --release --locked --quiet --bin mrbd -- measures outputs/cloud_p695 --out outputs/measures --force
 
 check: ## run a smaller sweep and compare its medians with the accepted ones
 	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null

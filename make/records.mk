@@ -3,12 +3,20 @@
 P695_DIR := inputs/records/p695
 P695_VENV := target/p695-venv
 
+# All 44 scaled one by one to the code spectrum of the survey's site.
+P695_SCALED := $(P695_DIR)/scaled/suite.toml
+
 .PHONY: records-p695
 
 records-p695: $(P695_DIR)/suite.toml ## fetch the 44 components of FEMA P-695 into inputs/records/p695
 
 $(P695_DIR)/suite.toml: make/p695.py $(P695_VENV)/installed
 	$(P695_VENV)/bin/python make/p695.py $(P695_DIR)
+
+$(P695_SCALED): $(P695_DIR)/suite.toml inputs/site_mirandola.toml
+	rm -rf $(@D)
+	cargo run --quiet --release --locked --bin mrbd -- records select $(P695_DIR)/suite.toml --site inputs/site_mirandola.toml \
+		--count 44 --candidates 44 --most-of-event 44 --scale-from 0.05 --scale-to 20 --below -0.5 --above 0.5 --best 1 --name p695 --out $@
 
 $(P695_VENV)/installed:
 	python3 -m venv $(P695_VENV)

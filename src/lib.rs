@@ -30,6 +30,8 @@
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
 //! | [`check`] | medians and accepted medians, runs and the same runs again | what moved, and what is ill-conditioned |
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
+//! | [`suites`] | sweeps | conclusions under several suites, and how many records decide them |
+//! | [`measures`] | drawn façades | which intensity measure foretells their response |
 //! | [`margin`] | a wall, a suite | the factor on each record that overturns it, and its fragility |
 //! | [`classics`] | a wall, and what others published | their studies again: the models of Fig. 9, overturning spectra |
 //! | [`assessment`] | a wall, a site, a suite | the code's check and the dynamics, as a folder keeps them |
@@ -65,6 +67,7 @@ pub mod error;
 pub mod findings;
 pub mod fragility;
 pub mod margin;
+pub mod measures;
 pub mod portfolio;
 pub mod push;
 pub mod report;
@@ -73,6 +76,7 @@ pub mod risk;
 pub mod starter;
 pub mod store;
 pub mod study;
+pub mod suites;
 pub mod summary;
 pub mod survey;
 pub mod text;

@@ -17,6 +17,7 @@ mod examples;
 mod fragility;
 mod init;
 mod margin;
+mod measures;
 mod merge;
 mod output;
 mod progress;
@@ -31,6 +32,7 @@ mod simulate;
 mod slurm;
 mod status;
 mod stop;
+mod suites;
 mod table_args;
 mod threads;
 
@@ -79,6 +81,8 @@ enum Command {
     Records(records::RecordsArgs),
     #[command(after_help = examples::REPORT)]
     Report(report::ReportCommand),
+    Suites(suites::SuitesCommand),
+    Measures(measures::MeasuresCommand),
     Margin(margin::MarginCommand),
     Push(push::PushCommand),
     Assess(assess::AssessCommand),
@@ -121,6 +125,8 @@ impl Cli {
             Command::Effects(command) => command.execute(),
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
+            Command::Measures(command) => command.execute(),
+            Command::Suites(command) => command.execute(),
             Command::Margin(command) => command.execute(),
             Command::Push(command) => command.execute(),
             Command::Assess(command) => command.execute(),

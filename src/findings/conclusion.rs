@@ -8,7 +8,7 @@ use super::{FINDINGS, Finding};
 use crate::aggregate::{DRAWS, Draws, FEWEST_RECORDS, Medians};
 
 /// Share of the draws that must agree before a conclusion is one: the level of the intervals of the medians.
-const SURE: f64 = 0.9;
+pub const SURE: f64 = 0.9;
 
 /// What the draws say of a claim.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +24,9 @@ pub struct Sureness {
 }
 
 impl Sureness {
+    /// Of what the study does not vary.
+    pub const NONE: Self = Self { holds: 0.0, does_not: 0.0, records: 0, members: 0 };
+
     /// What that adds up to.
     pub fn verdict(&self) -> Verdict {
         match () {

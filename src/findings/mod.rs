@@ -20,7 +20,7 @@ mod vote;
 
 use needs::Needs;
 
-pub use conclusion::{Conclusion, Conclusions, Sureness, conclusions, sure_rules, sureness};
+pub use conclusion::{Conclusion, Conclusions, SURE, Sureness, conclusions, sure_rules, sureness};
 pub use distributions::report_distributions;
 pub use report::{report, write_findings};
 pub use verdict::{Answer, Verdict};

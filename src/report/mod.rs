@@ -17,6 +17,8 @@
 //! | `portfolio` | a survey's façades: ζ static beside ζ dynamic |
 //! | `push` | force against displacement of a slow push |
 //! | `overturning` | which pulses overturn a wall |
+//! | `suites` | sweeps under several suites: conclusions, how many records decide them, quartiles |
+//! | `measures` | which intensity measure foretells the response |
 //! | `margin` | the factor on each record that takes a wall beyond a limit |
 //!
 //! To make another page: say in `summary` what a folder of its kind holds, and fill a `Page` with sections here.
@@ -38,6 +40,7 @@ mod diagnosis;
 mod drawn;
 mod history;
 mod margin;
+mod measures;
 mod overturning;
 mod page;
 mod portfolio;
@@ -45,6 +48,7 @@ mod provenance;
 mod push;
 mod rotations;
 mod run;
+mod suites;
 mod sweep;
 mod wall;
 mod words;
@@ -68,6 +72,8 @@ pub fn html(summary: &Summary) -> Result<String> {
         Summary::Calibration(calibrated) => Ok(calibration::page(calibrated)),
         Summary::Diagnosis(folder) => diagnosis::page(folder),
         Summary::Comparison(folder) => comparison::page(folder),
+        Summary::Suites(folder) => suites::page(folder),
+        Summary::Measures(folder) => measures::page(folder),
         Summary::Margin(folder) => margin::page(folder),
         Summary::Push(folder) => push::page(folder),
         Summary::Portfolio(folder) => portfolio::page(folder),

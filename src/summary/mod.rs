@@ -50,6 +50,10 @@ pub enum Summary {
     Comparison(PathBuf),
     /// The folder of an overturning spectrum, drawn as it is stored.
     Overturning(PathBuf),
+    /// The folder of sweeps under several suites, drawn as it is stored.
+    Suites(PathBuf),
+    /// The folder of intensity measures, drawn as it is stored.
+    Measures(PathBuf),
     /// The folder of a wall's margin, drawn as it is stored.
     Margin(PathBuf),
     /// The folder of an assessment, drawn as it is stored.
@@ -123,6 +127,8 @@ fn of_folder(folder: &Path, manifest: &Path, site: Option<&Site>) -> Result<Summ
     match kind.as_deref() {
         Some(results::calibration::KIND) => Ok(Summary::Calibration(Box::new(Calibrated::read(folder)?))),
         Some(results::diagnosis::KIND) => Ok(Summary::Diagnosis(folder.to_path_buf())),
+        Some(crate::suites::KIND) => Ok(Summary::Suites(folder.to_path_buf())),
+        Some(crate::measures::KIND) => Ok(Summary::Measures(folder.to_path_buf())),
         Some(crate::margin::KIND) => Ok(Summary::Margin(folder.to_path_buf())),
         Some(crate::assessment::KIND) => Ok(Summary::Assessment(folder.to_path_buf())),
         Some(crate::portfolio::KIND) => Ok(Summary::Portfolio(folder.to_path_buf())),

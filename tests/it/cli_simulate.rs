@@ -90,6 +90,9 @@ fn analytic_parquet_history_has_the_rows_of_the_csv() {
     let reader =
         parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder::try_new(file).expect("Parquet");
     let rows = reader.metadata().file_metadata().num_rows();
+    let units: Vec<&str> = reader.schema().fields().iter().map(|field| &*field.metadata()["unit"]).collect();
+    assert_eq!(units, ["s", "rad", "rad", ""]);
+    assert!(reader.schema().fields().iter().all(|field| !field.metadata()["description"].is_empty()));
     assert_eq!(rows as usize, csv::Reader::from_path(&csv).expect("the history").records().count());
 }
 

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of `src/` in the flow of data, and the rooms that each may use.
-const ALLOWED: [(&str, &[&str]); 19] = [
+const ALLOWED: [(&str, &[&str]); 21] = [
     ("error", &[]),
     ("text", &[]),
     ("store", &["error"]),
@@ -15,6 +15,8 @@ const ALLOWED: [(&str, &[&str]); 19] = [
     ("study", &["error", "text", "store", "survey"]),
     ("aggregate", &["error", "store", "survey", "study"]),
     ("findings", &["error", "text", "store", "survey", "study", "aggregate"]),
+    ("suites", &["error", "text", "store", "survey", "study", "aggregate", "findings"]),
+    ("measures", &["error", "store", "survey", "study", "aggregate"]),
     ("check", &["error", "store", "survey", "study", "aggregate"]),
     ("fragility", &["error", "text", "store", "study"]),
     ("margin", &["error", "store", "study", "fragility"]),
@@ -34,6 +36,8 @@ const ALLOWED: [(&str, &[&str]); 19] = [
             "study",
             "aggregate",
             "findings",
+            "suites",
+            "measures",
             "fragility",
             "margin",
             "classics",
@@ -53,6 +57,8 @@ const ALLOWED: [(&str, &[&str]); 19] = [
             "study",
             "aggregate",
             "findings",
+            "suites",
+            "measures",
             "fragility",
             "margin",
             "classics",

@@ -47,6 +47,9 @@ pub struct SelectArgs {
     /// Suites to list.
     #[arg(long, value_name = "N", default_value_t = 5)]
     best: usize,
+    /// Name of the suite that is written.
+    #[arg(long, value_name = "NAME", default_value = "selected")]
+    name: String,
     /// Suite file to write; an existing one is not touched.
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -82,7 +85,7 @@ pub(super) fn execute(args: &SelectArgs) -> Result<()> {
     if let Some(out) = &args.out {
         let note =
             format!("mrbd records select: rms deviation {:.4} from the code spectrum", best.deviation_rms);
-        written("--out", source.write_selection(best, "selected", &note, out))?;
+        written("--out", source.write_selection(best, &args.name, &note, out))?;
     }
     Ok(())
 }
@@ -93,7 +96,8 @@ fn criteria(args: &SelectArgs) -> Result<Criteria, InputError> {
         let found = format!("{} to {}", args.scale_from, args.scale_to);
         return Err(InputError::option("--scale-from and --scale-to", found, "0 < from <= to <= 100"));
     }
-    for (option, value, most) in [("--count", args.count, 30), ("--most-of-event", args.most_of_event, 1000)]
+    for (option, value, most) in
+        [("--count", args.count, 1000), ("--most-of-event", args.most_of_event, 1000)]
     {
         if !(1..=most).contains(&value) {
             return Err(InputError::option(option, value.to_string(), format!("1 to {most}")));
