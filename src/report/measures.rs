@@ -30,7 +30,7 @@ pub fn page(folder: &Path) -> Result<Page> {
         title: format!("Intensity measures for “{}” under “{}”", measures.study, measures.suite),
         lead: "Which measure of a ground motion foretells how far these façades rotate, and what it leaves to others.".into(),
         numbers: measures.floors.iter().filter_map(number).collect(),
-        notes: note.generated_note().into_iter().chain(measures.floors.iter().filter_map(best)).collect(),
+        notes: notes(&note, &measures),
         sections: vec![Section {
             id: "efficiency".into(),
             title: "Efficiency and sufficiency".into(),
@@ -53,6 +53,23 @@ fn number(floor: &OfFloor) -> Option<Number> {
         floor.configuration.name()
     );
     Some(Number::new(format!("{:.2}", best.efficiency), meaning))
+}
+
+fn notes(note: &Note, measures: &Measures) -> Vec<String> {
+    let told = measures.floors.iter().flat_map(|floor| [best(floor), of_falls(floor)]);
+    note.generated_note().into_iter().chain(told.flatten()).collect()
+}
+
+/// Which measure tells walls that fall from those that stand.
+fn of_falls(floor: &OfFloor) -> Option<String> {
+    let told = floor.measures.iter().filter_map(|of| Some((of.concordance?, of)));
+    let (concordance, of) = told.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(format!(
+        "Falls are told best by {}: right in {:.0} % of the pairs, {} floor.",
+        words::intensity(&of.measure),
+        (100.0 * concordance).floor(),
+        floor.configuration.name()
+    ))
 }
 
 /// Which measure is the best, or among which nobody can tell.

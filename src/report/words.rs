@@ -57,6 +57,7 @@ pub fn intensity(column: &str) -> String {
         "sa_0p5s_m_s2" => "Sa(0.5 s) m/s²",
         "sa_1p0s_m_s2" => "Sa(1.0 s) m/s²",
         "sa_average_m_s2" => "average Sa m/s²",
+        "duration_5_95_s" => "duration 5–95 % s",
         other => other,
     };
     name.to_owned()
