@@ -12,7 +12,7 @@ use crate::assessment::{
 use crate::error::{Error, InputError, Result};
 use crate::store::{WholeFolder, write_durably};
 use crate::text::aligned;
-use mrbd_assessment::{Agreement, Assessment, NoMechanism, Shaken, SiteFile, motions};
+use mrbd_assessment::{Agreement, Assessment, NoMechanism, Shaken, SiteFile, SiteRecords, motions};
 use mrbd_files::{FileNote, load_wall};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::Wall;
@@ -115,7 +115,7 @@ impl AssessCommand {
             time_s: e.time_s,
             reason: format!("{}, under {}", e.reason, e.record),
         })?;
-        Ok(assessment.with_dynamic(dynamic))
+        Ok(assessment.with_site_records(motions).with_dynamic(dynamic))
     }
 
     fn write(
@@ -202,6 +202,15 @@ fn text(assessed: &Assessed) -> String {
         let dynamic = |of: fn(&mrbd_assessment::Dynamic) -> String, a: &Assessment| {
             a.dynamic.as_ref().map_or_else(String::new, of)
         };
+        let asked = |of: fn(&SiteRecords) -> String, a: &Assessment| {
+            a.site_records.as_ref().map_or_else(String::new, of)
+        };
+        let mut by_spectra = |name: &str, of: fn(&SiteRecords) -> String| {
+            let values = columns.iter().map(|(_, a)| asked(of, a));
+            rows.push(std::iter::once(name.to_owned()).chain(values).collect());
+        };
+        by_spectra("largest S_D of the records, mean, m", |asked| format!("{:.4}", asked.demand_slv_m));
+        by_spectra("d_SLV over that", |asked| asked.zeta.map_or("-".to_owned(), |zeta| format!("{zeta:.3}")));
         let mut add = |name: &str, of: fn(&mrbd_assessment::Dynamic) -> String| {
             let values = columns.iter().map(|(_, a)| dynamic(of, a));
             rows.push(std::iter::once(name.to_owned()).chain(values).collect());

@@ -7,7 +7,7 @@ use clap::Args;
 use super::threads::Threads;
 use super::{output, progress};
 use crate::error::{Error, InputError, Result};
-use crate::portfolio::{COLUMNS, FILES, KIND, Portfolio, Question, shares};
+use crate::portfolio::{COLUMNS, FILES, KIND, Portfolio, Question, by_factor, shares};
 use crate::store::{WholeFolder, print_csv, write_durably, write_table};
 use crate::survey::Survey;
 use mrbd_assessment::{SiteFile, motions};
@@ -83,6 +83,7 @@ impl AssessSurveyCommand {
             generated: suite.generated,
             confidence_factor: site.assessment.confidence_factor,
             shares: shares(&rows),
+            by_factor: by_factor(&rows),
             rows,
         };
         if let Some(folder) = folder {

@@ -73,6 +73,21 @@ pub struct Shares {
     pub median_ratio: Option<f64>,
 }
 
+/// Shares of the façades of a configuration that are refused where a_g and all records are times a factor.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ByFactor {
+    /// How the floor runs.
+    pub configuration: Configuration,
+    /// The factor.
+    pub factor: f64,
+    /// Both refuse.
+    pub both_refuse: f64,
+    /// The code refuses walls that stand.
+    pub static_refuses: f64,
+    /// The code accepts walls that fall, or go too far.
+    pub dynamic_refuses: f64,
+}
+
 /// All façades.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Portfolio {
@@ -86,6 +101,8 @@ pub struct Portfolio {
     pub confidence_factor: f64,
     /// One a configuration.
     pub shares: Vec<Shares>,
+    /// The same where site and records are stronger or weaker by a factor.
+    pub by_factor: Vec<ByFactor>,
     /// One a façade.
     pub rows: Vec<Row>,
 }
@@ -223,6 +240,34 @@ pub fn shares(rows: &[Row]) -> Vec<Shares> {
     Configuration::ALL.map(of).to_vec()
 }
 
+/// Factors at which shares are told: 3.5 % apart, from half to eight times the site's a_g.
+const FACTORS: u32 = 80;
+
+/// Shares of a configuration's façades by the factor on site and records: a check refuses where its ζ is below the factor.
+pub fn by_factor(rows: &[Row]) -> Vec<ByFactor> {
+    // Without a ζ a check accepts whatever was asked.
+    let refuses = |zeta: Option<f64>, factor: f64| zeta.is_some_and(|zeta| zeta < factor);
+    let at = |configuration: Configuration, step: u32| {
+        let factor = 0.5 * 16f64.powf(f64::from(step) / f64::from(FACTORS));
+        let own: Vec<&Row> = rows.iter().filter(|row| row.configuration == configuration).collect();
+        let share = |by_code: bool, by_dynamics: bool| {
+            let alike = |row: &&&Row| {
+                (refuses(row.zeta_static, factor), refuses(row.zeta_dynamic, factor))
+                    == (by_code, by_dynamics)
+            };
+            own.iter().filter(alike).count() as f64 / own.len().max(1) as f64
+        };
+        ByFactor {
+            configuration,
+            factor,
+            both_refuse: share(true, true),
+            static_refuses: share(true, false),
+            dynamic_refuses: share(false, true),
+        }
+    };
+    Configuration::ALL.into_iter().flat_map(|floor| (0..=FACTORS).map(move |step| at(floor, step))).collect()
+}
+
 /// Name of an agreement in tables.
 pub fn agreement_name(agreement: Agreement) -> &'static str {
     match agreement {
@@ -285,5 +330,44 @@ mod tests {
         assert!((seven[0] - 0.5 * 2f64.powf(normal::quantile(1.0 / 14.0))).abs() < 1e-15);
         // Their product is the median to the power of their number: the distribution is even in the logarithm.
         assert!((seven.iter().map(|x| x.ln()).sum::<f64>() - 7.0 * 0.5_f64.ln()).abs() < 1e-13);
+    }
+
+    fn row(configuration: Configuration, zeta_static: Option<f64>, zeta_dynamic: Option<f64>) -> Row {
+        Row {
+            configuration,
+            thickness_m: 0.5,
+            slenderness: 12.0,
+            mechanism: "restrained".into(),
+            alpha_0: 0.2,
+            d_0_m: 0.3,
+            zeta_static,
+            zeta_linear: None,
+            zeta_dynamic,
+            always_accepted: zeta_dynamic.is_none(),
+            agreement: Agreement::BothAccept,
+        }
+    }
+
+    #[test]
+    fn analytic_a_check_refuses_where_its_zeta_is_below_the_factor() {
+        let parallel = Configuration::Parallel;
+        let rows = [
+            row(parallel, Some(1.0), Some(2.0)),
+            row(parallel, Some(4.0), Some(2.0)),
+            row(parallel, None, None),
+            row(Configuration::Perpendicular, Some(0.1), Some(0.1)),
+        ];
+        let all = by_factor(&rows);
+        let near = |factor: f64| {
+            let own = all.iter().filter(|at| at.configuration == parallel);
+            let at = own.min_by(|a, b| (a.factor - factor).abs().total_cmp(&(b.factor - factor).abs()));
+            let ByFactor { both_refuse, static_refuses, dynamic_refuses, .. } = *at.expect("factors");
+            [both_refuse, static_refuses, dynamic_refuses].map(|share| (3.0 * share).round())
+        };
+        assert_eq!(near(0.6), [0.0, 0.0, 0.0]);
+        assert_eq!(near(1.5), [0.0, 1.0, 0.0]);
+        assert_eq!(near(3.0), [1.0, 0.0, 1.0]);
+        assert_eq!(near(7.0), [2.0, 0.0, 0.0], "what has no zeta is accepted at every factor");
+        assert_eq!((all[0].factor, all.last().map(|at| at.factor.round())), (0.5, Some(8.0)));
     }
 }

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::chart::{Axis, COLLAPSE, Dot, Format, Graph, INK, Layer, Mark, PALETTE};
+use super::chart::{Axis, COLLAPSE, Colour, Dot, Format, Graph, INK, Layer, Mark, PALETTE};
 use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{Note, read_json};
 use super::words::floor;
 use crate::error::Result;
-use crate::portfolio::{LADDER, Portfolio, Row, agreement_name};
+use crate::portfolio::{ByFactor, LADDER, Portfolio, Row, agreement_name};
 use crate::survey::Configuration;
 use mrbd_assessment::Agreement;
 
@@ -32,7 +32,7 @@ pub fn page(folder: &Path) -> Result<Page> {
         sections: vec![Section {
             id: "facades".into(),
             title: "Static and dynamic".into(),
-            figures: vec![against(&all), along(&all)],
+            figures: vec![against(&all), along(&all), by_factor(&all)],
             tables: vec![shares(&all)],
             ..Section::default()
         }],
@@ -111,6 +111,46 @@ fn against_graph(all: &Portfolio, configuration: Configuration) -> Graph {
             layer(Agreement::StaticRefuses, PALETTE[0], Mark::Square),
             layer(Agreement::DynamicRefuses, COLLAPSE, Mark::Triangle),
         ],
+    }
+}
+
+/// Name, colour and value of a curve of shares.
+type ShareCurve = (&'static str, Colour, fn(&ByFactor) -> f64);
+
+/// Shares refused by one check alone, by the factor on site and records.
+fn by_factor(all: &Portfolio) -> Figure {
+    let curves: [ShareCurve; 3] = [
+        ("both refuse", PALETTE[6], |at| at.both_refuse),
+        ("the code refuses what stands", PALETTE[0], |at| at.static_refuses),
+        ("the code accepts what falls", COLLAPSE, |at| at.dynamic_refuses),
+    ];
+    let panel = |configuration: Configuration| {
+        let own = all.by_factor.iter().filter(|at| at.configuration == configuration);
+        let own: Vec<&ByFactor> = own.collect();
+        let layer = |(name, colour, share): ShareCurve| Layer::Line {
+            colour,
+            width: 3,
+            dashed: false,
+            name: name.to_owned(),
+            points: own.iter().map(|at| (at.factor, share(at))).collect(),
+        };
+        Graph {
+            title: floor(configuration).to_owned(),
+            format: Format::Half,
+            x: Axis::log_holding("factor on a_g and on all records", own.iter().map(|at| at.factor)),
+            y: Axis::linear("share of the façades", 0.0, 1.0),
+            layers: curves.into_iter().map(layer).collect(),
+        }
+        .svg()
+    };
+    Figure {
+        id: "by-factor".into(),
+        title: "Where the two checks part, at stronger and weaker sites".into(),
+        legend: curves.iter().map(|(name, colour, _)| Key::new(*name, *colour, Mark::None)).collect(),
+        panels: Configuration::ALL.map(panel).to_vec(),
+        caption: "A check refuses a façade where its ζ is below the factor.".into(),
+        links: vec![Link::to("portfolio.json")],
+        ..Figure::default()
     }
 }
 

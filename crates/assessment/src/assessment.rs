@@ -6,6 +6,8 @@ use crate::capacity::{Capacity, Governing, NoMechanism, least_crack, mechanisms}
 use crate::check::StaticCheck;
 use crate::dynamic::Dynamic;
 use crate::site_file::SiteFile;
+use crate::site_records::SiteRecords;
+use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::Wall;
 use mrbd_statics::{Edges, LeastCrack, Mechanism};
 
@@ -89,6 +91,8 @@ pub struct Assessment {
     pub at_ground: Option<StaticCheck>,
     /// The dynamics, where records were given.
     pub dynamic: Option<Dynamic>,
+    /// What the records' own spectra ask, where records were given.
+    pub site_records: Option<SiteRecords>,
     /// Both together, where there are dynamics.
     pub agreement: Option<Agreement>,
     /// Every mechanism that the wall has.
@@ -127,6 +131,7 @@ impl Assessment {
             check: StaticCheck::of(wall, &capacity, site, false),
             at_ground: site.floor().map(|_| StaticCheck::of(wall, &capacity, site, true)),
             dynamic: None,
+            site_records: None,
             agreement: None,
             mechanisms: mechanisms.collect(),
             least_crack: least_crack(wall),
@@ -134,6 +139,13 @@ impl Assessment {
             edges,
             site: site.clone(),
         })
+    }
+
+    /// With what the motions where the wall stands ask of it by their own spectra.
+    #[must_use]
+    pub fn with_site_records(self, motions: &[(String, Accelerogram)]) -> Self {
+        let site_records = Some(SiteRecords::of(&self.check, motions));
+        Self { site_records, ..self }
     }
 
     /// With the dynamics beside the code's check.

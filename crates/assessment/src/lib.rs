@@ -9,6 +9,7 @@
 //! | [`Capacity`] | a wall | mechanism, α_0, e*, α(d), d_0 |
 //! | [`Place`] | site and floor | what the code asks, and the a_g at which it asks what the wall has |
 //! | [`StaticCheck`] | capacity and place | a_0, T_SLV, a_g,SLV, ζ; the linear check; the line of 2009 |
+//! | [`SiteRecords`] | records of the site | what their own spectra ask of the wall |
 //! | [`Shaken`], [`Dynamic`] | the wall under records | how many go beyond d_0, the mean of the largest displacements |
 //! | [`Assessment`] | all of them | both side by side |
 //! | [`Hazard`], [`annual_rate`] | fragility and hazard curve | annual rates of limit states |
@@ -26,6 +27,7 @@ mod demand;
 mod dynamic;
 mod hazard;
 mod site_file;
+mod site_records;
 
 pub use assessment::{Agreement, Assessment, EdgeName, EdgeRow, MechanismRow};
 pub use capacity::{
@@ -36,3 +38,4 @@ pub use demand::Place;
 pub use dynamic::{Dynamic, RecordRun, Shaken, TAIL_S, Unfinished, motions};
 pub use hazard::{Hazard, HazardPoint, NoHazard, Rate, Uncertainty, annual_rate, rate_quantiles};
 pub use site_file::{Assumed, SiteFile};
+pub use site_records::SiteRecords;

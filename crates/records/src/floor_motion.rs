@@ -103,6 +103,44 @@ mod tests {
     }
 
     #[test]
+    fn analytic_the_vertical_component_comes_to_the_floor_as_it_is_at_the_step_of_the_other() {
+        let (horizontal, vertical) = (sine(0.5, 3), sine(0.25, 6));
+        let vertical =
+            Accelerogram::new(horizontal.step_s(), vertical.acceleration_m_s2().to_vec()).expect("samples");
+        let record = SuiteRecord {
+            id: 1,
+            name: "sine".into(),
+            event: String::new(),
+            scale: 1.0,
+            intensity: IntensityMeasures::of(&horizontal),
+            horizontal: horizontal.clone(),
+            vertical: Some(vertical.clone()),
+            vertical_scale: 1.0,
+            generated: true,
+            about: crate::About::default(),
+        };
+        let suite = Suite {
+            name: "one".into(),
+            generated: true,
+            note: String::new(),
+            source: String::new(),
+            records: vec![record],
+        };
+        // A mode so short that the step has to be divided.
+        let building =
+            Building { height_ratio: 1.0, period_s: 0.06, storeys: 2, damping: 0.05, modes: Vec::new() };
+        let floor = suite.on_floor(&building).expect("motions").records.remove(0);
+        let [across, up] = [floor.horizontal, floor.vertical.expect("a vertical component")];
+        let parts = (horizontal.step_s() / across.step_s()).round() as usize;
+        assert!(parts > 1 && up.step_s() == across.step_s());
+        for (sample, expected) in vertical.acceleration_m_s2().iter().enumerate() {
+            let found = up.acceleration_m_s2()[sample * parts];
+            assert!((found - expected).abs() < 1e-15, "the samples that were there stay: {found} {expected}");
+        }
+        assert_eq!(up.peak_m_s2(), vertical.peak_m_s2(), "and straight lines lie between them");
+    }
+
+    #[test]
     fn analytic_a_stiff_building_takes_the_ground_s_motion_to_its_top() {
         let record = sine(1.0, 5);
         let floor =

@@ -202,6 +202,10 @@ pub fn dynamics(w: Words, a: &Assessment, d: &Dynamic) -> Table {
         if decided { said } else { said + &w.say(", not sure", ", incerta") }
     };
     let interval = d.mean_interval_m.map_or("–".into(), |[low, high]| format!("{low:.4} – {high:.4} m"));
+    let by_spectra = a.site_records.as_ref().map_or(["–".into(), "–".into()], |asked| {
+        [format!("{:.4} m", asked.demand_slv_m), asked.zeta.map_or("–".into(), |zeta| format!("{zeta:.3}"))]
+    });
+    let [asked, zeta] = by_spectra;
     let rows = [
         [w.say("runs", "analisi"), d.runs.to_string()],
         [w.say("beyond d_0", "oltre d_0"), d.beyond_d_0.to_string()],
@@ -209,6 +213,14 @@ pub fn dynamics(w: Words, a: &Assessment, d: &Dynamic) -> Table {
         [w.say("95 % over records (Student's t)", "95 % sugli accelerogrammi (t di Student)"), interval],
         [format!("SLV, d_SLV = {:.4} m", a.check.d_slv_m), yes(d.accepted_slv, d.decided_slv)],
         [format!("SLC, d_SLC = {:.4} m", a.check.d_slc_m), yes(d.accepted_slc, d.decided_slc)],
+        [
+            w.say(
+                "by the records' spectra: mean of the largest S_D(T, 8 %), T_0 ≤ T ≤ T_SLV (C8.7.1.2.1.8)",
+                "con gli spettri degli accelerogrammi: media degli S_D(T, 8 %) massimi, T_0 ≤ T ≤ T_SLV (C8.7.1.2.1.8)",
+            ),
+            asked,
+        ],
+        [w.say("d_SLV over that", "d_SLV diviso per essa"), zeta],
     ];
     let caption = w.say("The wall under the records", "La parete sotto gli accelerogrammi");
     let head = [w.say("quantity", "grandezza"), w.say("value", "valore")];
