@@ -71,6 +71,7 @@ mod slurm;
 mod slurm_cluster;
 mod stranger;
 mod stranger_inputs;
+mod suites;
 mod symmetry;
 mod traps;
 mod unfinished;
