@@ -10,6 +10,7 @@ include make/records.mk
 include make/examples.mk
 include make/openquake.mk
 include make/peers.mk
+include make/python.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help

@@ -38,7 +38,7 @@
 //! | [`push`] | a wall | force against displacement as it is pushed slowly |
 //! | [`portfolio`] | a survey, a site, a suite | the code's check beside the dynamics, façade by façade |
 //! | [`risk`] | fragilities, a hazard curve | annual rates of limit states |
-//! | [`results`] | what the laboratory found | result folders |
+//! | [`results`] | a run, what the laboratory found | JSON, result folders |
 //! | [`summary`] | result folders | what a page shows, computed before anything is drawn |
 //! | [`report`] | summaries, runs | pages and pictures |
 //! | [`starter`] | nothing | a wall, a pipeline and an experiment to begin with |

@@ -87,6 +87,14 @@ fn read(folder: &Path) -> Result<Aggregated> {
     Ok(aggregated)
 }
 
+/// Writes medians, and the findings of a sweep, beside the runs; nothing is printed of a study that is finished.
+///
+/// # Errors
+/// As [`AggregateCommand::execute`].
+pub fn keep_medians(folder: &Path) -> Result<()> {
+    keep(folder, &read(folder)?)
+}
+
 fn keep(folder: &Path, aggregated: &Aggregated) -> Result<()> {
     let file = folder.join("medians.parquet");
     match aggregated {

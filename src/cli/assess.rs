@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::progress::Bar;
 use super::threads::Threads;
-use super::{output, progress};
+use super::{Answer, output};
 use crate::assessment::{
     Assessed, Compared, FILES, KIND, Language, SuiteNote, WallNumbers, csv_bytes, governing_run,
 };
@@ -17,6 +18,7 @@ use mrbd_files::{FileNote, load_wall};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::Accuracy;
+use mrbd_lab::Progress;
 use mrbd_records::Suite;
 
 /// Check a wall against the Italian code, and by its own dynamics under records of the site.
@@ -69,6 +71,14 @@ impl AssessCommand {
     /// # Errors
     /// Bad input; results that cannot be written; a run that could not be finished.
     pub fn execute(self) -> Result<()> {
+        self.answer(&Bar::of_counted_runs())?.print(self.json)
+    }
+
+    /// Assesses the wall and writes what is to be written; nothing is printed.
+    ///
+    /// # Errors
+    /// As [`AssessCommand::execute`].
+    pub fn answer(&self, told: &dyn Progress) -> Result<Answer> {
         let wall = load_wall(&self.wall)?;
         let site = SiteFile::load(&self.site)?;
         let other = self.compare.as_deref().map(load_wall).transpose()?;
@@ -76,12 +86,12 @@ impl AssessCommand {
         let folder =
             self.out.as_deref().map(|out| WholeFolder::check(out, &FILES, self.force)).transpose()?;
         let motions = suite.as_ref().map(|suite| motions(&suite.records, site.floor()));
-        let assessment = self.assess(&self.wall, &wall, &site, motions.as_ref())?;
+        let under = |path: &Path, wall: &Wall| self.assess((path, wall), &site, motions.as_ref(), told);
+        let assessment = under(&self.wall, &wall)?;
         let compared = match (&self.compare, &other) {
-            (Some(path), Some(other)) => Some(Compared {
-                wall: WallNumbers::of(&name(path), other),
-                assessment: self.assess(path, other, &site, motions.as_ref())?,
-            }),
+            (Some(path), Some(other)) => {
+                Some(Compared { wall: WallNumbers::of(&name(path), other), assessment: under(path, other)? })
+            }
             _ => None,
         };
         let assessed = Assessed {
@@ -91,26 +101,25 @@ impl AssessCommand {
             compared,
             language: self.language,
         };
-        if let Some(folder) = folder {
-            self.write(folder.cleared()?, &wall, &assessed, suite.as_ref(), motions.as_ref())?;
-        }
-        tell(&assessed);
-        output::print(&if self.json { as_json(&assessed)? } else { text(&assessed) })
+        let write = |folder: WholeFolder| {
+            self.write(folder.cleared()?, &wall, &assessed, suite.as_ref(), motions.as_ref())
+        };
+        let page = folder.map(write).transpose()?;
+        Ok(Answer { json: as_json(&assessed)?, text: text(&assessed), notes: notes(&assessed), page })
     }
 
     fn assess(
         &self,
-        path: &Path,
-        wall: &Wall,
+        (path, wall): (&Path, &Wall),
         site: &SiteFile,
         motions: Option<&Motions>,
+        told: &dyn Progress,
     ) -> Result<Assessment> {
         let assessment = Assessment::of(wall, site).map_err(|reason| no_mechanism(path, reason))?;
         let Some(motions) = motions else { return Ok(assessment) };
-        let bar = progress::of_runs(motions.len() as u64);
+        told.begin("runs", motions.len());
         let shaken = Shaken { wall, capacity: &assessment.capacity, accuracy: Accuracy::default() };
-        let dynamic = self.threads.pool()?.install(|| shaken.check(motions, || bar.inc(1)));
-        bar.finish_and_clear();
+        let dynamic = self.threads.pool()?.install(|| shaken.check(motions, || told.advance(1)));
         let dynamic = dynamic.map_err(|e| Error::Run {
             time_s: e.time_s,
             reason: format!("{}, under {}", e.reason, e.record),
@@ -125,7 +134,7 @@ impl AssessCommand {
         assessed: &Assessed,
         suite: Option<&Suite>,
         motions: Option<&Motions>,
-    ) -> Result<()> {
+    ) -> Result<PathBuf> {
         let [manifest, json, run] = FILES.map(|name| folder.join(name));
         let inputs = [
             ("wall", Some(&self.wall)),
@@ -142,9 +151,7 @@ impl AssessCommand {
             let rows = governing_run(wall, &assessed.assessment.capacity, motion);
             write_durably(&run, &csv_bytes(&rows)?)?;
         }
-        let page = super::report::write_page(folder, None)?;
-        eprintln!("mrbd: {}", page.display());
-        Ok(())
+        super::report::write_page(folder, None)
     }
 }
 
@@ -237,22 +244,27 @@ fn verdict(is_accepted: bool, decided: bool) -> String {
 }
 
 /// What a reader of the numbers should know.
-fn tell(assessed: &Assessed) {
+fn notes(assessed: &Assessed) -> Vec<String> {
     let a = &assessed.assessment;
+    let mut notes = Vec::new();
     if let Some(suite) = assessed.suite.as_ref().filter(|suite| !suite.compatible) {
         let [low, high] = suite.deviation.map(|d| 100.0 * d);
-        eprintln!(
-            "mrbd: note: the mean spectrum of suite {} lies {low:+.0} % to {high:+.0} % about the code's: not compatible",
+        notes.push(format!(
+            "note: the mean spectrum of suite {} lies {low:+.0} % to {high:+.0} % about the code's: not compatible",
             suite.name
-        );
+        ));
     }
     if !a.capacity.vanishes {
-        eprintln!("mrbd: note: the multiplier does not vanish; d_0 is where the wall counts as fallen");
+        notes.push("note: the multiplier does not vanish; d_0 is where the wall counts as fallen".to_owned());
     }
-    let both = match a.agreement {
-        Some(Agreement::StaticRefuses) => "the static check refuses what the dynamics accept",
-        Some(Agreement::DynamicRefuses) => "the static check accepts what the dynamics refuse",
-        _ => return,
-    };
-    eprintln!("mrbd: {both}");
+    notes.extend(match a.agreement {
+        Some(Agreement::StaticRefuses) => {
+            Some("the static check refuses what the dynamics accept".to_owned())
+        }
+        Some(Agreement::DynamicRefuses) => {
+            Some("the static check accepts what the dynamics refuse".to_owned())
+        }
+        _ => None,
+    });
+    notes
 }

@@ -5,8 +5,9 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use clap::Args;
 
+use super::progress::Bar;
 use super::threads::Threads;
-use super::{output, progress};
+use super::{Answer, output};
 use crate::error::{Error, InputError, Result};
 use crate::margin::{COLUMNS, Curve, FILES, KIND, Margin, Question, capacities, curves};
 use crate::store::{WholeFolder, print_csv, write_durably, write_table};
@@ -14,6 +15,7 @@ use crate::study::ladder::Ladder;
 use crate::study::pipeline::Limit;
 use mrbd_files::{FileNote, load_wall};
 use mrbd_kernel::simulate::Accuracy;
+use mrbd_lab::Progress;
 use mrbd_records::Suite;
 
 /// The smallest factor on each record of a suite that overturns a wall, and the fragility of this wall.
@@ -73,22 +75,27 @@ impl MarginCommand {
     /// # Errors
     /// Bad input; results that cannot be written.
     pub fn execute(self) -> Result<()> {
+        self.answer(&Bar::of_counted_runs())?.print(self.json)
+    }
+
+    /// Searches the factors and writes what is to be written; nothing is printed.
+    ///
+    /// # Errors
+    /// As [`MarginCommand::execute`].
+    pub fn answer(&self, told: &dyn Progress) -> Result<Answer> {
         let started_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
         let question = self.question()?;
         let suite = Suite::load(&self.suite)?;
         let folder =
             self.out.as_deref().map(|out| WholeFolder::check(out, &FILES, self.force)).transpose()?;
-        let margin = self.margin(&question, &suite)?;
-        if let Some(folder) = folder {
-            self.write(folder.cleared()?, &margin, &suite, started_unix_s)?;
-        }
-        tell(&margin);
-        if self.json {
-            return output::print(&as_json(&margin, Path::new("stdout"))?);
-        }
-        output::to_stdout(|mut out| {
-            print_csv(&mut out, COLUMNS.iter(), &margin.records).map_err(output::failed)
-        })
+        let margin = self.margin(&question, &suite, told)?;
+        let write = |folder: WholeFolder| self.write(folder.cleared()?, &margin, &suite, started_unix_s);
+        let page = folder.map(write).transpose()?;
+        let json = as_json(&margin, Path::new("stdout"))?;
+        let mut text = Vec::new();
+        print_csv(&mut text, COLUMNS.iter(), &margin.records).map_err(output::failed)?;
+        let text = String::from_utf8_lossy(&text).into_owned();
+        Ok(Answer { json, text, notes: notes(&margin), page })
     }
 
     fn question(&self) -> Result<Question> {
@@ -114,11 +121,10 @@ impl MarginCommand {
         })
     }
 
-    fn margin(&self, question: &Question, suite: &Suite) -> Result<Margin> {
-        let bar = progress::of_runs(suite.records.len() as u64);
-        let search = || capacities(question, &suite.records, || bar.inc(1));
+    fn margin(&self, question: &Question, suite: &Suite, told: &dyn Progress) -> Result<Margin> {
+        told.begin("records", suite.records.len());
+        let search = || capacities(question, &suite.records, |parts| told.advance(parts));
         let records = self.threads.pool()?.install(search);
-        bar.finish_and_clear();
         Ok(Margin {
             wall: self.wall.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             suite: suite.name.clone(),
@@ -133,7 +139,7 @@ impl MarginCommand {
         })
     }
 
-    fn write(&self, folder: &Path, margin: &Margin, suite: &Suite, started_unix_s: u64) -> Result<()> {
+    fn write(&self, folder: &Path, margin: &Margin, suite: &Suite, started_unix_s: u64) -> Result<PathBuf> {
         let [manifest_json, margin_json, margin_parquet] = FILES.map(|name| folder.join(name));
         let inputs = [("wall", &self.wall), ("suite", &self.suite)];
         let inputs = inputs.map(|(role, path)| FileNote::of(role, path).map(|note| note.seen_from(folder)));
@@ -152,9 +158,7 @@ impl MarginCommand {
         let about = [("wall", &margin.wall), ("suite", &margin.suite), ("limit", &margin.limit)];
         let about = about.map(|(key, value)| (key.to_owned(), value.clone()));
         write_table(&margin_parquet, &COLUMNS, &about, &margin.records)?;
-        let page = super::report::write_page(folder, None)?;
-        eprintln!("mrbd: {}", page.display());
-        Ok(())
+        super::report::write_page(folder, None)
     }
 }
 
@@ -180,22 +184,19 @@ fn as_json(margin: &Margin, path: &Path) -> Result<String> {
 }
 
 /// What people read: the fragility, and what is not sure.
-fn tell(margin: &Margin) {
-    for curve in &margin.fragility {
-        eprintln!("mrbd: {}", sentence(curve));
-    }
+fn notes(margin: &Margin) -> Vec<String> {
+    let mut notes: Vec<String> = margin.fragility.iter().map(sentence).collect();
     let unsure =
         margin.records.iter().filter(|record| record.exceeding_share.is_some_and(|share| share < 1.0));
-    for record in unsure {
+    notes.extend(unsure.map(|record| {
         let percent = 100.0 * record.exceeding_share.unwrap_or_default();
-        eprintln!(
-            "mrbd: {}: at the factor found, {percent:.0} % of the ensemble exceed the limit",
-            record.record
-        );
-    }
-    for record in margin.records.iter().filter(|record| !record.beyond_model.is_empty()) {
-        eprintln!("mrbd: {}: the model does not apply: {}", record.record, record.beyond_model.join("; "));
-    }
+        format!("{}: at the factor found, {percent:.0} % of the ensemble exceed the limit", record.record)
+    }));
+    let beyond = margin.records.iter().filter(|record| !record.beyond_model.is_empty());
+    notes.extend(beyond.map(|record| {
+        format!("{}: the model does not apply: {}", record.record, record.beyond_model.join("; "))
+    }));
+    notes
 }
 
 fn sentence(curve: &Curve) -> String {

@@ -3,6 +3,7 @@
 //! stdout is for data, stderr for people.
 
 mod aggregate;
+mod answer;
 mod assess;
 mod assess_survey;
 mod calibrate;
@@ -35,6 +36,14 @@ mod stop;
 mod suites;
 mod table_args;
 mod threads;
+
+pub use aggregate::keep_medians;
+pub use answer::Answer;
+pub use assess::AssessCommand;
+pub use fragility::{FragilityAnswer, FragilityCommand};
+pub use margin::MarginCommand;
+pub use push::PushCommand;
+pub use risk::RiskCommand;
 
 use std::sync::LazyLock;
 

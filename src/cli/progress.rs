@@ -29,6 +29,11 @@ impl Bar {
         Self(ProgressBar::new(1).with_style(style).with_finish(ProgressFinish::AndClear))
     }
 
+    /// Of runs, with rate and time left.
+    pub fn of_counted_runs() -> Self {
+        Self(of_runs(1).with_finish(ProgressFinish::AndClear))
+    }
+
     /// Of simulations, whose number nobody knows beforehand.
     pub fn of_simulations() -> Self {
         let style = style(

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::output;
+use super::{Answer, output};
 use crate::error::{Error, InputError, Result};
-use crate::push::{FILES, KIND, Measured, PushPoint, Pushed, Question};
+use crate::push::{FILES, KIND, Measured, PushCurve, PushPoint, Pushed, Question};
 use crate::report::push_svg;
 use crate::store::{WholeFolder, write_durably};
 use mrbd_files::{FileNote, load_wall};
@@ -78,6 +78,14 @@ impl PushCommand {
     /// # Errors
     /// Bad input; results that cannot be written.
     pub fn execute(self) -> Result<()> {
+        self.answer()?.print(self.json)
+    }
+
+    /// Pushes the wall and writes what is to be written; nothing is printed.
+    ///
+    /// # Errors
+    /// As [`PushCommand::execute`].
+    pub fn answer(&self) -> Result<Answer> {
         let wall = load_wall(&self.wall)?;
         let read = [Some(&self.wall), self.measured.as_ref()];
         let read = read.into_iter().flatten().map(PathBuf::as_path).collect::<Vec<_>>();
@@ -90,11 +98,8 @@ impl PushCommand {
         if let Some(path) = &self.plot {
             write_durably(path, push_svg(&pushed).as_bytes())?;
         }
-        if let Some(folder) = folder {
-            self.write(folder.cleared()?, &pushed)?;
-        }
-        tell(&pushed);
-        output::print(if self.json { as_json(&pushed)? } else { csv_text(&pushed)? }.trim_end())
+        let page = folder.map(|folder| self.write(folder.cleared()?, &pushed)).transpose()?;
+        Ok(Answer { json: as_json(&pushed)?, text: csv_text(&pushed)?, notes: notes(&pushed), page })
     }
 
     fn question(&self) -> Result<Question> {
@@ -117,7 +122,7 @@ impl PushCommand {
         })
     }
 
-    fn write(&self, folder: &Path, pushed: &Pushed) -> Result<()> {
+    fn write(&self, folder: &Path, pushed: &Pushed) -> Result<PathBuf> {
         let [manifest, json, csv] = FILES.map(|name| folder.join(name));
         let notes = [("wall", Some(&self.wall)), ("measured", self.measured.as_ref())];
         let notes = notes.into_iter().filter_map(|(role, path)| Some((role, path?)));
@@ -131,9 +136,7 @@ impl PushCommand {
         )?;
         write_durably(&json, as_json(pushed)?.as_bytes())?;
         write_durably(&csv, csv_text(pushed)?.as_bytes())?;
-        let page = super::report::write_page(folder, None)?;
-        eprintln!("mrbd: {}", page.display());
-        Ok(())
+        super::report::write_page(folder, None)
     }
 }
 
@@ -159,26 +162,28 @@ fn csv_text(pushed: &Pushed) -> Result<String> {
 }
 
 /// What people ask first.
-fn tell(pushed: &Pushed) {
-    for (name, curve) in [("the wall", &pushed.curve), ("its rigid line", &pushed.rigid)] {
+fn notes(pushed: &Pushed) -> Vec<String> {
+    let of = |name: &str, curve: &PushCurve| {
         let end = curve
             .end_m
             .map_or("; the force does not vanish before it counts as fallen".to_owned(), |end_m| {
                 format!(", none at {end_m:.4} m")
             });
-        eprintln!(
-            "mrbd: {name} bears {:.4} of its weight at {:.4} m of the {}{end}",
+        format!(
+            "{name} bears {:.4} of its weight at {:.4} m of the {}{end}",
             curve.largest_force_over_weight, curve.largest_at_m, pushed.displacement_of
-        );
-    }
-    if let Some(measured) = &pushed.measured {
-        eprintln!(
-            "mrbd: {} points of {} differ from the wall by {:.4} of its weight (root mean square), {:.4} at most; from the rigid line by {:.4}",
+        )
+    };
+    let mut notes = vec![of("the wall", &pushed.curve), of("its rigid line", &pushed.rigid)];
+    notes.extend(pushed.measured.iter().map(|measured| {
+        format!(
+            "{} points of {} differ from the wall by {:.4} of its weight (root mean square), {:.4} at most; from the rigid line by {:.4}",
             measured.points.len(),
             measured.file,
             measured.rms_over_weight,
             measured.largest_over_weight,
             measured.rigid_rms_over_weight
-        );
-    }
+        )
+    }));
+    notes
 }

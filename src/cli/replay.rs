@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{output, simulate};
+use super::output;
 use crate::aggregate::stored_numbers;
 use crate::error::{Error, InputError, Result};
+use crate::results::RunResults;
 use crate::store::{Read, write_history};
 use crate::study::batch::{Finished, run_one};
 use crate::study::pipeline::Pipeline;
@@ -54,7 +55,7 @@ impl ReplayCommand {
         let finished = self.rerun(run)?;
         if let (Ok(wall), Some(response)) = (&finished.run.wall, &finished.response) {
             let alone = Ensemble { run: response.clone(), others: Vec::new() };
-            let results = simulate::RunResults::new(wall, &finished.run.shaking(), &alone);
+            let results = RunResults::new(wall, &finished.run.shaking(), &alone);
             output::print(&if self.json { format!("{:#}", results.json()) } else { results.text() })?;
         }
         match finished.failure {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::output;
+use super::Answer;
 use crate::error::{InputError, Result};
 use crate::risk::{Risk, read_fragilities, read_hazard};
 use crate::text::aligned;
@@ -45,42 +45,50 @@ impl RiskCommand {
     /// # Errors
     /// Bad input.
     pub fn execute(self) -> Result<()> {
+        self.answer()?.print(self.json)
+    }
+
+    /// Computes the rates; nothing is printed.
+    ///
+    /// # Errors
+    /// As [`RiskCommand::execute`].
+    pub fn answer(&self) -> Result<Answer> {
         if let Some(years) = self.years.filter(|years| !(years.is_finite() && *years > 0.0)) {
             return Err(InputError::option("--years", years.to_string(), "a number above 0").into());
         }
         let hazard = read_hazard(&self.hazard, self.years)?;
         let states = read_fragilities(&self.fragility, &hazard.measure)?;
         let risks: Vec<Risk> = states.iter().map(|state| Risk::of(state, &hazard)).collect();
+        let json = format!("{:#}", serde_json::json!({ "measure": hazard.measure, "limit_states": risks }));
+        let mut notes = Vec::new();
         if risks.iter().any(|risk| risk.limit_state.measure.is_none()) {
-            eprintln!(
-                "mrbd: note: the fragilities do not name their measure; it is taken to be {}",
-                hazard.measure
-            );
+            let measure = &hazard.measure;
+            notes.push(format!(
+                "note: the fragilities do not name their measure; it is taken to be {measure}"
+            ));
         }
-        for risk in &risks {
-            tell(risk);
-        }
-        output::print(&match self.json {
-            true => format!("{:#}", serde_json::json!({ "measure": hazard.measure, "limit_states": risks })),
-            false => table(&risks),
-        })
+        notes.extend(risks.iter().flat_map(beyond));
+        Ok(Answer { json, text: table(&risks), notes, page: None })
     }
 }
 
-fn tell(risk: &Risk) {
+/// What of a rate lies beyond the hazard curve.
+fn beyond(risk: &Risk) -> Vec<String> {
+    let mut notes = Vec::new();
     let name = &risk.limit_state.name;
     if risk.above_share > MUCH {
         let percent = 100.0 * risk.above_share;
-        eprintln!(
-            "mrbd: note: {name}: {percent:.0} % of the rate lies beyond the last point of the hazard curve"
-        );
+        notes.push(format!(
+            "note: {name}: {percent:.0} % of the rate lies beyond the last point of the hazard curve"
+        ));
     }
     if risk.below_share > MUCH {
         let percent = 100.0 * risk.below_share;
-        eprintln!(
-            "mrbd: note: {name}: {percent:.0} % of the rate lies below its first point: the rate is no less than told"
-        );
+        notes.push(format!(
+            "note: {name}: {percent:.0} % of the rate lies below its first point: the rate is no less than told"
+        ));
     }
+    notes
 }
 
 fn table(risks: &[Risk]) -> String {

@@ -1,21 +1,19 @@
 //! `mrbd simulate`: one wall under one record.
 
-mod results;
-
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-pub(super) use self::results::RunResults;
 use super::output;
 use super::table_args::TableArgs;
 use crate::error::{Error, InputError, Result};
 use crate::report::{PlotFile, RunPicture, Watch};
+use crate::results::RunResults;
 use crate::store::write_history;
 use clap::Args;
 use mrbd_files::load_wall;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{
-    Accuracy, Ensemble, MEMBERS, MEMBERS_IN_CHAOS, Outcome, Shaking, Verdict, simulate, simulate_members,
+    Accuracy, Ensemble, MEMBERS, MEMBERS_IN_CHAOS, Outcome, Shaking, simulate, simulate_members,
     simulate_observed,
 };
 use mrbd_records::{Accelerogram, ReadOptions, read};
@@ -146,9 +144,7 @@ fn ensemble(
     };
     let run = first.remove(0);
     let ensemble = Ensemble { run, others: first }.with(rest);
-    // An outcome that flips is known to be undecided; more would tell its share a little better.
-    let decided = ensemble.verdict() != Verdict::Undecided;
-    if alone || !(decided && ensemble.is_chaotic()) {
+    if alone || !ensemble.needs_more() {
         return ensemble;
     }
     let middle = usize::midpoint(MEMBERS, MEMBERS_IN_CHAOS);

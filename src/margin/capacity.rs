@@ -84,9 +84,14 @@ pub struct Capacity {
 /// A run that could not be finished ends the search.
 struct Unfinished;
 
-/// Searches every record of a suite on the threads of the current pool; results in their order.
-pub fn capacities(question: &Question, records: &[SuiteRecord], done: impl Fn() + Sync) -> Vec<Capacity> {
-    records.par_iter().map(|record| question.capacity(record)).inspect(|_| done()).collect()
+/// Searches every record of a suite on the threads of the current pool; results in their order. `told` hears of each run
+/// that begins (0) and of each record that is done (1).
+pub fn capacities(
+    question: &Question,
+    records: &[SuiteRecord],
+    told: impl Fn(usize) + Sync,
+) -> Vec<Capacity> {
+    records.par_iter().map(|record| question.capacity(record, &told)).inspect(|_| told(1)).collect()
 }
 
 impl Question {
@@ -95,9 +100,10 @@ impl Question {
         Shaking { horizontal, vertical: None, tail_s: self.tail_s }
     }
 
-    fn capacity(&self, record: &SuiteRecord) -> Capacity {
+    fn capacity(&self, record: &SuiteRecord, told: &impl Fn(usize)) -> Capacity {
         let mut runs = 0;
         let mut at = |scale: f64| {
+            told(0);
             runs += 1;
             let response = simulate(&self.wall, &self.shaking(record, scale), self.accuracy);
             match response.outcome {

@@ -7,8 +7,10 @@ use mrbd_kernel::model::Wall;
 
 /// Height of the wall in the drawing, its own units.
 const HEIGHT: f64 = 400.0;
-/// Room left of, right of and above the wall.
-const MARGIN: f64 = 110.0;
+/// Room left and right of the wall: labels of two numbers stand left of it.
+const MARGIN: f64 = 140.0;
+/// Room above it.
+const ABOVE: f64 = 60.0;
 /// Room below the wall.
 const BELOW: f64 = 40.0;
 /// Radius of a corner's mark, and its colour.
@@ -42,7 +44,7 @@ impl Scale {
 /// The wall as SVG, to scale.
 pub fn wall_svg(wall: &Wall, d: &Description) -> String {
     let per_m = HEIGHT / d.height_m;
-    let (width, height) = (2.0 * MARGIN + d.thickness_m * per_m, HEIGHT + MARGIN + BELOW);
+    let (width, height) = (2.0 * MARGIN + d.thickness_m * per_m, HEIGHT + ABOVE + BELOW);
     let scale = Scale { per_m, middle: width / 2.0, ground: height - BELOW };
     let mut parts = vec![masonry(&scale, d)];
     parts.extend(joint(&scale, 0.0, d.lower.width_m));

@@ -1,5 +1,8 @@
-//! Result folders of the laboratory: what a calibration and a diagnosis found, written whole or not at all.
+//! Results as they leave the program: of a run, and the folders of the laboratory, written whole or not at all.
 
 pub mod calibration;
 pub mod diagnosis;
 mod folder;
+mod run;
+
+pub use run::RunResults;

@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, StringArray};
-use arrow_schema::{Field, Schema};
+use arrow_schema::{ArrowError, Field, Schema};
 use parquet::arrow::ArrowWriter;
+use parquet::errors::ParquetError;
 use tempfile::NamedTempFile;
 
 use super::durable::put_in_place;
@@ -108,11 +109,11 @@ fn write_csv(file: &File, history: &History, reading: &Reading) -> Result<(), cs
     Ok(())
 }
 
-fn write_parquet(
-    file: &File,
-    history: &History,
-    reading: &Reading,
-) -> Result<(), parquet::errors::ParquetError> {
+/// A history as a table, its rotations as they are read.
+///
+/// # Errors
+/// What Arrow says of columns that do not fit together: a defect of the program to report.
+pub fn history_table(history: &History, reading: &Reading) -> Result<RecordBatch, ArrowError> {
     let rows = &history.rows;
     let column = |of: &dyn Fn(usize) -> f64| -> ArrayRef {
         Arc::new(Float64Array::from_iter_values((0..rows.len()).map(of)))
@@ -133,7 +134,11 @@ fn write_parquet(
             Field::new(*name, array.data_type().clone(), false).with_metadata(HashMap::from(metadata))
         });
     let schema = Arc::new(Schema::new(fields.collect::<Vec<_>>()));
-    let batch = RecordBatch::try_new(schema, arrays[..columns(reading).len()].to_vec())?;
+    RecordBatch::try_new(schema, arrays[..columns(reading).len()].to_vec())
+}
+
+fn write_parquet(file: &File, history: &History, reading: &Reading) -> Result<(), ParquetError> {
+    let batch = history_table(history, reading)?;
     let mut writer = ArrowWriter::try_new(file, batch.schema(), None)?;
     writer.write(&batch)?;
     writer.close()?;

@@ -9,7 +9,7 @@ pub(crate) mod parquet_file;
 pub use column::{Column, Encoding, Read, Stage, print_csv};
 pub use durable::WholeFolder;
 pub use durable::write_durably;
-pub use history::{HistoryWriter, write_history};
+pub use history::{HistoryWriter, history_table, write_history};
 pub use parquet_file::{ParquetFile, write_table};
 
 /// The page that a report makes of a folder; results that are replaced take it with them.

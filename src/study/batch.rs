@@ -20,11 +20,11 @@ use mrbd_kernel::simulate::{
 };
 use rayon::prelude::*;
 
-/// A run and what came of it.
+/// A run, of a plan or told otherwise, and what came of it.
 #[derive(Debug, Clone)]
-pub struct Finished {
+pub struct Finished<R = Run> {
     /// What was run.
-    pub run: Run,
+    pub run: R,
     /// What the run told; none where the program itself failed.
     pub response: Option<Response>,
     /// Why there is no usable response; none where there is one.
@@ -45,9 +45,9 @@ pub struct Found {
     pub stood_intensity: f64,
 }
 
-impl Finished {
+impl<R> Finished<R> {
     /// A run that nothing came of yet.
-    pub fn planned(run: Run) -> Self {
+    pub fn planned(run: R) -> Self {
         Self { run, response: None, failure: None, simulations: 0, found: None }
     }
 
@@ -163,7 +163,7 @@ fn single(finished: Finished, simulate: &impl Simulate) -> Finished {
 }
 
 /// A run with its response.
-fn answered(finished: Finished, response: Response) -> Finished {
+pub(super) fn answered<R>(finished: Finished<R>, response: Response) -> Finished<R> {
     let simulations = finished.simulations + 1;
     Finished { failure: fault_of(&response), response: Some(response), simulations, ..finished }
 }
@@ -183,7 +183,7 @@ fn fault_of(response: &Response) -> Option<String> {
     (!finite).then(|| "a result is not a finite number".to_owned())
 }
 
-fn message_of(panic: &(dyn std::any::Any + Send)) -> String {
+pub(super) fn message_of(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied();
     let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     format!("panicked: {}", text.unwrap_or("without a message"))
@@ -277,7 +277,8 @@ impl Thread<'_> {
     }
 
     fn run_side_by_side(&self, at_work: &RefCell<BTreeMap<usize, Finished>>) {
-        let mut ready: Option<Ready> = None;
+        let mut ready: Ready = None;
+        let mut motion = None;
         let mut next = || {
             loop {
                 let index = self.next.fetch_add(1, Ordering::Relaxed);
@@ -290,7 +291,7 @@ impl Thread<'_> {
                 // Noted before it is made ready, which may panic.
                 let mut at_work = at_work.borrow_mut();
                 let planned = at_work.entry(index).or_insert(Finished::planned(run));
-                return Some((index, prepare(&planned.run, &mut ready)?));
+                return Some((index, prepare_run(&planned.run, &mut motion, &mut ready)?));
             }
         };
         simulate_side_by_side(&mut next, &mut |index, response| {
@@ -306,38 +307,49 @@ impl Thread<'_> {
     }
 }
 
-/// What serves again for the next run, where it is shaken as the one before.
-struct Ready {
+/// The motion of a run, told by where it comes from.
+struct MotionOf {
     variant: Arc<Variant>,
     record_index: usize,
     factor: f64,
-    shaking: Shaking,
-    simulator: Simulator,
 }
 
-impl Ready {
-    /// Whether a run has the motion of the one before: scaled samples, of a member too, need not be scaled again.
+impl MotionOf {
+    fn run(run: &Run) -> Self {
+        let (variant, record_index, factor) = (Arc::clone(&run.variant), run.record_index, run.factor);
+        Self { variant, record_index, factor }
+    }
+
+    /// Whether a run has this motion: scaled samples, of a member too, need not be scaled again.
     fn shakes(&self, run: &Run) -> bool {
         Arc::ptr_eq(&self.variant, &run.variant)
             && (self.record_index, self.factor) == (run.record_index, run.factor)
     }
 }
 
-/// Makes a run ready; the samples of the run before serve again where the shaking is the same.
-fn prepare(run: &Run, ready: &mut Option<Ready>) -> Option<Prepared> {
+/// Makes a run of a plan ready; `motion` is that of the run before.
+fn prepare_run(run: &Run, motion: &mut Option<MotionOf>, ready: &mut Ready) -> Option<Prepared> {
     let (wall, accuracy) = (run.wall.as_ref().ok()?, run.accuracy());
-    let shaking = match ready {
-        Some(ready) if ready.shakes(run) => ready.shaking.clone(),
+    let shaking = match (&*motion, &*ready) {
+        (Some(motion), Some((shaking, _))) if motion.shakes(run) => shaking.clone(),
         _ => run.shaking(),
     };
+    *motion = Some(MotionOf::run(run));
+    Some(prepare(wall, shaking, accuracy, ready))
+}
+
+/// A shaking that was made ready, with a wall.
+pub(super) type Ready = Option<(Shaking, Simulator)>;
+
+/// Makes a run ready; the samples of the run before serve again where the shaking is the same.
+pub(super) fn prepare(wall: &Wall, shaking: Shaking, accuracy: Accuracy, ready: &mut Ready) -> Prepared {
     let simulator = match ready {
-        Some(ready) if ready.shaking.shares_samples_with(&shaking) => {
-            ready.simulator.with_wall(wall, accuracy)
+        Some((before, simulator)) if before.shares_samples_with(&shaking) => {
+            simulator.with_wall(wall, accuracy)
         }
         _ => Simulator::new(wall, &shaking, accuracy),
     };
     let prepared = simulator.prepared();
-    let (variant, record_index, factor) = (Arc::clone(&run.variant), run.record_index, run.factor);
-    *ready = Some(Ready { variant, record_index, factor, shaking, simulator });
-    Some(prepared)
+    *ready = Some((shaking, simulator));
+    prepared
 }

@@ -5,12 +5,14 @@
 //! | [`pipeline`] | a file | what is asked for: variants, parameters, intensities |
 //! | [`plan`] | a pipeline | a list of runs, computed one by one: façades, walls, records, ids |
 //! | [`batch`] | a plan | finished runs in order, on all threads; limits searched by growing intensities |
+//! | [`cases`] | walls and motions as a caller has them | finished runs in order, on all threads; no plan, no folder |
 //! | [`ladder`] | a limit | the lowest intensity found to exceed it |
 //! | [`campaign`] | a plan and what is done of it | what is missing, in any parts, after any interruption |
 //! | [`runs`] | finished runs | Parquet files of one row a run, and where they came from |
 
 pub mod batch;
 pub mod campaign;
+pub mod cases;
 pub mod ladder;
 pub mod pipeline;
 pub mod plan;

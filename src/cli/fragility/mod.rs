@@ -124,29 +124,39 @@ impl FragilityCommand {
         check_apart("--out", self.out.as_deref(), &[&self.file])?;
         check_apart("--nrml", self.nrml.as_deref(), &[&self.file])?;
         let asked = self.asked()?;
-        let study = if self.file.is_dir() { Completeness::of(&self.file)? } else { None };
         let measure = self.measure(asked.intensity())?;
-        let mut groups = Vec::new();
-        let settings = self.settings(asked.incremental)?;
-        for state in &asked.states {
-            groups.extend(self.analysed(state, &settings)?);
-        }
-        super::aggregate::tell_unfinished(study);
-        self.notes(&asked, &groups);
+        let answer = self.answer_to(&asked)?;
+        super::aggregate::tell_unfinished(answer.study);
+        answer.notes.iter().for_each(|note| eprintln!("mrbd: note: {note}"));
         if let Some(path) = &self.out {
-            write_curves(path, &asked.columns, &groups, study)?;
+            write_curves(path, &answer)?;
         }
         if let (Some(path), Some(measure)) = (&self.nrml, &measure) {
-            let (states, functions) = self.functions(&asked, &groups);
-            let note = study.and_then(|study| study.note());
+            let (states, functions) = self.functions(&asked, &answer.groups);
+            let note = answer.study.and_then(|study| study.note());
             let text = nrml_document(measure, &states, &functions, note.as_deref());
             write_durably(path, text.as_bytes())?;
         }
-        super::output::print(&if self.json {
-            format!("{:#}", report::as_json(&asked.columns, &groups, &settings, study))
-        } else {
-            report::table(&asked.columns, &groups, &settings, study)
-        })
+        super::output::print(&if self.json { format!("{:#}", answer.json()) } else { answer.table() })
+    }
+
+    /// The fragilities that are asked for; nothing is printed or written.
+    ///
+    /// # Errors
+    /// Input errors of the options and the table.
+    pub fn answer(&self) -> Result<FragilityAnswer> {
+        self.answer_to(&self.asked()?)
+    }
+
+    fn answer_to(&self, asked: &Asked) -> Result<FragilityAnswer> {
+        let study = if self.file.is_dir() { Completeness::of(&self.file)? } else { None };
+        let settings = self.settings(asked.incremental)?;
+        let mut groups = Vec::new();
+        for state in &asked.states {
+            groups.extend(self.analysed(state, &settings)?);
+        }
+        let notes = self.notes(asked, &groups);
+        Ok(FragilityAnswer { columns: asked.columns.clone(), groups, settings, study, notes })
     }
 
     /// The groups of a limit state; its name comes last in their keys.
@@ -261,44 +271,86 @@ impl FragilityCommand {
         (states, functions)
     }
 
-    /// What a reader of the numbers should know.
-    fn notes(&self, asked: &Asked, groups: &[GroupAnalysis]) {
+    /// What a reader of the numbers should know, each a sentence.
+    fn notes(&self, asked: &Asked, groups: &[GroupAnalysis]) -> Vec<String> {
+        let mut notes = Vec::new();
         let lost: usize = groups.iter().map(|group| group.without_outcome).sum();
         if lost > 0 {
-            eprintln!("mrbd: note: {lost} rows without an outcome were not used");
+            notes.push(format!("{lost} rows without an outcome were not used"));
         }
         let unknown = groups.iter().filter(|group| group.analysis.result.is_err()).count();
         if unknown > 0 && (self.out.is_some() || self.nrml.is_some()) {
-            eprintln!(
-                "mrbd: note: {unknown} of {} groups tell no fragility and are in no file",
-                groups.len()
-            );
+            notes.push(format!("{unknown} of {} groups tell no fragility and are in no file", groups.len()));
             if asked.has_limits && self.nrml.is_some() {
-                eprintln!("mrbd: note: a fragility model holds only what tells one for every limit");
+                notes.push("a fragility model holds only what tells one for every limit".into());
             }
         }
         let beyond = groups.iter().filter(|group| group.analysis.extrapolates()).count();
         if beyond > 0 {
-            eprintln!(
-                "mrbd: note: {beyond} medians lie outside the intensities observed: they are extrapolated"
-            );
+            notes.push(format!(
+                "{beyond} medians lie outside the intensities observed: they are extrapolated"
+            ));
         }
         if asked.lies_above() {
-            eprintln!(
-                "mrbd: note: intensities are those at the upper end of each bracket; of the study's own measure the middle is taken"
-            );
+            notes.push(LIES_ABOVE.into());
         }
         let open = groups.iter().filter(|group| group.analysis.has_open_ends()).count();
         if open > 0 {
-            eprintln!(
-                "mrbd: note: {open} intervals have an end `?`: so many replicates drew outcomes that tell no fragility \
-                 that they reach past it; more façades or records close it, and `--replicates 0` gives intervals of \
-                 the profile likelihood, which take outcomes as independent"
-            );
+            notes.push(format!("{open} {OPEN_ENDS}"));
         }
         if asked.clusters().is_empty() {
-            eprintln!("mrbd: note: without --cluster, outcomes are taken as independent");
+            notes.push("without --cluster, outcomes are taken as independent".into());
         }
+        notes
+    }
+}
+
+const LIES_ABOVE: &str =
+    "intensities are those at the upper end of each bracket; of the study's own measure the middle is taken";
+const OPEN_ENDS: &str = "intervals have an end `?`: so many replicates drew outcomes that tell no fragility that they reach \
+    past it; more façades or records close it, and `--replicates 0` gives intervals of the profile likelihood, which take \
+    outcomes as independent";
+
+/// Fragilities, and what a reader of them should know.
+#[derive(Debug, Clone)]
+pub struct FragilityAnswer {
+    /// Names of the parts of a group's key.
+    columns: Vec<String>,
+    groups: Vec<GroupAnalysis>,
+    settings: Settings,
+    /// Of a study's folder, how much of it is there.
+    study: Option<Completeness>,
+    /// What a reader of the numbers should know, each a sentence.
+    notes: Vec<String>,
+}
+
+impl FragilityAnswer {
+    /// Names of the parts of a group's key: the first columns of [`FragilityAnswer::curves`].
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// What a reader of the numbers should know, each a sentence: that the study is unfinished comes first.
+    pub fn warnings(&self) -> Vec<String> {
+        self.study.and_then(|study| study.note()).into_iter().chain(self.notes.iter().cloned()).collect()
+    }
+
+    /// Everything, as `--json` prints it.
+    pub fn json(&self) -> serde_json::Value {
+        report::as_json(&self.columns, &self.groups, &self.settings, self.study)
+    }
+
+    /// One line a group, for people.
+    pub fn table(&self) -> String {
+        report::table(&self.columns, &self.groups, &self.settings, self.study)
+    }
+
+    /// The curves with their intervals as CSV.
+    ///
+    /// # Errors
+    /// What the writer says.
+    pub fn curves(&self, out: impl std::io::Write) -> csv::Result<()> {
+        report::write_curves(out, &self.columns, &self.groups, self.study)
     }
 }
 
@@ -309,13 +361,8 @@ fn finite(option: &str, value: f64) -> Result<f64> {
     Err(InputError::option(option, value.to_string(), "a finite number").into())
 }
 
-fn write_curves(
-    path: &Path,
-    columns: &[String],
-    groups: &[GroupAnalysis],
-    study: Option<Completeness>,
-) -> Result<()> {
+fn write_curves(path: &Path, answer: &FragilityAnswer) -> Result<()> {
     let mut text = Vec::new();
-    report::write_curves(&mut text, columns, groups, study).map_err(|e| Error::table(path, e))?;
+    answer.curves(&mut text).map_err(|e| Error::table(path, e))?;
     write_durably(path, &text)
 }

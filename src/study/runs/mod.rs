@@ -10,4 +10,4 @@ pub use completeness::Completeness;
 pub use folder::{Earlier, OutputFolder};
 pub use manifest::{Manifest, RecordNote, SuiteNote};
 pub use parts::{RunFile, listed_run_files, run_files};
-pub use schema::{COLUMNS, SCHEMA_VERSION};
+pub use schema::{COLUMNS, RESULTS, SCHEMA_VERSION};

@@ -75,9 +75,95 @@ macro_rules! outcome_count {
     };
 }
 
-/// Every column of a result file, in order.
+/// Columns of what a run told, after others; of any rows that tell it.
 #[rustfmt::skip] // One column a line, so that the table reads as a table.
-pub const COLUMNS: &[Column<Finished>] = &[
+macro_rules! with_results {
+    ($($before:expr,)*) => { &[
+        $($before,)*
+        // How the run ended.
+        Column::result("outcome", "", "stood, collapsed or failed", text!(|f| f.outcome())),
+        Column::result("reason", "", "why the run failed; null where it did not", Read::Text(|f| f.failure.as_deref().map(Cow::Borrowed))),
+        Column::result("collapsed", "", "whether a body passed its collapse rotation; null for a failed run", Read::Flag(|f| f.usable().map(|r| r.collapsed()))),
+        Column::result("collapse_time_s", "s", "when it did; null where it did not", Read::Number(|f| f.usable().and_then(|r| time_of(&r.outcome)))),
+        Column::result("end_time_s", "s", "end of the run", outcome_number!(|r| r.end_time_s)),
+        Column::result("limit_exceeded", "", "whether an incremental analysis found an intensity that exceeds its limit; null for other studies and failed runs", Read::Flag(|f| f.found.map(|found| found.exceeded))),
+        Column::result("stood_intensity", "unit of the measure", "highest intensity below that at which it did not: the lower end of the bracket", Read::Number(|f| f.found.map(|found| found.stood_intensity))),
+        // Largest rotations and displacements; of a collapsed wall, until collapse.
+        Column::result("theta1_max_rad", "rad", "largest rotation of the lower body, without sign", outcome_number!(|r| r.theta_max_rad[0].value.abs())),
+        Column::result("theta1_max_sign", "", "its sign, +1 towards +x", outcome_number!(|r| sign(r.theta_max_rad[0].value))),
+        Column::result("theta1_max_time_s", "s", "when it was reached", outcome_number!(|r| r.theta_max_rad[0].time_s)),
+        Column::result("theta1_max_over_alpha1", "", "largest rotation of the lower body over its slenderness angle", outcome_number!(|r| r.theta_max_over_alpha_i()[0])),
+        Column::result("theta1_max_over_alpha", "", "largest rotation of the lower body over the slenderness angle of the uncracked wall", outcome_number!(|r| r.theta_max_over_alpha()[0])),
+        Column::result("theta2_max_rad", "rad", "largest rotation of the upper body, without sign", outcome_number!(|r| r.theta_max_rad[1].value.abs())),
+        Column::result("theta2_max_sign", "", "its sign, +1 towards +x", outcome_number!(|r| sign(r.theta_max_rad[1].value))),
+        Column::result("theta2_max_time_s", "s", "when it was reached", outcome_number!(|r| r.theta_max_rad[1].time_s)),
+        Column::result("theta2_max_over_alpha2", "", "largest rotation of the upper body over its slenderness angle", outcome_number!(|r| r.theta_max_over_alpha_i()[1])),
+        Column::result("theta2_max_over_alpha", "", "largest rotation of the upper body over the slenderness angle of the uncracked wall", outcome_number!(|r| r.theta_max_over_alpha()[1])),
+        Column::result("theta_max_over_own_alpha", "", "the larger of θ_1/α_1 and θ_2/α_2 at their largest; that of a collapsed wall is collapse_rotation_ratio, to rounding", outcome_number!(|r| r.theta_max_over_own_alpha())),
+        Column::result("top_displacement_m", "m", "largest horizontal displacement of the top relative to the ground, with its sign", outcome_number!(|r| r.top_displacement_m.value)),
+        Column::result("top_displacement_time_s", "s", "when it was reached", outcome_number!(|r| r.top_displacement_m.time_s)),
+        Column::result("crack_displacement_m", "m", "largest horizontal displacement of the middle of the crack relative to the ground, with its sign", outcome_number!(|r| r.crack_displacement_m.value)),
+        Column::result("crack_displacement_time_s", "s", "when it was reached", outcome_number!(|r| r.crack_displacement_m.time_s)),
+        // Patterns, by the names of Fig. 4.
+        Column::result("pattern_rest_s", "s", "time spent in rest", outcome_number!(|r| r.pattern_time_s[0])),
+        Column::result("pattern_1a_s", "s", "time spent in pattern 1a", outcome_number!(|r| r.pattern_time_s[1])),
+        Column::result("pattern_2a_s", "s", "time spent in pattern 2a", outcome_number!(|r| r.pattern_time_s[2])),
+        Column::result("pattern_3a_s", "s", "time spent in pattern 3a", outcome_number!(|r| r.pattern_time_s[3])),
+        Column::result("pattern_4a_s", "s", "time spent in pattern 4a", outcome_number!(|r| r.pattern_time_s[4])),
+        Column::result("pattern_1b_s", "s", "time spent in pattern 1b", outcome_number!(|r| r.pattern_time_s[5])),
+        Column::result("pattern_2b_s", "s", "time spent in pattern 2b", outcome_number!(|r| r.pattern_time_s[6])),
+        Column::result("pattern_3b_s", "s", "time spent in pattern 3b", outcome_number!(|r| r.pattern_time_s[7])),
+        Column::result("pattern_4b_s", "s", "time spent in pattern 4b", outcome_number!(|r| r.pattern_time_s[8])),
+        Column::result("pattern_rest_share", "", "share of the run spent in rest", outcome_number!(|r| r.pattern_time_s[0] / r.end_time_s)),
+        Column::result("pattern_1a_share", "", "share of the run spent in pattern 1a", outcome_number!(|r| r.pattern_time_s[1] / r.end_time_s)),
+        Column::result("pattern_2a_share", "", "share of the run spent in pattern 2a", outcome_number!(|r| r.pattern_time_s[2] / r.end_time_s)),
+        Column::result("pattern_3a_share", "", "share of the run spent in pattern 3a", outcome_number!(|r| r.pattern_time_s[3] / r.end_time_s)),
+        Column::result("pattern_4a_share", "", "share of the run spent in pattern 4a", outcome_number!(|r| r.pattern_time_s[4] / r.end_time_s)),
+        Column::result("pattern_1b_share", "", "share of the run spent in pattern 1b", outcome_number!(|r| r.pattern_time_s[5] / r.end_time_s)),
+        Column::result("pattern_2b_share", "", "share of the run spent in pattern 2b", outcome_number!(|r| r.pattern_time_s[6] / r.end_time_s)),
+        Column::result("pattern_3b_share", "", "share of the run spent in pattern 3b", outcome_number!(|r| r.pattern_time_s[7] / r.end_time_s)),
+        Column::result("pattern_4b_share", "", "share of the run spent in pattern 4b", outcome_number!(|r| r.pattern_time_s[8] / r.end_time_s)),
+        // Impacts and openings.
+        Column::result("impacts", "", "impacts, all of them", outcome_count!(|r| r.impacts.total())),
+        Column::result("impacts_c1", "", "impacts that change pattern 1a to 2a or mirrored", outcome_count!(|r| r.impacts.table2[0])),
+        Column::result("impacts_c2", "", "impacts that change pattern 2a to 1a or mirrored", outcome_count!(|r| r.impacts.table2[1])),
+        Column::result("impacts_c3", "", "impacts that change pattern 1a to 2b or mirrored", outcome_count!(|r| r.impacts.table2[2])),
+        Column::result("impacts_c4", "", "impacts that change pattern 2a to 1b or mirrored", outcome_count!(|r| r.impacts.table2[3])),
+        Column::result("impacts_c5", "", "impacts that change pattern 3a to 1b or mirrored", outcome_count!(|r| r.impacts.table2[4])),
+        Column::result("impacts_c6", "", "impacts that change pattern 3a to 3b or mirrored", outcome_count!(|r| r.impacts.table2[5])),
+        Column::result("impacts_c7", "", "impacts that change pattern 1a to 3a or mirrored", outcome_count!(|r| r.impacts.table2[6])),
+        Column::result("impacts_c8", "", "impacts that change pattern 2a to 3a or mirrored", outcome_count!(|r| r.impacts.table2[7])),
+        Column::result("impacts_other", "", "impacts with a change of pattern that is not in Table 2", outcome_count!(|r| r.impacts.other)),
+        Column::result("impacts_captured", "", "impacts, of any change, in which a joint was captured", outcome_count!(|r| r.impacts.captured)),
+        Column::result("openings", "", "openings of joints without an impact, all of them", outcome_count!(|r| r.openings.total())),
+        Column::result("openings_rest_to_3", "", "openings from rest into pattern 3", outcome_count!(|r| r.openings.rest_to_3)),
+        Column::result("openings_rest_to_4", "", "openings from rest into pattern 4", outcome_count!(|r| r.openings.rest_to_4)),
+        Column::result("openings_rest_to_both", "", "openings from rest into pattern 1 or 2", outcome_count!(|r| r.openings.rest_to_both)),
+        Column::result("openings_crack", "", "openings of the crack from pattern 3", outcome_count!(|r| r.openings.crack)),
+        Column::result("openings_ground", "", "openings of the ground from pattern 4", outcome_count!(|r| r.openings.ground)),
+        // Energy.
+        Column::result("energy_initial_j", "J", "kinetic, gravity and spring energy at the start", outcome_number!(|r| r.energy.initial_j)),
+        Column::result("energy_final_j", "J", "the same at the end", outcome_number!(|r| r.energy.final_j)),
+        Column::result("ground_work_j", "J", "work of the ground motion on the wall", outcome_number!(|r| r.energy.ground_work_j)),
+        Column::result("impact_loss_j", "J", "energy lost at impacts; negative where coefficients above 1 add energy", outcome_number!(|r| r.energy.impact_loss_j)),
+        Column::result("effect_loss_j", "J", "energy lost in dampers and other effects", outcome_number!(|r| r.energy.effect_loss_j)),
+        Column::result("energy_residual", "", "energy not accounted for, over the energy that passed through", outcome_number!(|r| r.energy.residual())),
+        // What the model forbids, and how near the run came to it.
+        Column::result("friction_demand_ground", "", "largest |H|/N at the ground while it is in compression", outcome_number!(|r| r.demand[0].friction)),
+        Column::result("tensions_ground", "", "how often the pivot at the ground came under tension", outcome_count!(|r| r.demand[0].tensions)),
+        Column::result("friction_demand_crack", "", "largest |H|/N at the crack while it is in compression", outcome_number!(|r| r.demand[1].friction)),
+        Column::result("tensions_crack", "", "how often the pivot at the crack came under tension", outcome_count!(|r| r.demand[1].tensions)),
+        // Effort; of a failed run, until it failed; of an incremental analysis, of the run that is kept.
+        Column::result("simulations", "", "simulations behind this row: several of an incremental analysis, 0 of a façade that is no wall", Read::Count(|f| Some(f.simulations))),
+        Column::result("steps", "", "steps kept", Read::Count(|f| f.response.as_ref().map(|r| r.work.steps))),
+        Column::result("rejected_steps", "", "steps tried again at a smaller size", Read::Count(|f| f.response.as_ref().map(|r| r.work.rejected_steps))),
+        Column::result("evaluations", "", "evaluations of the equations of motion", Read::Count(|f| f.response.as_ref().map(|r| r.work.evaluations))),
+    ] };
+}
+
+/// Every column of a result file, in order.
+#[rustfmt::skip] // As above.
+pub const COLUMNS: &[Column<Finished>] = with_results![
     // The plan.
     Column::input("run", "", "position in the plan, from 0", Read::Count(|f| Some(f.run.position))),
     Column::<Finished>::input("id", "", "first 16 hexadecimal digits of the SHA-256 of all inputs of the run", text!(|f| &f.run.id)).distinct(),
@@ -160,85 +246,10 @@ pub const COLUMNS: &[Column<Finished>] = &[
     Column::drawn("alpha1_rad", "rad", "slenderness angle of the lower body, atan(b_1 / h_1)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_i_rad()[0]))),
     Column::drawn("alpha2_rad", "rad", "slenderness angle of the upper body, atan(b_2 / h_2)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_i_rad()[1]))),
     Column::drawn("alpha_rad", "rad", "slenderness angle of the uncracked wall, atan(b_1 / h)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_rad()))),
-    // How the run ended.
-    Column::result("outcome", "", "stood, collapsed or failed", text!(|f| f.outcome())),
-    Column::result("reason", "", "why the run failed; null where it did not", Read::Text(|f| f.failure.as_deref().map(Cow::Borrowed))),
-    Column::result("collapsed", "", "whether a body passed its collapse rotation; null for a failed run", Read::Flag(|f| f.usable().map(|r| r.collapsed()))),
-    Column::result("collapse_time_s", "s", "when it did; null where it did not", Read::Number(|f| f.usable().and_then(|r| time_of(&r.outcome)))),
-    Column::result("end_time_s", "s", "end of the run", outcome_number!(|r| r.end_time_s)),
-    Column::result("limit_exceeded", "", "whether an incremental analysis found an intensity that exceeds its limit; null for other studies and failed runs", Read::Flag(|f| f.found.map(|found| found.exceeded))),
-    Column::result("stood_intensity", "unit of the measure", "highest intensity below that at which it did not: the lower end of the bracket", Read::Number(|f| f.found.map(|found| found.stood_intensity))),
-    // Largest rotations and displacements; of a collapsed wall, until collapse.
-    Column::result("theta1_max_rad", "rad", "largest rotation of the lower body, without sign", outcome_number!(|r| r.theta_max_rad[0].value.abs())),
-    Column::result("theta1_max_sign", "", "its sign, +1 towards +x", outcome_number!(|r| sign(r.theta_max_rad[0].value))),
-    Column::result("theta1_max_time_s", "s", "when it was reached", outcome_number!(|r| r.theta_max_rad[0].time_s)),
-    Column::result("theta1_max_over_alpha1", "", "largest rotation of the lower body over its slenderness angle", outcome_number!(|r| r.theta_max_over_alpha_i()[0])),
-    Column::result("theta1_max_over_alpha", "", "largest rotation of the lower body over the slenderness angle of the uncracked wall", outcome_number!(|r| r.theta_max_over_alpha()[0])),
-    Column::result("theta2_max_rad", "rad", "largest rotation of the upper body, without sign", outcome_number!(|r| r.theta_max_rad[1].value.abs())),
-    Column::result("theta2_max_sign", "", "its sign, +1 towards +x", outcome_number!(|r| sign(r.theta_max_rad[1].value))),
-    Column::result("theta2_max_time_s", "s", "when it was reached", outcome_number!(|r| r.theta_max_rad[1].time_s)),
-    Column::result("theta2_max_over_alpha2", "", "largest rotation of the upper body over its slenderness angle", outcome_number!(|r| r.theta_max_over_alpha_i()[1])),
-    Column::result("theta2_max_over_alpha", "", "largest rotation of the upper body over the slenderness angle of the uncracked wall", outcome_number!(|r| r.theta_max_over_alpha()[1])),
-    Column::result("theta_max_over_own_alpha", "", "the larger of θ_1/α_1 and θ_2/α_2 at their largest; that of a collapsed wall is collapse_rotation_ratio, to rounding", outcome_number!(|r| r.theta_max_over_own_alpha())),
-    Column::result("top_displacement_m", "m", "largest horizontal displacement of the top relative to the ground, with its sign", outcome_number!(|r| r.top_displacement_m.value)),
-    Column::result("top_displacement_time_s", "s", "when it was reached", outcome_number!(|r| r.top_displacement_m.time_s)),
-    Column::result("crack_displacement_m", "m", "largest horizontal displacement of the middle of the crack relative to the ground, with its sign", outcome_number!(|r| r.crack_displacement_m.value)),
-    Column::result("crack_displacement_time_s", "s", "when it was reached", outcome_number!(|r| r.crack_displacement_m.time_s)),
-    // Patterns, by the names of Fig. 4.
-    Column::result("pattern_rest_s", "s", "time spent in rest", outcome_number!(|r| r.pattern_time_s[0])),
-    Column::result("pattern_1a_s", "s", "time spent in pattern 1a", outcome_number!(|r| r.pattern_time_s[1])),
-    Column::result("pattern_2a_s", "s", "time spent in pattern 2a", outcome_number!(|r| r.pattern_time_s[2])),
-    Column::result("pattern_3a_s", "s", "time spent in pattern 3a", outcome_number!(|r| r.pattern_time_s[3])),
-    Column::result("pattern_4a_s", "s", "time spent in pattern 4a", outcome_number!(|r| r.pattern_time_s[4])),
-    Column::result("pattern_1b_s", "s", "time spent in pattern 1b", outcome_number!(|r| r.pattern_time_s[5])),
-    Column::result("pattern_2b_s", "s", "time spent in pattern 2b", outcome_number!(|r| r.pattern_time_s[6])),
-    Column::result("pattern_3b_s", "s", "time spent in pattern 3b", outcome_number!(|r| r.pattern_time_s[7])),
-    Column::result("pattern_4b_s", "s", "time spent in pattern 4b", outcome_number!(|r| r.pattern_time_s[8])),
-    Column::result("pattern_rest_share", "", "share of the run spent in rest", outcome_number!(|r| r.pattern_time_s[0] / r.end_time_s)),
-    Column::result("pattern_1a_share", "", "share of the run spent in pattern 1a", outcome_number!(|r| r.pattern_time_s[1] / r.end_time_s)),
-    Column::result("pattern_2a_share", "", "share of the run spent in pattern 2a", outcome_number!(|r| r.pattern_time_s[2] / r.end_time_s)),
-    Column::result("pattern_3a_share", "", "share of the run spent in pattern 3a", outcome_number!(|r| r.pattern_time_s[3] / r.end_time_s)),
-    Column::result("pattern_4a_share", "", "share of the run spent in pattern 4a", outcome_number!(|r| r.pattern_time_s[4] / r.end_time_s)),
-    Column::result("pattern_1b_share", "", "share of the run spent in pattern 1b", outcome_number!(|r| r.pattern_time_s[5] / r.end_time_s)),
-    Column::result("pattern_2b_share", "", "share of the run spent in pattern 2b", outcome_number!(|r| r.pattern_time_s[6] / r.end_time_s)),
-    Column::result("pattern_3b_share", "", "share of the run spent in pattern 3b", outcome_number!(|r| r.pattern_time_s[7] / r.end_time_s)),
-    Column::result("pattern_4b_share", "", "share of the run spent in pattern 4b", outcome_number!(|r| r.pattern_time_s[8] / r.end_time_s)),
-    // Impacts and openings.
-    Column::result("impacts", "", "impacts, all of them", outcome_count!(|r| r.impacts.total())),
-    Column::result("impacts_c1", "", "impacts that change pattern 1a to 2a or mirrored", outcome_count!(|r| r.impacts.table2[0])),
-    Column::result("impacts_c2", "", "impacts that change pattern 2a to 1a or mirrored", outcome_count!(|r| r.impacts.table2[1])),
-    Column::result("impacts_c3", "", "impacts that change pattern 1a to 2b or mirrored", outcome_count!(|r| r.impacts.table2[2])),
-    Column::result("impacts_c4", "", "impacts that change pattern 2a to 1b or mirrored", outcome_count!(|r| r.impacts.table2[3])),
-    Column::result("impacts_c5", "", "impacts that change pattern 3a to 1b or mirrored", outcome_count!(|r| r.impacts.table2[4])),
-    Column::result("impacts_c6", "", "impacts that change pattern 3a to 3b or mirrored", outcome_count!(|r| r.impacts.table2[5])),
-    Column::result("impacts_c7", "", "impacts that change pattern 1a to 3a or mirrored", outcome_count!(|r| r.impacts.table2[6])),
-    Column::result("impacts_c8", "", "impacts that change pattern 2a to 3a or mirrored", outcome_count!(|r| r.impacts.table2[7])),
-    Column::result("impacts_other", "", "impacts with a change of pattern that is not in Table 2", outcome_count!(|r| r.impacts.other)),
-    Column::result("impacts_captured", "", "impacts, of any change, in which a joint was captured", outcome_count!(|r| r.impacts.captured)),
-    Column::result("openings", "", "openings of joints without an impact, all of them", outcome_count!(|r| r.openings.total())),
-    Column::result("openings_rest_to_3", "", "openings from rest into pattern 3", outcome_count!(|r| r.openings.rest_to_3)),
-    Column::result("openings_rest_to_4", "", "openings from rest into pattern 4", outcome_count!(|r| r.openings.rest_to_4)),
-    Column::result("openings_rest_to_both", "", "openings from rest into pattern 1 or 2", outcome_count!(|r| r.openings.rest_to_both)),
-    Column::result("openings_crack", "", "openings of the crack from pattern 3", outcome_count!(|r| r.openings.crack)),
-    Column::result("openings_ground", "", "openings of the ground from pattern 4", outcome_count!(|r| r.openings.ground)),
-    // Energy.
-    Column::result("energy_initial_j", "J", "kinetic, gravity and spring energy at the start", outcome_number!(|r| r.energy.initial_j)),
-    Column::result("energy_final_j", "J", "the same at the end", outcome_number!(|r| r.energy.final_j)),
-    Column::result("ground_work_j", "J", "work of the ground motion on the wall", outcome_number!(|r| r.energy.ground_work_j)),
-    Column::result("impact_loss_j", "J", "energy lost at impacts; negative where coefficients above 1 add energy", outcome_number!(|r| r.energy.impact_loss_j)),
-    Column::result("effect_loss_j", "J", "energy lost in dampers and other effects", outcome_number!(|r| r.energy.effect_loss_j)),
-    Column::result("energy_residual", "", "energy not accounted for, over the energy that passed through", outcome_number!(|r| r.energy.residual())),
-    // What the model forbids, and how near the run came to it.
-    Column::result("friction_demand_ground", "", "largest |H|/N at the ground while it is in compression", outcome_number!(|r| r.demand[0].friction)),
-    Column::result("tensions_ground", "", "how often the pivot at the ground came under tension", outcome_count!(|r| r.demand[0].tensions)),
-    Column::result("friction_demand_crack", "", "largest |H|/N at the crack while it is in compression", outcome_number!(|r| r.demand[1].friction)),
-    Column::result("tensions_crack", "", "how often the pivot at the crack came under tension", outcome_count!(|r| r.demand[1].tensions)),
-    // Effort; of a failed run, until it failed; of an incremental analysis, of the run that is kept.
-    Column::result("simulations", "", "simulations behind this row: several of an incremental analysis, 0 of a façade that is no wall", Read::Count(|f| Some(f.simulations))),
-    Column::result("steps", "", "steps kept", Read::Count(|f| f.response.as_ref().map(|r| r.work.steps))),
-    Column::result("rejected_steps", "", "steps tried again at a smaller size", Read::Count(|f| f.response.as_ref().map(|r| r.work.rejected_steps))),
-    Column::result("evaluations", "", "evaluations of the equations of motion", Read::Count(|f| f.response.as_ref().map(|r| r.work.evaluations))),
 ];
+
+/// The columns of what came of runs that are of no plan, told by their numbers.
+pub const RESULTS: &[Column<Finished<usize>>] = with_results![];
 
 /// +1, -1, or 0 where nothing moved.
 fn sign(value: f64) -> f64 {

@@ -150,6 +150,12 @@ impl Ensemble {
         digits_of(0).min(digits_of(1)) < TAME_DIGITS
     }
 
+    /// Whether [`MEMBERS`] are too few: the run is chaotic, and they agree on its outcome, which more may not do.
+    pub fn needs_more(&self) -> bool {
+        // An outcome that flips is known to be undecided; more would tell its share a little better.
+        self.verdict() != Verdict::Undecided && self.is_chaotic()
+    }
+
     /// The same ensemble with the members that follow.
     #[must_use]
     pub fn with(mut self, more: impl IntoIterator<Item = Response>) -> Self {

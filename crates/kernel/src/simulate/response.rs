@@ -1,9 +1,11 @@
 //! The response of a run: maxima, patterns, events, energy.
 
+use serde::{Deserialize, Serialize};
+
 use crate::model::Table2Change;
 
 /// A largest value over a run: size, sign and when.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Peak {
     /// The value with its sign; its magnitude is the largest of the run.
     pub value: f64,
@@ -12,7 +14,7 @@ pub struct Peak {
 }
 
 /// How a run ended.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Outcome {
     /// The wall stood until the end, or until its observer had seen enough.
     Stood,
@@ -42,7 +44,7 @@ impl Outcome {
 }
 
 /// How often joints opened, by the change of state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Openings {
     /// From rest into pattern 3: the whole wall starts to rock.
     pub rest_to_3: u64,
@@ -64,7 +66,7 @@ impl Openings {
 }
 
 /// How often joints closed on an impact, by the change of state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Impacts {
     /// The changes of Table 2, C_1 … C_8 in order, mirrored changes included.
     pub table2: [u64; 8],
@@ -91,7 +93,7 @@ impl Impacts {
 }
 
 /// Where the energy went, J.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct EnergyLedger {
     /// Kinetic, gravity and spring energy at the start.
     pub initial_j: f64,
@@ -119,7 +121,7 @@ impl EnergyLedger {
 }
 
 /// What the model forbids, and how near the run came to it, at one joint.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct JointDemand {
     /// Largest |H|/N while the joint is in compression: the friction coefficient the wall needs.
     pub friction: f64,
@@ -128,7 +130,7 @@ pub struct JointDemand {
 }
 
 /// The work of the solver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Work {
     /// Steps kept.
     pub steps: u64,
@@ -142,7 +144,7 @@ pub struct Work {
 }
 
 /// Maxima, patterns, events, energy and effort of one run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Response {
     /// How the run ended.
     pub outcome: Outcome,
