@@ -1,0 +1,34 @@
+//! Why a text is no formula: where, what was found, what is allowed.
+
+/// Why a text is no formula, or one that cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}{found}; allowed: {allowed}", place(*.at))]
+pub struct FormulaError {
+    /// Character of the formula, from 1; `None` for what has no single place.
+    pub at: Option<usize>,
+    /// The parameter at fault, where it is not the formula.
+    pub parameter: Option<String>,
+    /// What was found.
+    pub found: String,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+fn place(at: Option<usize>) -> String {
+    at.map_or_else(String::new, |at| format!("at character {at}: "))
+}
+
+impl FormulaError {
+    pub(crate) fn new(at: Option<usize>, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self { at, parameter: None, found: found.into(), allowed: allowed.into() }
+    }
+
+    pub(crate) fn of_parameter(name: &str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self { at: None, parameter: Some(name.to_owned()), found: found.into(), allowed: allowed.into() }
+    }
+
+    /// What was found, with its place in the formula.
+    pub fn found_at(&self) -> String {
+        format!("{}{}", place(self.at), self.found)
+    }
+}

@@ -1,0 +1,260 @@
+//! A formula: text, place, parameters with units; checked, and ready to run.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use crate::dimension::{self, Dimension, Names};
+use crate::error::FormulaError;
+use crate::expression::{Expression, Function};
+use crate::jump::{Jump, jumps};
+use crate::parse::parse;
+use crate::program::{Program, State, compile};
+use crate::range::{Range, check_finite};
+use crate::switch::Branches;
+use crate::unit::dimension_of;
+
+/// Where a formula acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// At the top, on its displacement `x` (m), velocity `v` (m/s), acceleration `a` (m/s²): a force, N.
+    Top,
+    /// At the ground, on the rotation `phi` (rad) across the joint, its rate `w` (rad/s) and the weight `N`
+    /// (N) that it carries: a moment, N m.
+    Ground,
+    /// The same at the crack.
+    Crack,
+}
+
+impl Place {
+    /// Every place.
+    pub const ALL: [Place; 3] = [Place::Top, Place::Ground, Place::Crack];
+
+    /// Its name in wall files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Place::Top => "top",
+            Place::Ground => "ground",
+            Place::Crack => "crack",
+        }
+    }
+
+    /// The place of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|place| place.name() == name)
+    }
+
+    /// The key of its formula in wall files, which says what the formula gives.
+    pub fn key(self) -> &'static str {
+        match self {
+            Place::Top => "force_n",
+            Place::Ground | Place::Crack => "moment_n_m",
+        }
+    }
+
+    /// Names of the three variables.
+    pub fn variables(self) -> [&'static str; 3] {
+        match self {
+            Place::Top => ["x", "v", "a"],
+            Place::Ground | Place::Crack => ["phi", "w", "N"],
+        }
+    }
+
+    fn dimensions(self) -> [Dimension; 3] {
+        match self {
+            Place::Top => [Dimension::LENGTH, Dimension::VELOCITY, Dimension::ACCELERATION],
+            Place::Ground | Place::Crack => [Dimension::NONE, Dimension::RATE, Dimension::FORCE],
+        }
+    }
+
+    fn result(self) -> Dimension {
+        match self {
+            Place::Top => Dimension::FORCE,
+            Place::Ground | Place::Crack => Dimension::MOMENT,
+        }
+    }
+}
+
+/// A number of a formula, with its unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Its name in the formula.
+    pub name: String,
+    /// Its value, in its unit.
+    pub value: f64,
+    /// Its unit: of SI, without prefixes; empty or `1` for a pure number. Exponents may be parameters.
+    pub unit: String,
+}
+
+impl Parameter {
+    /// A parameter.
+    pub fn new(name: &str, value: f64, unit: &str) -> Self {
+        Self { name: name.to_owned(), value, unit: unit.to_owned() }
+    }
+}
+
+/// Parameters of a formula at most.
+const MOST_PARAMETERS: usize = 32;
+
+/// What Python takes for itself.
+const KEYWORDS: [&str; 35] = [
+    "False", "None", "True", "and", "as", "assert", "async", "await", "break", "class", "continue", "def",
+    "del", "elif", "else", "except", "finally", "for", "from", "global", "if", "import", "in", "is",
+    "lambda", "nonlocal", "not", "or", "pass", "raise", "return", "try", "while", "with", "yield",
+];
+
+/// A law of force or moment as a formula: its units are right, and every name is known.
+#[derive(Debug, Clone)]
+pub struct Formula {
+    place: Place,
+    expression: Expression,
+    parameters: Vec<Parameter>,
+    program: Arc<Program>,
+}
+
+/// Formulas are the same where place, expression and parameters are: the rest follows.
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.place == other.place
+            && self.expression == other.expression
+            && self.parameters == other.parameters
+    }
+}
+
+/// The formula as it is written.
+impl fmt::Display for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        self.expression.fmt(f)
+    }
+}
+
+impl Formula {
+    /// Reads a formula. Parameters are kept in the order of their names.
+    ///
+    /// # Errors
+    /// A text that is no formula; names that are unknown, taken or not used; units that do not go together.
+    pub fn parse(text: &str, place: Place, parameters: &[Parameter]) -> Result<Self, FormulaError> {
+        let parsed = parse(text)?;
+        let mut parameters = parameters.to_vec();
+        parameters.sort_by(|a, b| a.name.cmp(&b.name));
+        check_names(&parsed.expression, &parameters)?;
+        let values: BTreeMap<_, _> = parameters.iter().map(|p| (p.name.as_str(), p.value)).collect();
+        dimension::check(&parsed, &names(place, &parameters, &values)?, place.result())?;
+        let program = Arc::new(compile(&parsed.expression, place.variables(), &values)?);
+        Ok(Self { place, expression: parsed.expression, parameters, program })
+    }
+
+    /// The same with other values of its parameters, in the order of [`Formula::parameters`].
+    ///
+    /// # Errors
+    /// Values that are not finite, or with which the units do not go together any more.
+    pub fn with_values(&self, values: &[f64]) -> Result<Self, FormulaError> {
+        let own = self.parameters.iter().cloned().zip(values);
+        let parameters: Vec<_> = own.map(|(parameter, &value)| Parameter { value, ..parameter }).collect();
+        Self::parse(&self.to_string(), self.place, &parameters)
+    }
+
+    /// Where it acts.
+    pub fn place(&self) -> Place {
+        self.place
+    }
+
+    /// What it is made of.
+    pub fn expression(&self) -> &Expression {
+        &self.expression
+    }
+
+    /// Its parameters, by name.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// Ready to run.
+    pub fn program(&self) -> &Arc<Program> {
+        &self.program
+    }
+
+    /// Force or moment at a state, N or N m: what acts on the wall.
+    pub fn value(&self, state: State) -> f64 {
+        self.program.value(state, &Branches::FREE)
+    }
+
+    /// The same as the expression says it, step by step: slower.
+    pub fn value_as_written(&self, state: State) -> f64 {
+        let variables = self.place.variables();
+        let values = self.parameters.iter().map(|p| (p.name.as_str(), p.value)).collect();
+        let of = |name: &str| variables.iter().position(|own| *own == name).map(|i| state[i]);
+        self.expression.over(&values, &of).unwrap_or(f64::NAN)
+    }
+
+    /// Whether a variable (0, 1 or 2) occurs.
+    pub fn depends_on(&self, variable: usize) -> bool {
+        self.expression.has(self.place.variables()[variable])
+    }
+
+    /// Refuses a formula that is not finite over a range, or jumps where no motion could go on. Says of each
+    /// switch what it does.
+    ///
+    /// # Errors
+    /// The subexpression, the reason and the range.
+    pub fn check(&self, range: &Range) -> Result<Vec<Jump>, FormulaError> {
+        let values = self.parameters.iter().map(|p| (p.name.as_str(), p.value)).collect();
+        let names = self.place.variables();
+        check_finite(&self.expression, names, &values, range)?;
+        jumps(&self.program, names, range)
+    }
+}
+
+fn is_name(text: &str) -> bool {
+    let starts = text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+    starts && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && !KEYWORDS.contains(&text)
+}
+
+fn check_names(expression: &Expression, parameters: &[Parameter]) -> Result<(), FormulaError> {
+    if parameters.len() > MOST_PARAMETERS {
+        let found = format!("{} parameters", parameters.len());
+        return Err(FormulaError::new(None, found, format!("at most {MOST_PARAMETERS}")));
+    }
+    for (i, Parameter { name, value, .. }) in parameters.iter().enumerate() {
+        let variables = [Place::Top, Place::Ground].map(Place::variables).concat();
+        let functions = Function::ALL.map(Function::name);
+        let refused = |found: &str, allowed: &str| Err(FormulaError::of_parameter(name, found, allowed));
+        if !is_name(name) {
+            return refused(&format!("a parameter `{name}`"), "letters, digits and _, and no word of Python");
+        }
+        if variables.contains(&name.as_str()) || functions.contains(&name.as_str()) {
+            return refused(&format!("a parameter `{name}`"), "a name that is no variable and no function");
+        }
+        if i > 0 && parameters[i - 1].name == *name {
+            return refused(&format!("`{name}` again"), "each parameter once");
+        }
+        if !value.is_finite() {
+            return refused(&value.to_string(), "a finite number");
+        }
+        if !expression.has(name) {
+            return refused(
+                &format!("`{name}`, which the formula does not use"),
+                "parameters of the formula",
+            );
+        }
+    }
+    Ok(())
+}
+
+fn names<'a>(
+    place: Place,
+    parameters: &'a [Parameter],
+    values: &BTreeMap<&'a str, f64>,
+) -> Result<Names<'a>, FormulaError> {
+    let mut dimensions: BTreeMap<&str, Dimension> =
+        place.variables().into_iter().zip(place.dimensions()).collect();
+    for Parameter { name, unit, .. } in parameters {
+        let dimension = dimension_of(unit, values)
+            .map_err(|e| FormulaError::of_parameter(name, e.found_at(), e.allowed))?;
+        dimensions.insert(name, dimension);
+    }
+    let [x, v, a] = place.variables();
+    let own = parameters.iter().map(|p| format!(", {}", p.name)).collect::<String>();
+    let known = format!("{x}, {v}, {a}{own}; a further name is a parameter to be given");
+    Ok(Names { dimensions, values: values.clone(), known })
+}

@@ -1,0 +1,51 @@
+//! Laws of force written as formulas: `-k*x - c*abs(v)**p*sign(v)`.
+//!
+//! A formula is arithmetic and nothing else. What Python reads, it reads the same way. Every subexpression has
+//! its dimension, depth and length are bounded, and nothing can be written that does not end.
+//!
+//! # From text to force
+//!
+//! | module | from | to |
+//! | --- | --- | --- |
+//! | `parse` | text | an [`Expression`], or where it is none |
+//! | `dimension` | an expression, the units of its parameters | the dimension of each subexpression |
+//! | `program` | an expression, the values of its parameters | a tape that is run, and its switches |
+//! | `range` | an expression, a range of states | whether it is finite everywhere there |
+//! | `jump` | a program, a range of states | where the force jumps, and whether that can be followed |
+//!
+//! A [`Switch`] is where `abs`, `sign`, `max`, `min` or a comparison changes its branch. Between switches the
+//! branches are frozen ([`Branches`]) and the force is smooth: who steps a motion stops at each of them.
+//!
+//! ```
+//! use mrbd_formula::{Formula, Parameter, Place};
+//!
+//! let parameters = [Parameter::new("k", 37e3, "N/m"), Parameter::new("c", 200.0, "N*(s/m)**1.7")];
+//! let law = Formula::parse("-k*x - c*abs(v)**1.7*sign(v)", Place::Top, &parameters)?;
+//! assert_eq!(law.value([0.01, 0.0, 0.0]), -370.0);
+//! assert_eq!(law.to_string(), "-k*x - c*abs(v)**1.7*sign(v)");
+//! let wrong = Formula::parse("-k*x - c*v", Place::Top, &parameters).expect_err("c is of another law");
+//! assert!(wrong.to_string().contains("c*v"), "{wrong}");
+//! # Ok::<(), mrbd_formula::FormulaError>(())
+//! ```
+
+mod dimension;
+mod error;
+mod expression;
+mod formula;
+mod interval;
+mod jump;
+mod number;
+mod parse;
+mod program;
+mod range;
+mod switch;
+mod unit;
+
+pub use dimension::Dimension;
+pub use error::FormulaError;
+pub use expression::{Expression, Function, Operator};
+pub use formula::{Formula, Parameter, Place};
+pub use jump::Jump;
+pub use program::{MOST_SWITCHES, Program, State};
+pub use range::Range;
+pub use switch::{Branch, Branches, Switch, SwitchAt};

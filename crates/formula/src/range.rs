@@ -1,0 +1,160 @@
+//! Is a formula finite at every state that can be reached? Shown by intervals, not by trying states.
+//!
+//! The range is halved where an interval is too wide to tell. What cannot be shown in so many halves is refused.
+
+use std::collections::BTreeMap;
+
+use crate::error::FormulaError;
+use crate::expression::{Expression, Function, Operator};
+use crate::interval::Interval;
+use crate::number::Number;
+use crate::program::{State, whole_exponent};
+
+/// From the least to the largest value of each of the three variables of a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// The least.
+    pub low: State,
+    /// The largest.
+    pub high: State,
+}
+
+/// Halvings one within another: a part of the range then is a millionth of it.
+const MOST_HALVINGS: usize = 40;
+/// Parts looked at in all.
+const MOST_PARTS: usize = 4000;
+/// A force or moment larger than this is no law of a wall, N or N m.
+const MOST_VALUE: f64 = 1e15;
+
+impl Range {
+    /// The range as intervals.
+    pub(crate) fn intervals(&self) -> State<Interval> {
+        [0, 1, 2].map(|i| Interval::new(self.low[i], self.high[i]))
+    }
+
+    /// Both halves, cut across the variable that is widest beside its whole width.
+    pub(crate) fn halves(&self, whole: &Range) -> [Range; 2] {
+        let share = |range: &Range, i: usize| (range.high[i] - range.low[i]) / (whole.high[i] - whole.low[i]);
+        let widest = (0..3).filter(|i| whole.high[*i] > whole.low[*i]);
+        let cut = widest.max_by(|a, b| share(self, *a).total_cmp(&share(self, *b))).unwrap_or(0);
+        let middle = 0.5 * (self.low[cut] + self.high[cut]);
+        let (mut first, mut second) = (*self, *self);
+        first.high[cut] = middle;
+        second.low[cut] = middle;
+        [first, second]
+    }
+}
+
+/// What is not known to be finite, and what would be allowed.
+struct Doubt {
+    found: String,
+    allowed: String,
+}
+
+struct Search<'a> {
+    expression: &'a Expression,
+    variables: [&'static str; 3],
+    values: &'a BTreeMap<&'a str, f64>,
+    whole: &'a Range,
+    parts: usize,
+}
+
+/// Refuses an expression that is not shown to be finite everywhere in a range.
+///
+/// # Errors
+/// The subexpression, the reason, and the range.
+pub fn check_finite(
+    expression: &Expression,
+    variables: [&'static str; 3],
+    values: &BTreeMap<&str, f64>,
+    range: &Range,
+) -> Result<(), FormulaError> {
+    let mut search = Search { expression, variables, values, whole: range, parts: 0 };
+    search.part(range, MOST_HALVINGS).map_err(|doubt| {
+        let over: Vec<_> = (0..3)
+            .filter(|i| expression.has(variables[*i]))
+            .map(|i| format!("{} from {} to {}", variables[i], written(range.low[i]), written(range.high[i])))
+            .collect();
+        let within = if over.is_empty() { String::new() } else { format!(", for {}", over.join(" and ")) };
+        FormulaError::new(None, doubt.found, format!("{}{within}", doubt.allowed))
+    })
+}
+
+/// Four digits, for messages.
+fn written(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+impl Search<'_> {
+    fn part(&mut self, range: &Range, halvings: usize) -> Result<(), Doubt> {
+        self.parts += 1;
+        let doubt = match self.of(self.expression, range.intervals()) {
+            Ok(value) if value.abs().high <= MOST_VALUE => return Ok(()),
+            Ok(_) => Doubt {
+                found: format!("`{}`, which may be beyond {MOST_VALUE:e}", self.expression),
+                allowed: format!("forces and moments within {MOST_VALUE:e}"),
+            },
+            Err(doubt) => doubt,
+        };
+        let varies =
+            (0..3).any(|i| self.whole.high[i] > self.whole.low[i] && self.expression.has(self.variables[i]));
+        if halvings == 0 || self.parts >= MOST_PARTS || !varies {
+            return Err(doubt);
+        }
+        // A state at which it fails needs no halves.
+        let middle = [0, 1, 2].map(|i| Interval::constant(0.5 * (range.low[i] + range.high[i])));
+        self.of(self.expression, middle)?;
+        let [first, second] = range.halves(self.whole);
+        self.part(&first, halvings - 1)?;
+        self.part(&second, halvings - 1)
+    }
+
+    fn of(&self, e: &Expression, over: State<Interval>) -> Result<Interval, Doubt> {
+        let parts = e.parts().into_iter().map(|part| self.of(part, over)).collect::<Result<Vec<_>, _>>()?;
+        let variable = |name: &str| self.variables.iter().position(|own| *own == name).map(|i| over[i]);
+        // The parts are finite: one level is left.
+        let value = match (e, &parts[..]) {
+            (Expression::Binary(operator, _, b), [x, y]) => self.of_two(*operator, b, *x, *y),
+            (Expression::Of(function, _), [x]) => function.of(*x),
+            (Expression::OfTwo(Function::Max, ..), [x, y]) => x.max(*y),
+            (Expression::OfTwo(..), [x, y]) => x.min(*y),
+            (Expression::Negative(_), [x]) => x.neg(),
+            _ => e.over(self.values, &variable).unwrap_or(Interval::new(f64::NAN, f64::NAN)),
+        };
+        if value.is_finite() { Ok(value) } else { Err(self.doubt(e, &parts)) }
+    }
+
+    fn of_two(&self, operator: Operator, b: &Expression, x: Interval, y: Interval) -> Interval {
+        let whole = b.constant(self.values).and_then(whole_exponent);
+        match (operator, whole) {
+            (Operator::Power, Some(exponent)) => x.powi(exponent),
+            _ => operator.of(x, y),
+        }
+    }
+
+    fn doubt(&self, e: &Expression, parts: &[Interval]) -> Doubt {
+        let negative = parts.first().is_some_and(|a| a.low < 0.0);
+        let (found, allowed) = match e {
+            Expression::Binary(Operator::Divide, _, b) => {
+                (format!("`{e}`, where `{b}` may be zero"), "a divisor that is never zero".to_owned())
+            }
+            Expression::Binary(Operator::Power, a, b)
+                if b.constant(self.values).and_then(whole_exponent).is_none() && negative =>
+            {
+                (
+                    format!("`{e}`, where `{a}` may be negative"),
+                    format!("a base that is never negative, such as abs({a})**{b}*sign({a})"),
+                )
+            }
+            Expression::Binary(Operator::Power, a, _) => (
+                format!("`{e}`, where `{a}` may be zero, or the power too large"),
+                "a power that is finite".to_owned(),
+            ),
+            Expression::Of(Function::Sqrt, a) => {
+                (format!("`{e}`, where `{a}` may be negative"), "a root of what is never negative".to_owned())
+            }
+            _ => (format!("`{e}`, which may be too large for a number"), "what is finite".to_owned()),
+        };
+        Doubt { found, allowed }
+    }
+}
