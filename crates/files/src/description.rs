@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::slips::{density_kg_m3, questions, top_period_s};
-use mrbd_kernel::model::{Effect, G_M_S2, Wall};
+use mrbd_kernel::model::{FurtherLaw, G_M_S2, Wall};
 
 /// A wall in the quantities by which an engineer checks it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -33,7 +33,7 @@ pub struct Description {
     /// Steady accelerations that open a joint of the wall at rest.
     pub opening: Opening,
     /// Further effects, as in the wall file.
-    pub effects: Vec<Effect>,
+    pub effects: Vec<FurtherLaw>,
     /// What few walls have and may be a slip.
     pub questions: Vec<String>,
 }
@@ -121,7 +121,7 @@ impl Description {
                 period_s: top_period_s(wall),
             },
             opening,
-            effects: p.effects.clone(),
+            effects: p.further_laws(),
             questions: questions(wall),
         }
     }

@@ -7,7 +7,10 @@ use serde::{Deserialize, Serialize};
 use super::toml_file;
 use crate::error::{InputError, Result};
 use crate::slips::{self, Lengths};
-use mrbd_kernel::model::{Effect, ImpactLaw, Restitution, Wall, WallParameters, crushed_widths_m};
+use mrbd_formula::Formula;
+use mrbd_kernel::model::{
+    Effect, FurtherLaw, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m,
+};
 
 /// A wall file as written.
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
@@ -26,7 +29,7 @@ struct WallFile {
     #[serde(default)]
     initial: Initial,
     #[serde(default)]
-    effects: Vec<Effect>,
+    effects: Vec<FurtherLaw>,
 }
 
 #[derive(Debug, Clone, PartialEq, Deserialize, Serialize)]
@@ -148,6 +151,7 @@ fn wall(path: &Path, file: WallFile) -> Result<Wall, InputError> {
             .capture_velocity_rad_s
             .unwrap_or(default.capture_velocity_rad_s),
     };
+    let (effects, formulas) = apart(&file.effects);
     let parameters = WallParameters {
         thickness_m: file.wall.thickness_m,
         height_m: file.wall.height_m,
@@ -166,9 +170,39 @@ fn wall(path: &Path, file: WallFile) -> Result<Wall, InputError> {
             .rotation_ratio
             .unwrap_or(WallParameters::DEFAULT_COLLAPSE_RATIO),
         initial_rotation_rad: [file.initial.theta1_rad, file.initial.theta2_rad],
-        effects: file.effects,
+        effects,
+        formulas,
     };
-    Wall::new(parameters).map_err(|e| InputError::key(path, e.key, e.found, e.allowed))
+    Wall::new(parameters).map_err(|e| {
+        let key = key_in_file(&e, &file.effects);
+        InputError::key(path, key, e.found, e.allowed)
+    })
+}
+
+/// Those of the catalogue, and formulas.
+fn apart(laws: &[FurtherLaw]) -> (Vec<Effect>, Vec<Formula>) {
+    let (mut effects, mut formulas) = (Vec::new(), Vec::new());
+    for law in laws {
+        match law {
+            FurtherLaw::Effect(effect) => effects.push(*effect),
+            FurtherLaw::Formula(formula) => formulas.push(formula.clone()),
+        }
+    }
+    (effects, formulas)
+}
+
+/// The key as the file has it: the model counts effects and formulas apart, the file counts them together.
+fn key_in_file(e: &ImpossibleWall, laws: &[FurtherLaw]) -> String {
+    let of_list = |list: &str, is_of_list: fn(&FurtherLaw) -> bool| {
+        let rest = e.key.strip_prefix(list)?;
+        let (number, rest) = rest.split_once('.').map_or((rest, None), |(number, rest)| (number, Some(rest)));
+        let number: usize = number.parse().ok()?;
+        let (position, _) = laws.iter().enumerate().filter(|(_, law)| is_of_list(law)).nth(number)?;
+        Some(rest.map_or(format!("effects.{position}"), |rest| format!("effects.{position}.{rest}")))
+    };
+    of_list("effects.", |law| matches!(law, FurtherLaw::Effect(_)))
+        .or_else(|| of_list("formulas.", |law| matches!(law, FurtherLaw::Formula(_))))
+        .unwrap_or_else(|| e.key.to_string())
 }
 
 fn mass_kg(path: &Path, body: &Body) -> Result<f64, InputError> {
@@ -239,6 +273,53 @@ mod tests {
         let floor = "[diaphragm]\nmass_kg = 200.0\nstiffness_n_per_m = 37e3\n";
         let held = read(&format!("{FEWEST}{floor}")).expect("a wall");
         assert_eq!((held.carriage_mass_kg, held.stiffness_n_per_m, held.lower_width_m), (0.0, 37e3, 0.3));
+    }
+
+    const FORMULA: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-k*x - d*abs(v)**p*sign(v)\"\n\
+        [effects.parameters]\nk = { value = 37e3, unit = \"N/m\" }\np = { value = 1.7, unit = \"1\" }\n\
+        d = { value = 900, unit = \"N*(s/m)**p\" }\n";
+
+    #[test]
+    fn analytic_a_formula_of_a_wall_file_is_written_as_it_was_read() {
+        let friction = "[[effects]]\nkind = \"coulomb_friction\"\nforce_n = 300.0\n";
+        let wall = read(&format!("{FEWEST}{FORMULA}{friction}")).expect("a wall");
+        assert_eq!((wall.effects.len(), wall.formulas.len()), (1, 1));
+        assert_eq!(wall.formulas[0].to_string(), "-k*x - d*abs(v)**p*sign(v)");
+        #[derive(Serialize)]
+        struct Laws {
+            effects: Vec<FurtherLaw>,
+        }
+        let text = toml::to_string(&Laws { effects: wall.further_laws() }).expect("a table");
+        assert_eq!(read(&format!("{FEWEST}{text}")).expect(&text), wall, "{text}");
+        let table = toml::from_str(&format!("{FEWEST}{FORMULA}{friction}")).expect("TOML");
+        let of_table = wall_from_table(Path::new("wall.toml"), table).expect("a wall");
+        assert_eq!(*of_table.parameters(), wall);
+    }
+
+    #[test]
+    fn rejects_formulas_with_file_key_and_place() {
+        let friction = "[[effects]]\nkind = \"coulomb_friction\"\nforce_n = 300.0\n";
+        for (found, put, parts) in [
+            (
+                "-k*x",
+                "-k*y",
+                &["effects[1]", "at character 4: an unknown name `y` in `force_n` of formula"][..],
+            ),
+            ("-k*x - d", "-k*x + x - d", &["`-k*x` in N and `x` in m", "one unit"]),
+            ("\"N/m\"", "\"kN/m\"", &["`kN` in `kN/m` in `parameters.k`", "without prefixes"]),
+            ("place = \"top\"", "place = \"roof\"", &["`roof` for `place`", "`top`, `ground`, `crack`"]),
+            ("place = \"top\"\n", "", &["no `place`"]),
+            ("force_n", "moment_n_m", &["no `force_n`", "at the top"]),
+            ("value = 900, ", "", &["no `value` for `parameters.d`", "[effects.parameters]"]),
+            ("{ value = 900, unit = \"N*(s/m)**p\" }", "900", &["900 for `parameters.d`"]),
+            ("-k*x", "-k*x/(x/x)", &["wall.toml: effects.1.force_n", "`x/x`, where `x` may be zero"]),
+            ("place = \"top\"", "place = \"top\"\nmass_kg = 2", &["unknown key `mass_kg`", "`parameters`"]),
+        ] {
+            assert!(FORMULA.contains(found), "{found}");
+            let text = format!("{FEWEST}{friction}{}", FORMULA.replacen(found, put, 1));
+            let message = read(&text).expect_err(&text).to_string();
+            assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} in: {message}");
+        }
     }
 
     #[test]

@@ -23,6 +23,11 @@ impl FormulaError {
         Self { at, parameter: None, found: found.into(), allowed: allowed.into() }
     }
 
+    /// Something of the whole formula.
+    pub fn found(found: &str, allowed: &str) -> Self {
+        Self::new(None, found, allowed)
+    }
+
     pub(crate) fn of_parameter(name: &str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
         Self { at: None, parameter: Some(name.to_owned()), found: found.into(), allowed: allowed.into() }
     }

@@ -40,6 +40,7 @@ mod program;
 mod range;
 mod switch;
 mod unit;
+mod written;
 
 pub use dimension::Dimension;
 pub use error::FormulaError;

@@ -202,8 +202,7 @@ pub(crate) fn compile(
             format!("at most {MOST_DEPTH} levels"),
         ));
     }
-    let mut terms = Vec::new();
-    compiler.terms(expression, false, &mut terms)?;
+    let terms = expanded(expression).iter().map(|term| compiler.tape(term)).collect::<Result<Vec<_>, _>>()?;
     Ok(Program { tape, switches: compiler.switches, terms })
 }
 
@@ -459,29 +458,28 @@ impl Compiler<'_> {
             _ => None,
         }
     }
+}
 
-    /// The terms of a sum, each with its sign.
-    fn terms(&mut self, e: &Expression, negative: bool, terms: &mut Vec<Tape>) -> Result<(), FormulaError> {
-        match e {
-            Expression::Binary(Operator::Add, a, b) => {
-                self.terms(a, negative, terms)?;
-                self.terms(b, negative, terms)
-            }
-            Expression::Binary(Operator::Subtract, a, b) => {
-                self.terms(a, negative, terms)?;
-                self.terms(b, !negative, terms)
-            }
-            Expression::Negative(a) => self.terms(a, !negative, terms),
-            _ => {
-                let mut term = self.tape(e)?;
-                if negative {
-                    term.0.push(Step::Negative);
-                }
-                terms.push(term);
-                Ok(())
-            }
+/// Terms of an expanded sum at most; what has more is left as it is.
+const MOST_TERMS: usize = 64;
+
+/// The terms of a sum, products of sums multiplied out: what an interval of a difference can be told from.
+fn expanded(e: &Expression) -> Vec<Expression> {
+    let negative = |e: Expression| Expression::Negative(Box::new(e));
+    let terms: Vec<Expression> = match e {
+        Expression::Binary(Operator::Add, a, b) => [expanded(a), expanded(b)].concat(),
+        Expression::Binary(Operator::Subtract, a, b) => {
+            expanded(a).into_iter().chain(expanded(b).into_iter().map(negative)).collect()
         }
-    }
+        Expression::Negative(a) => expanded(a).into_iter().map(negative).collect(),
+        Expression::Binary(operator @ (Operator::Multiply | Operator::Divide), a, b) => {
+            let factors = if *operator == Operator::Multiply { expanded(b) } else { vec![(**b).clone()] };
+            let of = |x: &Expression, y: &Expression| Expression::binary(*operator, x.clone(), y.clone());
+            expanded(a).iter().flat_map(|x| factors.iter().map(move |y| of(x, y))).collect()
+        }
+        _ => return vec![e.clone()],
+    };
+    if terms.len() > MOST_TERMS { vec![e.clone()] } else { terms }
 }
 
 /// Steps of a and b, and their difference.

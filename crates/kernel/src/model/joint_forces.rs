@@ -151,7 +151,8 @@ impl Motion {
     /// The same at a state.
     pub fn rate_and_reactions_at(&self, theta: Pair, omega: Pair, ground: Vector) -> (MotionRate, Reactions) {
         if let Some(bedded) = &self.bedded {
-            let (rate, reactions) = bedded.reactions(&self.laws, self.held, [theta, omega], None, ground);
+            let (rate, reactions) =
+                bedded.reactions(&self.laws, &self.formulas, self.held, [theta, omega], None, ground);
             return (rate.into(), reactions);
         }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
@@ -163,7 +164,9 @@ impl Motion {
     /// Joint forces and motion of the top at a state with these angular accelerations.
     pub fn reactions(&self, theta: Pair, omega: Pair, theta_dd: Pair, ground: Vector) -> Reactions {
         if let Some(bedded) = &self.bedded {
-            return bedded.reactions(&self.laws, self.held, [theta, omega], Some(theta_dd), ground).1;
+            return bedded
+                .reactions(&self.laws, &self.formulas, self.held, [theta, omega], Some(theta_dd), ground)
+                .1;
         }
         let [theta, omega, theta_dd] = [theta, omega, theta_dd].map(f64x2::new);
         dispatch!(self.level, _ => {

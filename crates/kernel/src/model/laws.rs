@@ -101,6 +101,8 @@ pub(crate) struct PiecewiseLaws {
     smooth: Laws,
     floor_n_per_m: f64,
     friction_n: f64,
+    /// Whether a formula jumps against the motion.
+    formulas_rub: bool,
     gap_m: f64,
     one_sided_n_per_m: [f64; 2],
     yielding: Option<Yielding>,
@@ -110,7 +112,7 @@ impl PiecewiseLaws {
     /// The laws of a wall, if any has a kink.
     ///
     /// Every sum by its name: a new one does not compile here until somebody says whether its law has kinks.
-    pub fn new(smooth: Laws, effects: &EffectSums) -> Option<Self> {
+    pub fn new(smooth: Laws, effects: &EffectSums, formulas_rub: bool) -> Option<Self> {
         let EffectSums {
             friction_n,
             gap_half_width_m: gap_m,
@@ -129,12 +131,26 @@ impl PiecewiseLaws {
             ground: _,
             reading: _,
         } = *effects;
-        let kinks = friction_n > 0.0 || gap_m > 0.0 || one_sided_n_per_m != [0.0; 2] || yielding.is_some();
+        let rubs = friction_n > 0.0 || formulas_rub;
+        let kinks = rubs || gap_m > 0.0 || one_sided_n_per_m != [0.0; 2] || yielding.is_some();
         let floor_n_per_m = smooth.stiffness_n_per_m;
-        kinks.then_some(Self { smooth, floor_n_per_m, friction_n, gap_m, one_sided_n_per_m, yielding })
+        kinks.then_some(Self {
+            smooth,
+            floor_n_per_m,
+            friction_n,
+            formulas_rub,
+            gap_m,
+            one_sided_n_per_m,
+            yielding,
+        })
     }
 
-    /// F_c, N.
+    /// Whether friction can hold the top.
+    pub fn rubs(&self) -> bool {
+        self.friction_n > 0.0 || self.formulas_rub
+    }
+
+    /// F_c of friction of constant force, N.
     pub fn friction_n(&self) -> f64 {
         self.friction_n
     }
@@ -229,7 +245,7 @@ impl PiecewiseLaws {
             beyond(elastic, 1.0, regime.plastic_m + x_y, Change::Yields(Side::Positive)),
             beyond(elastic, -1.0, regime.plastic_m - x_y, Change::Yields(Side::Negative)),
             stops(yielding, regime.yields),
-            stops(self.friction_n > 0.0, regime.slides),
+            stops(self.rubs(), regime.slides),
         ]
         .into_iter()
         .flatten()
@@ -242,6 +258,8 @@ impl PiecewiseLaws {
             Kink::Passes { change: Change::Leans(leans), .. } => Regime { leans, ..*regime },
             Kink::Passes { change: Change::Yields(yields), .. } => Regime { yields, ..*regime },
             Kink::Stops { .. } => Regime { slides: Side::Between, ..self.unloaded(regime, x_c_m) },
+            // A switch of a formula is none of the regime's.
+            Kink::Turns { .. } => *regime,
         }
     }
 

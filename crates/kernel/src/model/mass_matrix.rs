@@ -1,6 +1,7 @@
 //! The mass matrix of the two rotations, which of them are free, and how fast small motions change.
 
 use super::contact::Contact;
+use super::formula::Slopes;
 use super::geometry::{Pair, Rotations};
 use super::motion::Motion;
 use super::wall::G_M_S2;
@@ -85,11 +86,17 @@ impl MassMatrix {
     }
 }
 
+/// A stiffness or damping at the ground and at the crack, on θ_1 and θ_2.
+fn at_joints(ground: f64, crack: f64) -> MassMatrix {
+    MassMatrix { m11: ground + crack, m12: -crack, m22: crack }
+}
+
 impl Motion {
     /// Rate at which small motions about zero rotation can change, 1/s, under a stiffness at the top in N/m.
     /// With M θ'' + D θ' + K θ = 0, no frequency squared is above the trace of M⁻¹ K. No damping rate is
     /// above the trace of M⁻¹ D: neither matrix has a negative eigenvalue. Gravity counts as if it restored.
-    pub fn fastest_rate_per_s(&self, stiffness_n_per_m: f64) -> f64 {
+    /// Formulas count by their largest slopes.
+    pub fn fastest_rate_per_s(&self, stiffness_n_per_m: f64, of_formulas: &Slopes) -> f64 {
         let laws = &self.laws;
         let top = |factor: f64| {
             let (y_q, y_c) = (self.q.y, self.c.y);
@@ -97,14 +104,14 @@ impl Motion {
         };
         // A cubic spring as it is at half the wall's thickness.
         let cubic = (3.0 * laws.cubic_n_per_m3 * self.o_x * self.o_x).max(0.0);
-        let mut stiffness = top(stiffness_n_per_m + cubic);
+        let Slopes { top: [further_k, further_c], joints: [at_ground, at_crack], .. } = *of_formulas;
+        let mut stiffness = top(stiffness_n_per_m + cubic + further_k);
         stiffness.m11 += G_M_S2 * self.v.y;
         stiffness.m22 += G_M_S2 * self.u.y;
-        let mut damping = top(laws.viscous_n_s_per_m);
+        stiffness = stiffness.plus(&at_joints(at_ground[0], at_crack[0]));
         let [c_ground, c_crack] = laws.joint_damping_n_m_s;
-        damping.m11 += c_ground + c_crack;
-        damping.m12 -= c_crack;
-        damping.m22 += c_crack;
+        let damping = top(laws.viscous_n_s_per_m + further_c);
+        let mut damping = damping.plus(&at_joints(c_ground + at_ground[1], c_crack + at_crack[1]));
         if let Some(bedded) = &self.bedded {
             let [of_beds, of_dampers] = bedded.stiffness_and_damping();
             stiffness = stiffness.plus(&of_beds);

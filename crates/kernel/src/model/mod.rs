@@ -9,6 +9,7 @@
 mod bed;
 mod contact;
 mod effect;
+mod formula;
 mod geometry;
 mod impact;
 mod joint_forces;
@@ -26,9 +27,10 @@ pub use bed::Bed;
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub(crate) use effect::GroundChange;
 pub use effect::{
-    Effect, EffectChoice, EffectEntry, EffectError, EffectKind, EffectParameter, EffectVariant, Lanes, Place,
-    Quantity, Reading, Role,
+    Effect, EffectChoice, EffectEntry, EffectError, EffectKind, EffectParameter, EffectVariant, FurtherLaw,
+    Lanes, Place, Quantity, Reading, Role,
 };
+pub(crate) use formula::{Path, Turn};
 pub use geometry::Pair;
 pub use impact::Impact;
 pub(crate) use joint_forces::Reactions;

@@ -15,6 +15,7 @@ use wide::f64x2;
 
 use super::bed::{BeddedMotion, BeddedRate};
 use super::contact::Contact;
+use super::formula::FormulaLaws;
 use super::geometry::{Arms, Pair, Rotations};
 use super::laws::Laws;
 use super::mass_matrix::{Freedom, MassMatrix};
@@ -70,7 +71,9 @@ pub(crate) struct Motion {
     pub(super) v: Vector,
     pub(super) u: Vector,
     pub(super) laws: Laws,
-    /// Whether the laws have dampers.
+    /// The laws written as formulas.
+    pub(super) formulas: FormulaLaws,
+    /// Whether the laws have dampers, or formulas.
     pub(super) damped: bool,
     /// x and y of (q, c) and of (V, U) side by side.
     pub(super) lanes: [f64x2; 4],
@@ -116,9 +119,19 @@ pub(super) struct Equations {
     /// Displacement (m) and velocity (m/s) of the top.
     pub(super) x_c: f64,
     pub(super) v_c: f64,
-    /// Force of the damper at the top, and of spring and damper, N.
+    /// Force of the damper and of formulas at the top, and with that of the spring, N.
     pub(super) damping: f64,
     pub(super) spring_and_damping: f64,
+    /// Moments of dampers and formulas at the joints, on θ_1 and θ_2, N m.
+    pub(super) joint_moments: f64x2,
+}
+
+impl Configuration {
+    /// θ_1 and θ_2, to a rounding.
+    fn theta(&self) -> Pair {
+        let (sin, cos) = (self.sin.to_array(), self.cos.to_array());
+        [0, 1].map(|i| sin[i].atan2(cos[i]))
+    }
 }
 
 impl Motion {
@@ -142,8 +155,9 @@ impl Motion {
             c: arms.c,
             v,
             u,
-            damped: laws.is_damped(),
+            damped: laws.is_damped() || !wall.formulas.is_empty(),
             laws,
+            formulas: FormulaLaws::new(wall.formulas.clone()),
             lanes: [[arms.q.x, arms.c.x], [arms.q.y, arms.c.y], [v.x, u.x], [v.y, u.y]].map(f64x2::new),
             inertias: f64x2::new([inertia_1, inertia_2]),
             lower_mass: m1,
@@ -165,7 +179,7 @@ impl Motion {
 
     /// Puts other laws at the top, and holds it in place or lets it go.
     pub fn set_laws(&mut self, laws: Laws, held: bool) {
-        self.damped = laws.is_damped();
+        self.damped = laws.is_damped() || !self.formulas.is_empty();
         self.laws = laws;
         self.held = held && self.freedom != Freedom::None;
     }
@@ -222,7 +236,7 @@ impl Motion {
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
         if let Some(bedded) = &self.bedded {
-            return bedded.rate(&self.laws, self.held, theta, omega, ground).into();
+            return bedded.rate(&self.laws, &self.formulas, self.held, [theta, omega], ground).into();
         }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
         dispatch!(self.level, _ => self.rate_at(&self.configuration(theta), omega, ground)).into()
@@ -251,12 +265,13 @@ impl Motion {
         let (a_x, a_y) = (ground.x, ground.y + G_M_S2);
         let v_c = r.y * omega;
         let carriage_acceleration = fused(-r.x, omega * omega, a_x);
-        let mut top = self.laws.spring_force_n(r.x + self.o_c) - m_dp * carriage_acceleration;
+        let x_c_m = r.x + self.o_c;
+        let mut top = self.laws.spring_force_n(x_c_m) - m_dp * carriage_acceleration;
         let mut weight_and_ground = fused(w.x, a_y, -w.y * a_x);
         let mut loss_power_w = 0.0;
         if self.damped {
-            let damping = self.laws.damping_force_n(v_c);
-            let [joint, _] = self.laws.joint_moments_n_m(f64x2::splat(omega)).to_array();
+            let damping = self.damping_force_n(x_c_m, v_c);
+            let [joint, _] = self.joint_moments_n_m(|| [theta; 2], f64x2::splat(omega)).to_array();
             top += damping;
             weight_and_ground += joint;
             loss_power_w = -fused(damping, v_c, joint * omega);
@@ -287,16 +302,42 @@ impl Motion {
         let weight_and_ground = fused_pair(t.s_x, f64x2::splat(a_y), -t.s_y * a_x);
         let forces = fused_pair(f64x2::splat(kappa), f64x2::new([w2, -w1]), weight_and_ground);
         let mass = self.mass_matrix_of(t);
-        let equations =
-            Equations { mass, f: forces, squares, x_c: x_c_m, v_c, damping: 0.0, spring_and_damping: spring };
+        let equations = Equations {
+            mass,
+            f: forces,
+            squares,
+            x_c: x_c_m,
+            v_c,
+            damping: 0.0,
+            spring_and_damping: spring,
+            joint_moments: f64x2::ZERO,
+        };
         if !self.damped {
             let top = spring - m_dp * carriage_acceleration;
             return Equations { f: fused_pair(t.y, f64x2::splat(top), forces), ..equations };
         }
-        let damping = self.laws.damping_force_n(v_c);
+        let damping = self.damping_force_n(x_c_m, v_c);
         let top = spring + damping - m_dp * carriage_acceleration;
-        let f = fused_pair(t.y, f64x2::splat(top), forces) + self.laws.joint_moments_n_m(omega);
-        Equations { f, damping, spring_and_damping: spring + damping, ..equations }
+        let joint_moments = self.joint_moments_n_m(|| t.theta(), omega);
+        let f = fused_pair(t.y, f64x2::splat(top), forces) + joint_moments;
+        Equations { f, damping, spring_and_damping: spring + damping, joint_moments, ..equations }
+    }
+
+    /// Force at the top against its velocity, N, and that of formulas.
+    #[inline(always)]
+    fn damping_force_n(&self, x_c_m: f64, v_c_m_s: f64) -> f64 {
+        let damping = self.laws.damping_force_n(v_c_m_s);
+        if self.formulas.is_empty() { damping } else { damping + self.formulas.top_force_n(x_c_m, v_c_m_s) }
+    }
+
+    /// Moments of the joint dampers on θ_1 and θ_2, N m, and those of formulas.
+    #[inline(always)]
+    fn joint_moments_n_m(&self, theta: impl Fn() -> Pair, omega: f64x2) -> f64x2 {
+        let damping = self.laws.joint_moments_n_m(omega);
+        if self.formulas.is_empty() {
+            return damping;
+        }
+        damping + f64x2::new(self.formulas.joint_moments_n_m(theta(), omega.to_array()))
     }
 
     #[inline(always)]
@@ -312,7 +353,7 @@ impl Motion {
         let momentum_x = fused(self.laws.carriage_mass_kg, equations.v_c, p_1 + p_2);
         let ground_power_w = fused(ground.y, l_1 + l_2, -ground.x * momentum_x);
         let loss_power_w = if self.damped {
-            let [j_1, j_2] = (self.laws.joint_moments_n_m(omega) * omega).to_array();
+            let [j_1, j_2] = (equations.joint_moments * omega).to_array();
             -fused(equations.damping, equations.v_c, j_1 + j_2)
         } else {
             0.0

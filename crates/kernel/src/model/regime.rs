@@ -71,6 +71,8 @@ pub(crate) enum Kink {
     Passes { limit_m: f64, sign: f64, change: Change },
     /// The top stops: sign × ẋ_C falls below zero.
     Stops { sign: f64 },
+    /// A formula changes its branch.
+    Turns { formula: usize, switch: usize },
 }
 
 /// What changes where the top passes a displacement.
@@ -110,12 +112,15 @@ impl RockingWall {
         let Some(piecewise_laws) = self.piecewise_laws else { return };
         self.regime = regime;
         let laws = piecewise_laws.laws(&regime);
-        let held = piecewise_laws.friction_n() > 0.0 && regime.slides == Side::Between;
+        let held = piecewise_laws.rubs() && regime.slides == Side::Between;
         self.motions.iter_mut().for_each(|motion| motion.set_laws(laws, held));
+        self.formulas.slide(regime.slides);
+        self.share_branches();
     }
 
     /// Enters the regime of a state that nothing went before, but for a plastic displacement in m.
     pub fn enter_regime_of_state(&mut self, contact: Contact, state: &State, plastic_m: f64) {
+        self.turn_switches(contact, state, [0.0; 2], None);
         let Some(piecewise_laws) = self.piecewise_laws else { return };
         let [x_c, v_c, _] = self.motion(contact).top(state.theta, state.omega, [0.0; 2]);
         self.enter_regime(piecewise_laws.regime_at(x_c, v_c, plastic_m));
@@ -123,6 +128,9 @@ impl RockingWall {
 
     /// Goes through a kink.
     pub(crate) fn pass_kink(&mut self, kink: Kink, contact: Contact, theta: Pair) {
+        if let Kink::Turns { formula, switch } = kink {
+            return self.flip_switch(formula, switch);
+        }
         let Some(piecewise_laws) = self.piecewise_laws else { return };
         let x_c = self.top_displacement_m(contact, theta);
         self.enter_regime(piecewise_laws.after(&self.regime, kink, x_c));
@@ -145,7 +153,7 @@ impl RockingWall {
 
     /// Whether friction holds the top in place.
     pub(crate) fn is_held(&self) -> bool {
-        self.piecewise_laws.is_some_and(|r| r.friction_n() > 0.0) && self.regime.slides == Side::Between
+        self.piecewise_laws.is_some_and(|r| r.rubs()) && self.regime.slides == Side::Between
     }
 
     /// The same wall under a further force at the top, N.
@@ -166,11 +174,28 @@ impl RockingWall {
         match &self.piecewise_laws {
             Some(piecewise_laws) if self.is_held() && !self.rests_in(contact) => {
                 let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
-                let left = (piecewise_laws.friction_n() - reactions.holding_n.abs()) / weight;
+                let friction_n = piecewise_laws.friction_n();
+                let left = self.friction_left_n(friction_n, reactions) / weight;
                 Some(corners.map_or(left, |least| least.min(left)))
             }
             _ => corners,
         }
+    }
+
+    /// What friction could hold beyond what it does, N.
+    fn friction_left_n(&self, friction_n: f64, reactions: &Reactions) -> f64 {
+        let holding_n = reactions.holding_n;
+        if !self.formulas.rubs() {
+            return friction_n - holding_n.abs();
+        }
+        let [least_n, most_n] = self.holds_n(friction_n, reactions.top_displacement_m);
+        (most_n - holding_n).min(holding_n - least_n)
+    }
+
+    /// Forces by which friction can hold the top at a displacement: the least and the most, N.
+    pub(crate) fn holds_n(&self, friction_n: f64, x_c_m: f64) -> [f64; 2] {
+        let [least_n, most_n] = self.formulas.holds_n(x_c_m);
+        [least_n - friction_n, most_n + friction_n]
     }
 
     /// Which way the top slides at a velocity in m/s; [`Side::Between`] at rest.
@@ -181,10 +206,10 @@ impl RockingWall {
 
     /// The velocities without those of a top that friction has all but stopped.
     pub(crate) fn with_slow_top_stopped(&self, contact: Contact, state: &State) -> Pair {
-        let friction_n = self.piecewise_laws.map_or(0.0, |piecewise_laws| piecewise_laws.friction_n());
+        let rubs = self.piecewise_laws.is_some_and(|piecewise_laws| piecewise_laws.rubs());
         let [_, v_c, _] = self.motion(contact).top(state.theta, state.omega, [0.0; 2]);
         match self.sliding(contact, state.omega, v_c) {
-            Side::Between if friction_n > 0.0 => self.with_top_stopped(contact, state.theta, state.omega),
+            Side::Between if rubs => self.with_top_stopped(contact, state.theta, state.omega),
             _ => state.omega,
         }
     }
@@ -212,9 +237,7 @@ impl RockingWall {
         let moves = side != Side::Between;
         let turned = piecewise_laws.at_velocity(&self.regime, side, x_c);
         let ways: &[Side] = match side {
-            Side::Between if piecewise_laws.friction_n() > 0.0 => {
-                &[Side::Between, Side::Positive, Side::Negative]
-            }
+            Side::Between if piecewise_laws.rubs() => &[Side::Between, Side::Positive, Side::Negative],
             Side::Between => &[Side::Between],
             Side::Positive => &[Side::Positive],
             Side::Negative => &[Side::Negative],

@@ -3,6 +3,7 @@
 use super::MechanicsError;
 use super::bed::Bed;
 use super::contact::{Contact, Joint, Pivot, Touching};
+use super::formula::{FormulaLaws, Slopes};
 use super::geometry::{Arms, Pair, Rotations, TurnedArms};
 use super::joint_forces::{JointForces, Masses, Reactions};
 use super::laws::{Laws, PiecewiseLaws};
@@ -42,6 +43,10 @@ pub struct RockingWall {
     pub(super) capture_rad_s: f64,
     /// C_1 … C_8 with the factors of effects.
     pub(super) coefficients: [f64; 8],
+    /// The laws written as formulas, in the branches they are in.
+    pub(super) formulas: FormulaLaws,
+    /// How stiff and how viscous they are.
+    slopes: Slopes,
     /// Laws at the top with kinks, if there are any ...
     pub(super) piecewise_laws: Option<PiecewiseLaws>,
     /// ... below which speed the top is at rest, m/s ...
@@ -55,9 +60,12 @@ impl RockingWall {
     pub fn new(wall: &Wall) -> Self {
         let p = wall.parameters();
         let laws = Laws::new(p.carriage_mass_kg, p.stiffness_n_per_m, &wall.effects);
+        let formulas = FormulaLaws::new(wall.formulas.clone());
         let mut rocking = Self {
             coefficients: wall.coefficients(),
-            piecewise_laws: PiecewiseLaws::new(laws, &wall.effects),
+            piecewise_laws: PiecewiseLaws::new(laws, &wall.effects, formulas.rubs()),
+            slopes: slopes(wall, &formulas),
+            formulas,
             least_speed_m_s: 0.0,
             regime: Regime::default(),
             masses: Masses::new(wall, laws.carriage_mass_kg),
@@ -129,14 +137,16 @@ impl RockingWall {
         };
         let mass = about(Pivot::Right).max(about(Pivot::Left));
         let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
-        let stiffness = self.stiffest_n_per_m() * p.height_m * p.height_m + weight * p.height_m / 2.0;
+        let at_top = self.stiffest_n_per_m() + self.slopes.top_at_rest_n_per_m;
+        let stiffness = at_top * p.height_m * p.height_m + weight * p.height_m / 2.0;
         (mass / stiffness).sqrt()
     }
 
     /// Rate at which small motions of the wall can change, 1/s: the fastest over the contact states.
     pub fn fastest_rate_per_s(&self) -> f64 {
         let stiffness = self.stiffest_n_per_m();
-        self.motions.iter().map(|motion| motion.fastest_rate_per_s(stiffness)).fold(0.0, f64::max)
+        let rate = |motion: &Motion| motion.fastest_rate_per_s(stiffness, &self.slopes);
+        self.motions.iter().map(rate).fold(0.0, f64::max)
     }
 
     /// Stiffness at the top while every spring acts, N/m.
@@ -321,6 +331,15 @@ impl RockingWall {
             && self.smallest_reserve(candidate, &reactions).is_none_or(|least| least >= 0.0);
         carries.then_some((rate, reactions))
     }
+}
+
+/// Slopes of formulas over displacements of half the thickness, rotations α, and the speeds of a wall that rocks so.
+fn slopes(wall: &Wall, formulas: &FormulaLaws) -> Slopes {
+    let p = wall.parameters();
+    let (half_m, alpha) = (p.thickness_m / 2.0, wall.alpha_rad());
+    let per_s = (G_M_S2 / p.height_m).sqrt();
+    let sizes = [half_m, alpha, alpha];
+    formulas.slopes(sizes, sizes.map(|size| size * per_s))
 }
 
 /// Opening of a joint that goes with a pair of body rotations, velocities or accelerations: θ_1, or θ_2 - θ_1.

@@ -92,7 +92,11 @@ impl RockingWall {
             Some(piecewise_laws) => piecewise_laws.laws(&piecewise_laws.regime_at(x_c_m, v_c_m_s, plastic_m)),
             None => *self.motions[0].laws(),
         };
-        laws.spring_force_n(x_c_m) + laws.damping_force_n(v_c_m_s)
+        let named_n = laws.spring_force_n(x_c_m) + laws.damping_force_n(v_c_m_s);
+        match self.formulas.is_empty() {
+            true => named_n,
+            false => named_n + self.formulas.top_force_as_written_n(x_c_m, v_c_m_s),
+        }
     }
 
     /// m_dp with what effects add to it, kg.

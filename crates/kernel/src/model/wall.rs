@@ -5,7 +5,10 @@ use std::borrow::Cow;
 use serde::{Deserialize, Serialize};
 
 use super::bed::Bed;
-use super::effect::{self, Effect, EffectKind, EffectSums, Reading};
+use mrbd_formula::Formula;
+
+use super::effect::{self, Effect, EffectKind, EffectSums, FurtherLaw, Lanes, Reading};
+use super::formula::{FormulaLaw, checked};
 
 /// Acceleration of gravity, m/s².
 pub const G_M_S2: f64 = 9.81;
@@ -90,6 +93,8 @@ pub struct WallParameters {
     pub initial_rotation_rad: [f64; 2],
     /// Further effects, in the order given.
     pub effects: Vec<Effect>,
+    /// Further laws written as formulas, in the order given.
+    pub formulas: Vec<Formula>,
 }
 
 impl WallParameters {
@@ -115,7 +120,16 @@ impl WallParameters {
             collapse_rotation_ratio: Self::DEFAULT_COLLAPSE_RATIO,
             initial_rotation_rad: [0.0; 2],
             effects: Vec::new(),
+            formulas: Vec::new(),
         }
+    }
+}
+
+impl WallParameters {
+    /// Effects and formulas, as they stand in wall files.
+    pub fn further_laws(&self) -> Vec<FurtherLaw> {
+        let effects = self.effects.iter().map(|effect| FurtherLaw::Effect(*effect));
+        effects.chain(self.formulas.iter().cloned().map(FurtherLaw::Formula)).collect()
     }
 }
 
@@ -149,6 +163,8 @@ pub struct Wall {
     pub(crate) beds: [Option<Bed>; 2],
     /// The sums of the effects.
     pub(crate) effects: EffectSums,
+    /// The laws of the formulas.
+    pub(crate) formulas: Vec<FormulaLaw>,
 }
 
 impl Wall {
@@ -157,7 +173,7 @@ impl Wall {
     /// # Errors
     /// [`ImpossibleWall`] names the first parameter that cannot be.
     pub fn new(parameters: WallParameters) -> Result<Self, ImpossibleWall> {
-        let effects = EffectSums::of(&parameters.effects);
+        let effects = sums(&parameters);
         check(&parameters, &effects)?;
         let p = &parameters;
         let h1 = p.crack_height_m.unwrap_or(p.height_m);
@@ -175,8 +191,7 @@ impl Wall {
         };
         let alpha_i_rad = [alpha_1, alpha_2];
         check_collapse(p.collapse_rotation_ratio, alpha_i_rad)?;
-        let upper_kg = mass_kg[1] + p.diaphragm_mass_kg;
-        let above_kg = [mass_kg[0] + upper_kg, upper_kg];
+        let above_kg = above_kg(p, mass_kg);
         let beds = [0, 1].map(|j| {
             let bedding = effects.beds[j]?;
             Some(Bed {
@@ -187,9 +202,26 @@ impl Wall {
                 load_n: above_kg[j] * G_M_S2,
             })
         });
-        let wall = Self { height_m, mass_kg, inertia_kg_m2, alpha_i_rad, width_m, beds, effects, parameters };
+        let formulas = Vec::new();
+        let mut wall = Self {
+            height_m,
+            mass_kg,
+            inertia_kg_m2,
+            alpha_i_rad,
+            width_m,
+            beds,
+            effects,
+            parameters,
+            formulas,
+        };
         wall.check_beds()?;
+        wall.formulas = checked(&wall)?;
         Ok(wall)
+    }
+
+    /// Weights above the ground and above the crack, N.
+    pub(crate) fn weights_n(&self) -> [f64; 2] {
+        above_kg(&self.parameters, self.mass_kg).map(|mass_kg| mass_kg * G_M_S2)
     }
 
     /// Whether a joint lies on a bed.
@@ -245,7 +277,7 @@ impl Wall {
         let mut sharp = self.clone();
         sharp.parameters.effects.retain(|effect| effect.kind() != EffectKind::CompliantJoint);
         sharp.beds = [None; 2];
-        sharp.effects = EffectSums::of(&sharp.parameters.effects);
+        sharp.effects = sums(&sharp.parameters);
         sharp
     }
 
@@ -304,6 +336,18 @@ impl Wall {
     pub fn collapse_rotation_rad(&self) -> [f64; 2] {
         self.alpha_i_rad.map(|alpha| alpha * self.parameters.collapse_rotation_ratio)
     }
+}
+
+/// The sums of all effects. The lanes do no formulas.
+fn sums(p: &WallParameters) -> EffectSums {
+    let sums = EffectSums::of(&p.effects);
+    if p.formulas.is_empty() { sums } else { EffectSums { lanes: Lanes::Unknown, ..sums } }
+}
+
+/// Masses above the ground and above the crack, kg.
+fn above_kg(p: &WallParameters, mass_kg: [f64; 2]) -> [f64; 2] {
+    let upper_kg = mass_kg[1] + p.diaphragm_mass_kg;
+    [mass_kg[0] + upper_kg, upper_kg]
 }
 
 /// Stiffer than any floor by many powers of ten, N/m: beyond it steps become too short to get anywhere.

@@ -1,6 +1,7 @@
 //! What happens first inside a step: a joint closes or opens, a law has a kink, a body collapses.
 
 use super::bed_events::BedChange;
+use super::switches::first_turn;
 use crate::model::{Contact, Joint, Kink, Pair, RockingWall, Touching, opening};
 use crate::solver::{Bernstein, Point, Quintic, hermite};
 
@@ -180,7 +181,12 @@ pub(super) fn first_kink(
     end: &Point,
     h: f64,
 ) -> Option<(Kink, f64)> {
-    wall.piecewise_laws().and_then(|_| first_of(wall, contact, start, end, h))
+    let named = wall.piecewise_laws().and_then(|_| first_of(wall, contact, start, end, h));
+    if !wall.formulas().have_switches() {
+        return named;
+    }
+    let turn = first_turn(wall, contact, start, end, h);
+    [named, turn].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
 #[cold]
@@ -208,6 +214,8 @@ fn first_of(wall: &RockingWall, contact: Contact, start: &Point, end: &Point, h:
             let v_c = Bernstein([v_0, v_0 + h * a_0 / 3.0, v_1 - h * a_1 / 3.0, v_1]);
             first_end(v_c.times(sign), ROUNDINGS * f64::EPSILON * speed_m_s)
         }
+        // Those of formulas are found by themselves.
+        Kink::Turns { .. } => None,
     };
     let kinks = wall.piecewise_laws()?.kinks(&wall.regime());
     let roots = kinks.filter_map(|kink| share(kink).map(|share| (kink, share)));
@@ -227,10 +235,14 @@ pub(super) fn first_end<const N: usize>(mut left: Bernstein<N>, rounding: f64) -
 
 /// What is left to a kink at an instant, and how fast it falls.
 pub(super) fn left_to_kink(wall: &RockingWall, contact: Contact, kink: Kink, at: &Point) -> (f64, f64) {
+    let moving = [at.position, at.velocity, at.acceleration];
+    if let Kink::Turns { formula, switch } = kink {
+        return wall.left_to_switch([formula, switch], contact, moving);
+    }
     let [x_c, v_c, a_c] = wall.top(contact, at.position, at.velocity, at.acceleration);
     match kink {
         Kink::Passes { limit_m, .. } => (x_c - limit_m, v_c),
-        Kink::Stops { .. } => (v_c, a_c),
+        Kink::Stops { .. } | Kink::Turns { .. } => (v_c, a_c),
     }
 }
 

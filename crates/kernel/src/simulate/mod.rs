@@ -11,6 +11,7 @@ mod rest;
 mod run;
 mod side_by_side;
 mod simulator;
+mod switches;
 mod totals;
 
 pub use beyond_model::{BeyondModel, beyond_model, floor_period_s};

@@ -52,9 +52,9 @@ const PRESSED: CornerForce = CornerForce { x: 0.0, y: 0.0, constant: 1.0 };
 impl RestLimits {
     pub fn new(wall: &RockingWall) -> Self {
         let mut limits = Self::of_corners(wall);
-        let friction_n = wall.piecewise_laws().map_or(0.0, |piecewise_laws| piecewise_laws.friction_n());
-        if friction_n > 0.0 {
-            limits.with_friction = with_friction(wall, &limits.corners, friction_n);
+        if let Some(piecewise_laws) = wall.piecewise_laws().filter(|piecewise_laws| piecewise_laws.rubs()) {
+            let holds_n = wall.holds_n(piecewise_laws.friction_n(), 0.0);
+            limits.with_friction = with_friction(wall, &limits.corners, holds_n);
             limits.corners = [PRESSED; 4];
         }
         limits
@@ -134,12 +134,17 @@ impl RestLimits {
     }
 }
 
-/// What must not be negative for a force at the top within ±F_c to press all corners.
-fn with_friction(wall: &RockingWall, corners: &[CornerForce; 4], friction_n: f64) -> Vec<CornerForce> {
-    let most = CornerForce { constant: friction_n, ..CornerForce::default() };
-    let (mut from_below, mut from_above) = (vec![most], vec![most]);
+/// What must not be negative for a force at the top from the least to the most to press all corners.
+fn with_friction(wall: &RockingWall, corners: &[CornerForce; 4], holds_n: [f64; 2]) -> Vec<CornerForce> {
+    let [least_n, most_n] = holds_n;
+    let bound = |constant: f64| CornerForce { constant, ..CornerForce::default() };
+    let (mut from_below, mut from_above) = (vec![bound(-least_n)], vec![bound(most_n)]);
     let mut conditions = Vec::new();
     // As large as the friction, so that it exceeds the roundings; both ways, for the mirror's sake.
+    let friction_n = most_n.max(-least_n);
+    if friction_n == 0.0 {
+        return corners.to_vec();
+    }
     let [pushed, pulled] = [friction_n, -friction_n].map(|force_n| {
         wall.with_top_force(force_n).joint_forces(
             Contact::REST,

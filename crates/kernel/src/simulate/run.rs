@@ -40,6 +40,8 @@ pub(super) struct Run<O> {
     stalled: u32,
     /// On which side a joint on a bed has been open since it last passed the middle.
     opened: [Pivot; 2],
+    /// The switch of a formula that has turned at this instant.
+    just_turned: Option<[usize; 2]>,
     /// Piece of the record the run is in, its number, and the offset reached in it, s.
     piece: Option<Piece>,
     k: usize,
@@ -92,6 +94,7 @@ impl<O: Observer> Run<O> {
             opened: [placed.contact.ground, placed.contact.crack],
             wall,
             ground,
+            just_turned: None,
             piece: None,
             k: 0,
             offset_s: 0.0,
@@ -222,12 +225,29 @@ impl<O: Observer> Run<O> {
             let rate = self.wall.rate(next, &self.state(), ground);
             (rate, self.reactions(&Point { acceleration: rate.theta_dd, ..self.now }, ground))
         });
+        let (rate, reactions) = self.in_its_branches(rate, reactions, ground);
         self.totals.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
         self.corner_force = self.wall.smallest_reserve(next, &reactions);
         self.top_velocity_m_s = reactions.top_velocity_m_s;
         Ok(())
+    }
+
+    /// The motion once the formulas are in the branches into which it goes.
+    #[inline]
+    fn in_its_branches(
+        &mut self,
+        rate: MotionRate,
+        reactions: Reactions,
+        ground: Vector,
+    ) -> (MotionRate, Reactions) {
+        let just_turned = self.just_turned.take();
+        if !self.wall.turn_switches(self.contact, &self.state(), rate.theta_dd, just_turned) {
+            return (rate, reactions);
+        }
+        let rate = self.wall.rate(self.contact, &self.state(), ground);
+        (rate, self.reactions(&Point { acceleration: rate.theta_dd, ..self.now }, ground))
     }
 
     /// The contact state that carries the joint forces, with its motion where that is known.

@@ -14,6 +14,7 @@
 //! - γ_B = γ_A - R(θ_1) q ω_1² + 2 ω_1 φ' (R(θ_1) q')^⊥ + R(θ_1) q'' φ'².
 
 use super::super::contact::{Contact, Joint, Pivot};
+use super::super::formula::FormulaLaws;
 use super::super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
 use super::super::joint_forces::{Masses, Reactions};
 use super::super::laws::Laws;
@@ -199,7 +200,14 @@ impl BeddedMotion {
         [stored, lost].map(|[ground, crack]| [crack - ground, -crack])
     }
 
-    fn balance(&self, laws: &Laws, held: bool, theta: Pair, omega: Pair, ground: Vector) -> Balance {
+    fn balance(
+        &self,
+        laws: &Laws,
+        formulas: &FormulaLaws,
+        held: bool,
+        [theta, omega]: [Pair; 2],
+        ground: Vector,
+    ) -> Balance {
         let pose = self.pose(theta);
         let mass = self.mass_of(&pose.arms);
         let moving = self.drift(&pose, omega);
@@ -213,10 +221,15 @@ impl BeddedMotion {
         let arms = &pose.arms;
         let x_c = self.top_of(&pose);
         let v = arms.velocities(omega);
-        let damping_n = laws.damping_force_n(v.c.x);
+        let mut damping_n = laws.damping_force_n(v.c.x);
+        let mut dampers = laws.joint_moments_n_m(wide::f64x2::new(omega)).to_array();
+        if !formulas.is_empty() {
+            damping_n += formulas.top_force_n(x_c, v.c.x);
+            let [on_1, on_2] = formulas.joint_moments_n_m(theta, omega);
+            dampers = [dampers[0] + on_1, dampers[1] + on_2];
+        }
         let force_n = laws.spring_force_n(x_c) + damping_n;
         let [stored, lost] = self.bed_moments(&pose, omega);
-        let dampers = laws.joint_moments_n_m(wide::f64x2::new(omega)).to_array();
         let inertia = self.masses.momenta(arms, &drift);
         let levers = [arms.r_q.y, arms.r_c.y];
         let f = [0, 1].map(|i| levers[i] * force_n - inertia[i] + stored[i] + lost[i] + dampers[i]);
@@ -257,8 +270,15 @@ impl BeddedMotion {
         (pose.foot + pose.q[0] + pose.c).x - self.c.x
     }
 
-    pub fn rate(&self, laws: &Laws, held: bool, theta: Pair, omega: Pair, ground: Vector) -> BeddedRate {
-        let balance = self.balance(laws, held, theta, omega, ground);
+    pub fn rate(
+        &self,
+        laws: &Laws,
+        formulas: &FormulaLaws,
+        held: bool,
+        moving: [Pair; 2],
+        ground: Vector,
+    ) -> BeddedRate {
+        let balance = self.balance(laws, formulas, held, moving, ground);
         BeddedRate { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
     }
 
@@ -266,12 +286,13 @@ impl BeddedMotion {
     pub fn reactions(
         &self,
         laws: &Laws,
+        formulas: &FormulaLaws,
         held: bool,
-        [theta, omega]: [Pair; 2],
+        moving: [Pair; 2],
         theta_dd: Option<Pair>,
         ground: Vector,
     ) -> (BeddedRate, Reactions) {
-        let balance = self.balance(laws, held, theta, omega, ground);
+        let balance = self.balance(laws, formulas, held, moving, ground);
         let theta_dd = theta_dd.unwrap_or(balance.theta_dd);
         let turning = balance.pose.arms.velocities(theta_dd);
         let accelerations = PointVelocities {

@@ -9,6 +9,8 @@
 
 use std::fmt;
 
+use mrbd_formula::Formula;
+
 mod catalogue;
 mod entry;
 mod signal;
@@ -21,6 +23,7 @@ pub use entry::{EffectChoice, EffectEntry, EffectParameter, Lanes, Place, Quanti
 pub use sums::Reading;
 pub(super) use sums::check;
 pub(crate) use sums::{EffectSums, GroundChange, Yielding};
+pub use toml_form::FurtherLaw;
 
 /// Parameters of the kind that has most: one a coefficient of Table 2.
 const MOST_PARAMETERS: usize = 8;
@@ -82,7 +85,7 @@ fn listed<'a>(names: impl Iterator<Item = &'a &'static str>) -> String {
 }
 
 fn names() -> String {
-    listed(EffectKind::ALL.iter().map(|kind| &kind.entry().name))
+    listed(EffectKind::ALL.iter().map(|kind| &kind.entry().name).chain([&Formula::KIND]))
 }
 
 impl Effect {

@@ -6,7 +6,115 @@ use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use mrbd_formula::{Formula, Parameter, Place};
+
 use super::{Effect, EffectEntry, EffectError, EffectKind};
+
+/// A further law as it stands in the `[[effects]]` of a wall file: one of the catalogue, or a formula.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FurtherLaw {
+    /// Of the catalogue.
+    Effect(Effect),
+    /// A formula.
+    Formula(Formula),
+}
+
+impl Serialize for FurtherLaw {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            FurtherLaw::Effect(effect) => effect.serialize(serializer),
+            FurtherLaw::Formula(formula) => formula.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for FurtherLaw {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(LawVisitor)
+    }
+}
+
+struct LawVisitor;
+
+impl<'de> Visitor<'de> for LawVisitor {
+    type Value = FurtherLaw;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a table with the kind of an effect and its parameters")
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<FurtherLaw, M::Error> {
+        let (kind, items) = kind_and_items(map)?;
+        match kind == Formula::KIND {
+            true => formula_from_items(items).map(FurtherLaw::Formula).map_err(M::Error::custom),
+            false => from_items(&kind, items).map(FurtherLaw::Effect).map_err(M::Error::custom),
+        }
+    }
+}
+
+/// Keys of a formula in wall files.
+const FORMULA_KEYS: &str = "`place`, `force_n` at the top or `moment_n_m` at a joint, `parameters`";
+
+/// What of a formula is wrong.
+fn refused(found: impl Into<String>, allowed: impl Into<String>) -> EffectError {
+    EffectError::Keys { kind: Formula::KIND, found: found.into(), allowed: allowed.into() }
+}
+
+fn formula_from_items(mut items: Vec<(String, Item)>) -> Result<Formula, EffectError> {
+    let mut take = |key: &str| items.iter().position(|(k, _)| k == key).map(|at| items.remove(at).1);
+    let place = match take("place") {
+        Some(Item::Word(word)) => {
+            let known = Place::ALL.map(|place| format!("`{}`", place.name())).join(", ");
+            Place::named(&word)
+                .ok_or_else(|| refused(format!("`{word}` for `place`"), format!("one of {known}")))?
+        }
+        Some(other) => return Err(refused(format!("{other} for `place`"), "a word")),
+        None => return Err(refused("no `place`", "`top`, `ground` or `crack`")),
+    };
+    let text = match take(place.key()) {
+        Some(Item::Word(text)) => text,
+        Some(other) => return Err(refused(format!("{other} for `{}`", place.key()), "a formula in quotes")),
+        None => {
+            let allowed = format!("this key with a formula at the {}", place.name());
+            return Err(refused(format!("no `{}`", place.key()), allowed));
+        }
+    };
+    let parameters = match take("parameters") {
+        Some(Item::Table(items)) => items.into_iter().map(parameter).collect::<Result<Vec<_>, _>>()?,
+        Some(other) => return Err(refused(format!("{other} for `parameters`"), PARAMETERS)),
+        None => Vec::new(),
+    };
+    if let Some((key, _)) = items.first() {
+        return Err(refused(format!("unknown key `{key}`"), format!("one of {FORMULA_KEYS}")));
+    }
+    Formula::parse(&text, place, &parameters).map_err(|e| {
+        let key =
+            e.parameter.as_ref().map_or_else(|| place.key().to_owned(), |name| format!("parameters.{name}"));
+        refused(format!("{} in `{key}`", e.found_at()), e.allowed)
+    })
+}
+
+/// What a table of parameters is.
+const PARAMETERS: &str =
+    "a table [effects.parameters] with lines such as k = { value = 37e3, unit = \"N/m\" }";
+
+fn parameter((name, item): (String, Item)) -> Result<Parameter, EffectError> {
+    let wrong = |found: String| refused(format!("{found} for `parameters.{name}`"), PARAMETERS);
+    let Item::Table(items) = item else { return Err(wrong(item.to_string())) };
+    let (mut value, mut unit) = (None, None);
+    for (key, item) in items {
+        match (key.as_str(), item) {
+            ("value", Item::Number(number)) => value = Some(number),
+            ("unit", Item::Word(word)) => unit = Some(word),
+            (key, other) => return Err(wrong(format!("`{key}` = {other}"))),
+        }
+    }
+    match (value, unit) {
+        (Some(value), Some(unit)) => Ok(Parameter { name, value, unit }),
+        (None, _) => Err(wrong("no `value`".to_owned())),
+        (_, None) => Err(wrong("no `unit`".to_owned())),
+    }
+}
 
 impl Serialize for Effect {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -66,6 +174,7 @@ enum Item {
     Number(f64),
     Word(String),
     List(Vec<f64>),
+    Table(Vec<(String, Item)>),
 }
 
 impl fmt::Display for Item {
@@ -74,6 +183,7 @@ impl fmt::Display for Item {
             Item::Number(number) => write!(f, "{number}"),
             Item::Word(word) => write!(f, "`{word}`"),
             Item::List(list) => write!(f, "a list of {}", list.len()),
+            Item::Table(items) => write!(f, "a table of {}", items.len()),
         }
     }
 }
@@ -87,18 +197,24 @@ impl<'de> Visitor<'de> for EffectVisitor {
         f.write_str("a table with the kind of an effect and its parameters")
     }
 
-    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Effect, M::Error> {
-        let mut items: Vec<(String, Item)> = Vec::new();
-        while let Some(entry) = map.next_entry()? {
-            items.push(entry);
-        }
-        let Some(kind) = items.iter().position(|(key, _)| key == "kind") else {
-            return Err(M::Error::missing_field("kind"));
-        };
-        match items.remove(kind).1 {
-            Item::Word(name) => from_items(&name, items).map_err(M::Error::custom),
-            other => Err(M::Error::custom(format!("{other} for `kind`, expected a word"))),
-        }
+    fn visit_map<M: MapAccess<'de>>(self, map: M) -> Result<Effect, M::Error> {
+        let (kind, items) = kind_and_items(map)?;
+        from_items(&kind, items).map_err(M::Error::custom)
+    }
+}
+
+/// The word behind `kind`, and all else.
+fn kind_and_items<'de, M: MapAccess<'de>>(mut map: M) -> Result<(String, Vec<(String, Item)>), M::Error> {
+    let mut items: Vec<(String, Item)> = Vec::new();
+    while let Some(entry) = map.next_entry()? {
+        items.push(entry);
+    }
+    let Some(kind) = items.iter().position(|(key, _)| key == "kind") else {
+        return Err(M::Error::missing_field("kind"));
+    };
+    match items.remove(kind).1 {
+        Item::Word(name) => Ok((name, items)),
+        other => Err(M::Error::custom(format!("{other} for `kind`, expected a word"))),
     }
 }
 
@@ -147,7 +263,7 @@ impl<'de> Visitor<'de> for ItemVisitor {
     type Value = Item;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number, a word or a list of numbers")
+        f.write_str("a number, a word, a list of numbers or a table")
     }
 
     fn visit_f64<E>(self, number: f64) -> Result<Item, E> {
@@ -165,6 +281,14 @@ impl<'de> Visitor<'de> for ItemVisitor {
 
     fn visit_str<E>(self, word: &str) -> Result<Item, E> {
         Ok(Item::Word(word.to_owned()))
+    }
+
+    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Item, M::Error> {
+        let mut items = Vec::new();
+        while let Some(entry) = map.next_entry()? {
+            items.push(entry);
+        }
+        Ok(Item::Table(items))
     }
 
     fn visit_seq<S: SeqAccess<'de>>(self, mut list: S) -> Result<Item, S::Error> {

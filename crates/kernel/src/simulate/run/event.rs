@@ -139,6 +139,9 @@ impl<O: Observer> Run<O> {
             self.now.velocity =
                 self.wall.with_top_stopped(self.contact, self.now.position, self.now.velocity);
         }
+        if let Kink::Turns { formula, switch } = kink {
+            self.just_turned = Some([formula, switch]);
+        }
         self.wall.pass_kink(kink, self.contact, self.now.position);
         self.progress(0.0, time_s)?;
         self.enter(self.contact, ground, time_s)

@@ -1,0 +1,195 @@
+//! The formulas of one wall, each in its branch: their forces, and what friction among them can hold.
+
+use std::sync::Arc;
+
+use mrbd_formula::{Branch, Branches, Formula, Place, Program, State};
+
+use super::super::contact::Joint;
+use super::super::geometry::Pair;
+use super::super::regime::Side;
+
+/// The joint of a place.
+pub(super) fn joint_of(place: Place) -> Option<Joint> {
+    match place {
+        Place::Top => None,
+        Place::Ground => Some(Joint::Ground),
+        Place::Crack => Some(Joint::Crack),
+    }
+}
+
+/// One formula, ready to run.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FormulaLaw {
+    pub(super) program: Arc<Program>,
+    /// `None`: at the top.
+    pub(super) joint: Option<Joint>,
+    /// The third variable: the weight on the joint, N.
+    third: f64,
+    /// The switch at which it jumps against the motion.
+    pub(super) friction: Option<usize>,
+    pub(super) branches: Branches,
+}
+
+impl FormulaLaw {
+    /// In the branches of rest; friction holds.
+    pub fn new(formula: &Formula, third: f64, friction: Option<usize>) -> Self {
+        let program = Arc::clone(formula.program());
+        let at_rest = program.branches_at([0.0, 0.0, third], [0.0; 3]);
+        let branches = friction.map_or(at_rest, |switch| at_rest.with(switch, Branch::Zero));
+        Self { program, joint: joint_of(formula.place()), third, friction, branches }
+    }
+
+    /// The variables at a displacement or rotation and its rate.
+    pub(super) fn state(&self, q: f64, rate: f64) -> State {
+        [q, rate, self.third]
+    }
+
+    /// Force or moment on the wall, N or N m.
+    #[inline]
+    fn value(&self, q: f64, rate: f64) -> f64 {
+        self.program.value(self.state(q, rate), &self.branches)
+    }
+
+    /// The same as it is written, whatever branch it is in.
+    fn as_written(&self, q: f64, rate: f64) -> f64 {
+        self.program.value(self.state(q, rate), &Branches::FREE)
+    }
+
+    /// The same at rest.
+    pub(super) fn at_rest(&self) -> f64 {
+        self.as_written(0.0, 0.0)
+    }
+
+    /// What friction can add to the force while it holds: the least and the most, N.
+    fn holds_n(&self, x_c_m: f64) -> [f64; 2] {
+        let Some(switch) = self.friction else { return [0.0; 2] };
+        let on = |side: Branch| self.program.value(self.state(x_c_m, 0.0), &self.branches.with(switch, side));
+        let held = on(Branch::Zero);
+        [on(Branch::Positive) - held, on(Branch::Negative) - held]
+    }
+
+    /// Stiffness and damping at a state, where they are finite and resist.
+    fn slopes_at(&self, q: f64, rate: f64) -> Pair {
+        let state = self.state(q, rate);
+        let branches = self.program.branches_at(state, [rate, 0.0, 0.0]);
+        let against = |rates: State| {
+            let slope = -self.program.rate(state, rates, &branches);
+            if slope.is_finite() { slope.max(0.0) } else { 0.0 }
+        };
+        [against([1.0, 0.0, 0.0]), against([0.0, 1.0, 0.0])]
+    }
+}
+
+/// Stiffness and damping of formulas, at the top and at both joints, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Slopes {
+    /// At the top, at rest, N/m.
+    pub top_at_rest_n_per_m: f64,
+    /// Largest at the top, N/m and N s/m.
+    pub top: Pair,
+    /// Largest at the ground and at the crack, N m and N m s.
+    pub joints: [Pair; 2],
+}
+
+/// All formulas of a wall.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct FormulaLaws {
+    pub(super) laws: Vec<FormulaLaw>,
+}
+
+impl FormulaLaws {
+    pub fn new(laws: Vec<FormulaLaw>) -> Self {
+        Self { laws }
+    }
+
+    /// Whether there is none.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.laws.is_empty()
+    }
+
+    /// Force at the top, N.
+    #[inline(never)]
+    pub fn top_force_n(&self, x_c_m: f64, v_c_m_s: f64) -> f64 {
+        self.at(None).map(|law| law.value(x_c_m, v_c_m_s)).sum()
+    }
+
+    /// The same as the formulas are written.
+    pub fn top_force_as_written_n(&self, x_c_m: f64, v_c_m_s: f64) -> f64 {
+        self.at(None).map(|law| law.as_written(x_c_m, v_c_m_s)).sum()
+    }
+
+    /// Moments on θ_1 and θ_2, N m, of those at the joints: M_1 - M_2 and M_2.
+    #[inline(never)]
+    pub fn joint_moments_n_m(&self, theta: Pair, omega: Pair) -> Pair {
+        let across = |pair: Pair| [pair[0], pair[1] - pair[0]];
+        let (phi, rates) = (across(theta), across(omega));
+        let [ground, crack] = [Joint::Ground, Joint::Crack].map(|joint| {
+            let i = joint as usize;
+            self.at(Some(joint)).map(|law| law.value(phi[i], rates[i])).sum::<f64>()
+        });
+        [ground - crack, crack]
+    }
+
+    fn at(&self, joint: Option<Joint>) -> impl Iterator<Item = &FormulaLaw> {
+        self.laws.iter().filter(move |law| law.joint == joint)
+    }
+
+    /// Whether any holds the top by friction.
+    pub fn rubs(&self) -> bool {
+        self.laws.iter().any(|law| law.friction.is_some())
+    }
+
+    /// What friction can add at the top while it holds it: the least and the most, N.
+    pub fn holds_n(&self, x_c_m: f64) -> [f64; 2] {
+        let limits = self.at(None).map(|law| law.holds_n(x_c_m));
+        limits.fold([0.0; 2], |sum, limit| [sum[0] + limit[0], sum[1] + limit[1]])
+    }
+
+    /// Puts friction in the branch of the way the top slides.
+    pub fn slide(&mut self, slides: Side) {
+        let branch = match slides {
+            Side::Negative => Branch::Negative,
+            Side::Between => Branch::Zero,
+            Side::Positive => Branch::Positive,
+        };
+        for law in &mut self.laws {
+            if let Some(switch) = law.friction {
+                law.branches = law.branches.with(switch, branch);
+            }
+        }
+    }
+
+    /// Takes the branches of the same formulas elsewhere.
+    pub fn take_branches(&mut self, other: &Self) {
+        self.laws.iter_mut().zip(&other.laws).for_each(|(own, law)| own.branches = law.branches);
+    }
+
+    /// How stiff and how viscous they are, over displacements up to a size in m or rad and speeds up to a size
+    /// in m/s or rad/s.
+    pub fn slopes(&self, size: [f64; 3], speed: [f64; 3]) -> Slopes {
+        let mut slopes = Slopes::default();
+        for law in &self.laws {
+            let place = law.joint.map_or(0, |joint| 1 + joint as usize);
+            let largest = largest_slopes(law, size[place], speed[place]);
+            let of_place = if place == 0 { &mut slopes.top } else { &mut slopes.joints[place - 1] };
+            *of_place = [of_place[0] + largest[0], of_place[1] + largest[1]];
+            if place == 0 {
+                let near = LEAST_SHARE * size[0];
+                let sides = [near, -near].map(|x_c| law.slopes_at(x_c, 0.0)[0]);
+                slopes.top_at_rest_n_per_m += sides[0].max(sides[1]);
+            }
+        }
+        slopes
+    }
+}
+
+/// Where slopes are looked at, as shares of a size: near rest too, not at rest, where a root has no slope.
+const SHARES: [f64; 4] = [LEAST_SHARE, 0.1, 0.5, 1.0];
+const LEAST_SHARE: f64 = 1e-3;
+
+fn largest_slopes(law: &FormulaLaw, size: f64, speed: f64) -> Pair {
+    let both = |most: f64| SHARES.into_iter().flat_map(move |share| [share * most, -share * most]);
+    let states = both(size).flat_map(|q| both(speed).chain([0.0]).map(move |rate| (q, rate)));
+    states.map(|(q, rate)| law.slopes_at(q, rate)).fold([0.0; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])])
+}

@@ -1,0 +1,187 @@
+//! The switches of formulas as a wall moves: what is left to them, and on which side they are.
+
+use mrbd_formula::{Branch, Switch, SwitchAt};
+
+use super::super::contact::Contact;
+use super::super::geometry::Pair;
+use super::super::rocking::{RockingWall, State, opening};
+use super::laws::{FormulaLaw, FormulaLaws};
+
+/// Displacement or rotation at a place, its rate and its second rate.
+pub(crate) type Place = [f64; 3];
+
+/// A switch of a formula that may turn within a step, and its place.
+pub(crate) struct Turn<'a> {
+    law: &'a FormulaLaw,
+    /// Number of the formula and of its switch.
+    pub formula: usize,
+    pub index: usize,
+    switch: &'a Switch,
+}
+
+/// Where the argument of a switch goes over a step.
+pub(crate) enum Path {
+    /// With the displacement or rotation, from a value on.
+    Displacement(f64),
+    /// With its rate, from a value on.
+    Rate(f64),
+    /// With both.
+    Both,
+}
+
+impl FormulaLaws {
+    /// Whether any has a branch to change.
+    pub fn have_switches(&self) -> bool {
+        self.laws.iter().any(|law| !law.program.switches().is_empty())
+    }
+
+    /// Every switch but that of friction, which the regime turns.
+    pub fn turns(&self) -> impl Iterator<Item = Turn<'_>> {
+        self.laws.iter().enumerate().flat_map(|(formula, law)| {
+            let switches = law.program.switches().iter().enumerate();
+            let own = switches.filter(|(index, _)| law.friction != Some(*index));
+            own.map(move |(index, switch)| Turn { law, formula, index, switch })
+        })
+    }
+
+    fn turn(&self, formula: usize, index: usize) -> Turn<'_> {
+        let law = &self.laws[formula];
+        Turn { law, formula, index, switch: &law.program.switches()[index] }
+    }
+
+    /// Puts a switch on its other side.
+    fn flip(&mut self, formula: usize, index: usize) {
+        let branches = &mut self.laws[formula].branches;
+        let other = if branches.at(index) == Branch::Positive { Branch::Negative } else { Branch::Positive };
+        *branches = branches.with(index, other);
+    }
+}
+
+impl Turn<'_> {
+    /// 1 or -1: the side it is on.
+    pub fn side(&self) -> f64 {
+        self.law.branches.at(self.index).sign()
+    }
+
+    pub fn path(&self) -> Path {
+        match &self.switch.at {
+            SwitchAt::Line { variable: 0, value } => Path::Displacement(*value),
+            SwitchAt::Line { value, .. } => Path::Rate(*value),
+            SwitchAt::Surface(_) => Path::Both,
+        }
+    }
+
+    /// Whether it acts at the top, and not at a joint.
+    pub fn is_at_top(&self) -> bool {
+        self.law.joint.is_none()
+    }
+
+    /// Where it acts.
+    pub fn place(&self, wall: &RockingWall, contact: Contact, [theta, omega, theta_dd]: [Pair; 3]) -> Place {
+        match self.law.joint {
+            None => wall.top(contact, theta, omega, theta_dd),
+            Some(joint) => [theta, omega, theta_dd].map(|pair| opening(joint, pair)),
+        }
+    }
+
+    /// The argument, and its rate.
+    pub fn argument(&self, [q, rate, second]: Place) -> (f64, f64) {
+        let state = self.law.state(q, rate);
+        self.switch.argument_and_rate(state, [rate, second, 0.0], &self.law.branches)
+    }
+
+    /// What the argument is known to, where displacement and rate are known to these errors.
+    pub fn rounding(&self, [q, rate, _]: Place, [of_q, of_rate]: Pair) -> f64 {
+        self.switch.rounding(self.law.state(q, rate), [of_q, of_rate, 0.0], &self.law.branches)
+    }
+
+    /// The side that the argument is on, or, where it is zero to its rounding, goes to; `None` if it stays zero.
+    fn side_at(&self, place: Place, errors: Pair) -> Option<Branch> {
+        let (argument, rate) = self.argument(place);
+        if argument.abs() > self.rounding(place, errors) {
+            return Some(Branch::of(argument));
+        }
+        // From rest, a displacement goes where it is accelerated to.
+        let [_, of_rate] = errors;
+        let second = if let Path::Displacement(_) = self.path() { place[2] } else { 0.0 };
+        let along = if rate.abs() > of_rate { rate } else { second };
+        Some(Branch::of(along)).filter(|side| *side != Branch::Zero)
+    }
+}
+
+impl RockingWall {
+    /// The formulas of the wall.
+    pub(crate) fn formulas(&self) -> &FormulaLaws {
+        &self.formulas
+    }
+
+    /// Errors to which displacement and rate at the top or at a joint are known.
+    pub(crate) fn place_errors(&self, turn: &Turn, contact: Contact, [theta, omega]: [Pair; 2]) -> Pair {
+        let roundings = ROUNDINGS * f64::EPSILON;
+        if turn.is_at_top() {
+            let width_m = self.wall().parameters().thickness_m;
+            return [roundings * width_m, roundings * self.top_speed_size(contact, omega)];
+        }
+        [theta, omega].map(|pair| roundings * (pair[0].abs() + pair[1].abs()))
+    }
+
+    /// Puts every switch but one on the side of a state: where it is, or where it goes from there. Says whether
+    /// any turned.
+    pub(crate) fn turn_switches(
+        &mut self,
+        contact: Contact,
+        state: &State,
+        theta_dd: Pair,
+        but: Option<[usize; 2]>,
+    ) -> bool {
+        if !self.formulas.have_switches() {
+            return false;
+        }
+        let mut turned = false;
+        let turns = self.formulas.turns().map(|turn| [turn.formula, turn.index]);
+        let all: Vec<_> = turns.filter(|turn| Some(*turn) != but).collect();
+        // In their order: the argument of one may depend on the side of those before it.
+        for [formula, index] in all {
+            let turn = self.formulas.turn(formula, index);
+            let place = turn.place(self, contact, [state.theta, state.omega, theta_dd]);
+            let errors = self.place_errors(&turn, contact, [state.theta, state.omega]);
+            let side = turn.side_at(place, errors);
+            if side.is_some_and(|side| side.sign() != turn.side()) {
+                self.formulas.flip(formula, index);
+                turned = true;
+            }
+        }
+        if turned {
+            self.share_branches();
+        }
+        turned
+    }
+
+    /// Puts one switch on its other side.
+    pub(crate) fn flip_switch(&mut self, formula: usize, index: usize) {
+        self.formulas.flip(formula, index);
+        self.share_branches();
+    }
+
+    /// Every contact state moves in the branches of the wall.
+    pub(in crate::model) fn share_branches(&mut self) {
+        if !self.formulas.is_empty() {
+            let formulas = &self.formulas;
+            self.motions.iter_mut().for_each(|motion| motion.formulas.take_branches(formulas));
+        }
+    }
+
+    /// What is left to a switch of a formula, and how fast it falls.
+    pub(crate) fn left_to_switch(
+        &self,
+        [formula, index]: [usize; 2],
+        contact: Contact,
+        moving: [Pair; 3],
+    ) -> (f64, f64) {
+        let turn = self.formulas.turn(formula, index);
+        turn.argument(turn.place(self, contact, moving))
+    }
+}
+
+/// Roundings a displacement or rotation gathers over a step of some ten operations.
+const ROUNDINGS: f64 = 8.0;
