@@ -11,6 +11,7 @@
 //!
 //! | crate | from | to |
 //! | --- | --- | --- |
+//! | [`mrbd_formula`] | text | laws of force with units, switches and a range |
 //! | [`mrbd_kernel`] | a wall and a shaking | a response: maxima, patterns, energy, or a history |
 //! | [`mrbd_files`] | files that people write | walls and coefficients that are valid, or what is wrong with them |
 //! | [`mrbd_statistics`] | numbers | quantiles, correlations, the tails of the normal distribution |

@@ -24,6 +24,7 @@ pub fn table_wall(law: ImpactLaw, capture_velocity_rad_s: f64) -> Wall {
         collapse_rotation_ratio: 2.0,
         initial_rotation_rad: [0.0, 0.0],
         effects: Vec::new(),
+        formulas: Vec::new(),
     };
     Wall::new(parameters).expect("the table wall")
 }

@@ -7,7 +7,7 @@ pub use governing::{GoverningRow, csv_bytes, governing_run, read_governing};
 use serde::{Deserialize, Serialize};
 
 use mrbd_assessment::Assessment;
-use mrbd_kernel::model::Wall;
+use mrbd_kernel::model::{FurtherLaw, Wall};
 use mrbd_records::{COMPATIBLE_DEVIATION, COMPATIBLE_PERIODS_S, Site, Suite, SuiteCheck};
 
 /// What a manifest says such results are.
@@ -108,7 +108,7 @@ impl WallNumbers {
             carriage_mass_kg: p.carriage_mass_kg,
             stiffness_n_per_m: p.stiffness_n_per_m,
             eccentricity_m: p.eccentricity_m,
-            effects: p.effects.iter().map(|effect| format!("{effect:?}")).collect(),
+            effects: p.further_laws().iter().map(FurtherLaw::to_string).collect(),
         }
     }
 }

@@ -14,7 +14,7 @@ use crate::error::{Error, InputError, Result};
 use crate::store::{WholeFolder, write_durably};
 use crate::text::aligned;
 use mrbd_assessment::{Agreement, Assessment, NoMechanism, Shaken, SiteFile, SiteRecords, motions};
-use mrbd_files::{FileNote, load_wall};
+use mrbd_files::{FileNote, load_static_wall};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::Accuracy;
@@ -79,9 +79,9 @@ impl AssessCommand {
     /// # Errors
     /// As [`AssessCommand::execute`].
     pub fn answer(&self, told: &dyn Progress) -> Result<Answer> {
-        let wall = load_wall(&self.wall)?;
+        let wall = load_static_wall(&self.wall)?;
         let site = SiteFile::load(&self.site)?;
-        let other = self.compare.as_deref().map(load_wall).transpose()?;
+        let other = self.compare.as_deref().map(load_static_wall).transpose()?;
         let suite = self.records.as_deref().map(Suite::load).transpose()?;
         let folder =
             self.out.as_deref().map(|out| WholeFolder::check(out, &FILES, self.force)).transpose()?;

@@ -10,7 +10,7 @@ use crate::report::wall_svg;
 use crate::store::write_durably;
 use mrbd_files::description::{Body, Description};
 use mrbd_files::load_wall;
-use mrbd_kernel::model::{Effect, Wall};
+use mrbd_kernel::model::{FurtherLaw, Wall};
 
 /// Describe a wall: weight, slenderness, what it takes to rock, and whether a number looks like a slip.
 ///
@@ -81,7 +81,7 @@ fn for_people(wall: &Wall, d: &Description) -> String {
         line("top", &top(d)),
         line("impacts", &impacts(wall)),
     ]);
-    let effects = d.effects.iter().map(effect).collect::<Vec<_>>().join(", ");
+    let effects = d.effects.iter().map(FurtherLaw::in_words).collect::<Vec<_>>().join(", ");
     lines.push(line("effects", if effects.is_empty() { "none beside the wall's own" } else { &effects }));
     lines.join("\n")
 }
@@ -127,11 +127,4 @@ fn impacts(wall: &Wall) -> String {
     let r = &wall.parameters().restitution;
     let coefficients = wall.coefficients().map(|c| c.to_string()).join(" ");
     format!("C_1 … C_8 = {coefficients}, law {}, capture at {} rad/s", r.law.name(), r.capture_velocity_rad_s)
-}
-
-/// An effect by its keys of the wall file.
-fn effect(effect: &Effect) -> String {
-    let keys = effect.entry().parameters.iter().map(|parameter| parameter.key);
-    let values = keys.zip(effect.parameters()).map(|(key, value)| format!("{key} = {value}"));
-    format!("{} ({})", effect.variant().name(), values.collect::<Vec<_>>().join(", "))
 }

@@ -9,7 +9,7 @@ use crate::error::{Error, InputError, Result};
 use crate::push::{FILES, KIND, Measured, PushCurve, PushPoint, Pushed, Question};
 use crate::report::push_svg;
 use crate::store::{WholeFolder, write_durably};
-use mrbd_files::{FileNote, load_wall};
+use mrbd_files::{FileNote, load_static_wall};
 use mrbd_statics::{Load, Side};
 
 /// Softest and stiffest bed of --bed, Pa/m.
@@ -86,7 +86,7 @@ impl PushCommand {
     /// # Errors
     /// As [`PushCommand::execute`].
     pub fn answer(&self) -> Result<Answer> {
-        let wall = load_wall(&self.wall)?;
+        let wall = load_static_wall(&self.wall)?;
         let read = [Some(&self.wall), self.measured.as_ref()];
         let read = read.into_iter().flatten().map(PathBuf::as_path).collect::<Vec<_>>();
         output::check_apart("--plot", self.plot.as_deref(), &read)?;

@@ -11,7 +11,7 @@ pub use watch::{ImpactMark, Watch};
 use super::page::{Cell, Figure, Motion, Number, Page, Section, Table, script_safe};
 use crate::error::Result;
 use histories::Window;
-use mrbd_kernel::model::{PATTERN_NAMES, Wall};
+use mrbd_kernel::model::{FurtherLaw, PATTERN_NAMES, Wall};
 use mrbd_kernel::simulate::{Accuracy, Ensemble, Outcome, Response, Shaking, Verdict};
 
 /// Everything a picture of a run is made from.
@@ -218,9 +218,9 @@ impl RunPicture<'_> {
     fn provenance(&self) -> Vec<(String, String)> {
         let p = self.wall.parameters();
         let [lower_width_m, upper_width_m] = self.wall.width_m();
-        let effects = match &p.effects[..] {
+        let effects = match &p.further_laws()[..] {
             [] => "none".to_owned(),
-            effects => effects.iter().map(|effect| format!("{effect:?}")).collect::<Vec<_>>().join(", "),
+            laws => laws.iter().map(FurtherLaw::to_string).collect::<Vec<_>>().join(", "),
         };
         let pair = |name: &str, value: String| (name.to_owned(), value);
         let crack = p.crack_height_m.map_or("uncracked".to_owned(), |h1| format!("crack at {h1} m"));

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use mrbd_kernel::accelerogram::Accelerogram;
-use mrbd_kernel::model::{PATTERN_NAMES, Wall};
+use mrbd_kernel::model::{FurtherLaw, PATTERN_NAMES, Wall};
 use mrbd_kernel::simulate::{BeyondModel, Ensemble, Outcome, Response, Shaking, Verdict, beyond_model};
 
 /// A result of a run.
@@ -230,9 +230,9 @@ impl<'a> RunResults<'a> {
                 "tolerance   shortened no step, for those of the record are short enough: coarser ones give the same bits".to_owned(),
             );
         }
-        let effects = &self.wall.parameters().effects;
-        if !effects.is_empty() {
-            let names: Vec<String> = effects.iter().map(|effect| effect.variant().name()).collect();
+        let laws = self.wall.parameters().further_laws();
+        if !laws.is_empty() {
+            let names: Vec<String> = laws.iter().map(FurtherLaw::name).collect();
             lines.push(format!("effects     {}", names.join(", ")));
         }
         if !self.wall.reading().is_true() {
@@ -280,7 +280,7 @@ fn of_run(wall: &Wall, response: &Response) -> Value {
         "steps": response.work.steps,
         "tolerance_steps": response.work.tolerance_steps,
         "evaluations": response.work.evaluations,
-        "effects": wall.parameters().effects,
+        "effects": wall.parameters().further_laws(),
     });
     let reading = wall.reading();
     if !reading.is_true() {

@@ -166,6 +166,7 @@ impl Facade {
             collapse_rotation_ratio,
             initial_rotation_rad: [0.0; 2],
             effects: Vec::new(),
+            formulas: Vec::new(),
         })?)
     }
 

@@ -43,6 +43,7 @@ pub fn bare_wall(thickness_m: f64, height_m: f64, crack_height_m: Option<f64>) -
         collapse_rotation_ratio: WallParameters::DEFAULT_COLLAPSE_RATIO,
         initial_rotation_rad: [0.0, 0.0],
         effects: Vec::new(),
+        formulas: Vec::new(),
     }
 }
 

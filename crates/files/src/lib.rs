@@ -40,4 +40,4 @@ pub mod wall_file;
 pub use checksum::{FileNote, file_sha256};
 pub use description::Description;
 pub use error::{Error, InputError, Place, Result};
-pub use wall_file::{load_block, load_wall, parse_block, parse_wall, wall_from_table};
+pub use wall_file::{load_block, load_static_wall, load_wall, parse_block, parse_wall, wall_from_table};

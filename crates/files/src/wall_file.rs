@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::toml_file;
 use crate::error::{InputError, Result};
 use crate::slips::{self, Lengths};
-use mrbd_formula::Formula;
+use mrbd_formula::{Formula, Place};
 use mrbd_kernel::model::{
     Effect, FurtherLaw, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m,
 };
@@ -91,6 +91,22 @@ struct Initial {
 /// Input errors that name the file, the key, what was found and what is allowed.
 pub fn load_wall(path: &Path) -> Result<Wall> {
     parse_wall(path, &toml_file::read(path)?)
+}
+
+/// Reads a wall file for a static check, which counts forces at the top but no moments of formulas at joints.
+///
+/// # Errors
+/// As [`load_wall`]; a formula at a joint.
+pub fn load_static_wall(path: &Path) -> Result<Wall> {
+    let wall = load_wall(path)?;
+    match wall.parameters().formulas.iter().find(|formula| formula.place() != Place::Top) {
+        Some(formula) => {
+            let found = format!("the moment `{formula}` at the {}", formula.place().name());
+            let allowed = "formulas at the top: a static check counts no moments of formulas at joints";
+            Err(InputError::key(path, "effects", found, allowed).into())
+        }
+        None => Ok(wall),
+    }
 }
 
 /// Checks the text of a wall file that came from `path`.

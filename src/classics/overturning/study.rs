@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::error::{InputError, Result};
 use crate::study::pipeline::check_name;
 use mrbd_files::{load_block, toml_file};
-use mrbd_kernel::model::{Effect, Wall, WallParameters};
+use mrbd_kernel::model::{FurtherLaw, Wall, WallParameters};
 use mrbd_kernel::simulate::Accuracy;
 use mrbd_records::Pulse;
 use serde::Deserialize;
@@ -194,13 +194,12 @@ pub fn assumptions(study: &Study) -> Vec<(String, String)> {
         ),
         pair("tolerance", format!("{:e} of α", study.tolerance)),
     ];
-    if !p.effects.is_empty() {
-        let effect = |e: &Effect| {
-            let values = e.entry().parameters.iter().zip(e.parameters());
-            let values = values.map(|(p, value)| format!("{} = {value}", p.key)).collect::<Vec<_>>();
-            format!("{} ({})", e.variant().name(), values.join(", "))
-        };
-        told.push(pair("further effects", p.effects.iter().map(effect).collect::<Vec<_>>().join("; ")));
+    let laws = p.further_laws();
+    if !laws.is_empty() {
+        told.push(pair(
+            "further effects",
+            laws.iter().map(FurtherLaw::in_words).collect::<Vec<_>>().join("; "),
+        ));
     }
     told
 }

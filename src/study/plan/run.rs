@@ -8,6 +8,7 @@ use super::level::Level;
 use crate::study::ladder::Ladder;
 use crate::study::pipeline::{Limit, Member, Parameter, Variant};
 use crate::survey::{Configuration, Facade, ImpossibleFacade};
+use mrbd_formula::Formula;
 use mrbd_kernel::model::{Effect, Restitution, Wall, WallParameters};
 use mrbd_kernel::simulate::{Accuracy, Shaking};
 use mrbd_records::{Accelerogram, IntensityMeasures, ScaledMeasure, Suite, SuiteRecord};
@@ -291,6 +292,7 @@ impl Fingerprint {
             collapse_rotation_ratio,
             initial_rotation_rad,
             effects,
+            formulas,
         } = parameters;
         self.numbers("size", &[*thickness_m, *height_m, crack_height_m.unwrap_or(0.0), *length_m])
             .numbers("masses", &[*mass_kg, *diaphragm_mass_kg, *carriage_mass_kg])
@@ -302,6 +304,13 @@ impl Fingerprint {
             .number("collapse", *collapse_rotation_ratio)
             .numbers("initial", initial_rotation_rad)
             .effects(effects)
+            .formulas(formulas)
+    }
+
+    /// A wall without formulas hashes as before there were any.
+    fn formulas(self, formulas: &[Formula]) -> Self {
+        let texts = formulas.iter().map(|formula| serde_json::to_string(formula).unwrap_or_default());
+        texts.fold(self, |hash, formula| hash.text("formula", &formula))
     }
 
     /// Adds the place in an ensemble, of which the factors on motion and tolerance follow; nothing of a run as planned.

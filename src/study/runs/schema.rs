@@ -242,7 +242,7 @@ pub const COLUMNS: &[Column<Finished>] = with_results![
     Column::input("collapse_rotation_ratio", "", "rotation over α_i at which the wall counts as collapsed", number!(|f| assumed(f).collapse_rotation_ratio)),
     Column::input("initial_theta1_rad", "rad", "rotation of the lower body at the start", wall_number!(|w| w.initial_rotation_rad[0])),
     Column::input("initial_theta2_rad", "rad", "rotation of the upper body at the start", wall_number!(|w| w.initial_rotation_rad[1])),
-    Column::input("effects", "", "further effects of the model, as written in a wall file; [] for none", Read::Text(|f| serde_json::to_string(&wall(f)?.effects).ok().map(Cow::Owned))),
+    Column::input("effects", "", "further effects of the model, as written in a wall file; [] for none", Read::Text(|f| serde_json::to_string(&wall(f)?.further_laws()).ok().map(Cow::Owned))),
     Column::drawn("alpha1_rad", "rad", "slenderness angle of the lower body, atan(b_1 / h_1)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_i_rad()[0]))),
     Column::drawn("alpha2_rad", "rad", "slenderness angle of the upper body, atan(b_2 / h_2)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_i_rad()[1]))),
     Column::drawn("alpha_rad", "rad", "slenderness angle of the uncracked wall, atan(b_1 / h)", Read::Number(|f| f.run.wall.as_ref().ok().map(|wall| wall.alpha_rad()))),

@@ -296,6 +296,7 @@ mod tests {
             collapse_rotation_ratio: 2.0,
             initial_rotation_rad: [0.0, 0.0],
             effects: Vec::new(),
+            formulas: Vec::new(),
         }
     }
 

@@ -19,6 +19,43 @@ pub enum FurtherLaw {
     Formula(Formula),
 }
 
+impl FurtherLaw {
+    /// Name among the kinds and their variants; of a formula, its kind and place.
+    pub fn name(&self) -> String {
+        match self {
+            FurtherLaw::Effect(effect) => effect.variant().name(),
+            FurtherLaw::Formula(formula) => format!("{}.{}", Formula::KIND, formula.place().name()),
+        }
+    }
+
+    /// With the numbers by their keys, or the formula.
+    pub fn in_words(&self) -> String {
+        match self {
+            FurtherLaw::Effect(effect) => {
+                let keys = effect.entry().parameters.iter().map(|parameter| parameter.key);
+                let values = keys.zip(effect.parameters()).map(|(key, value)| format!("{key} = {value}"));
+                format!("{} ({})", self.name(), values.collect::<Vec<_>>().join(", "))
+            }
+            FurtherLaw::Formula(formula) => {
+                let with =
+                    |p: &Parameter| format!("; {} = {} {}", p.name, p.value, p.unit).trim_end().to_owned();
+                let numbers: String = formula.parameters().iter().map(with).collect();
+                format!("{} ({} = {formula}{numbers})", self.name(), formula.place().key())
+            }
+        }
+    }
+}
+
+/// In short: an effect by its values alone.
+impl fmt::Display for FurtherLaw {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            FurtherLaw::Effect(effect) => write!(f, "{effect:?}"),
+            FurtherLaw::Formula(_) => f.write_str(&self.in_words()),
+        }
+    }
+}
+
 impl Serialize for FurtherLaw {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
@@ -60,7 +97,7 @@ fn refused(found: impl Into<String>, allowed: impl Into<String>) -> EffectError 
     EffectError::Keys { kind: Formula::KIND, found: found.into(), allowed: allowed.into() }
 }
 
-fn formula_from_items(mut items: Vec<(String, Item)>) -> Result<Formula, EffectError> {
+fn formula_from_items(mut items: Items) -> Result<Formula, EffectError> {
     let mut take = |key: &str| items.iter().position(|(k, _)| k == key).map(|at| items.remove(at).1);
     let place = match take("place") {
         Some(Item::Word(word)) => {
@@ -168,13 +205,16 @@ impl<'de> Deserialize<'de> for Effect {
     }
 }
 
+/// Keys, and what stands behind them.
+type Items = Vec<(String, Item)>;
+
 /// What may stand behind a key.
 #[derive(Debug, Clone, PartialEq)]
 enum Item {
     Number(f64),
     Word(String),
     List(Vec<f64>),
-    Table(Vec<(String, Item)>),
+    Table(Items),
 }
 
 impl fmt::Display for Item {
@@ -204,8 +244,8 @@ impl<'de> Visitor<'de> for EffectVisitor {
 }
 
 /// The word behind `kind`, and all else.
-fn kind_and_items<'de, M: MapAccess<'de>>(mut map: M) -> Result<(String, Vec<(String, Item)>), M::Error> {
-    let mut items: Vec<(String, Item)> = Vec::new();
+fn kind_and_items<'de, M: MapAccess<'de>>(mut map: M) -> Result<(String, Items), M::Error> {
+    let mut items = Items::new();
     while let Some(entry) = map.next_entry()? {
         items.push(entry);
     }
@@ -218,7 +258,7 @@ fn kind_and_items<'de, M: MapAccess<'de>>(mut map: M) -> Result<(String, Vec<(St
     }
 }
 
-fn from_items(name: &str, mut items: Vec<(String, Item)>) -> Result<Effect, EffectError> {
+fn from_items(name: &str, mut items: Items) -> Result<Effect, EffectError> {
     let kind = EffectKind::named(name)?;
     let entry = kind.entry();
     let refused = |found: String, allowed: String| EffectError::Keys { kind: entry.name, found, allowed };

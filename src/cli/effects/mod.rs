@@ -1,12 +1,16 @@
 //! `mrbd effects`: the catalogue of further effects that a wall file may have.
 
+mod formula;
+
 use clap::Args;
 use serde::Serialize;
 
+use self::formula::FormulaEntry;
 use super::output;
 use crate::error::{InputError, Result};
 use crate::text::wrapped;
-use mrbd_kernel::model::{Effect, EffectKind, EffectParameter, Place};
+use mrbd_formula::Formula;
+use mrbd_kernel::model::{EffectKind, EffectParameter, Place};
 
 /// List the further effects that a wall file may have, with an example of each.
 ///
@@ -26,8 +30,14 @@ pub struct EffectsCommand {
 
 /// One effect as it stands in a wall file.
 #[derive(Debug, Serialize)]
-struct Example {
-    effects: [Effect; 1],
+struct Example<L> {
+    effects: [L; 1],
+}
+
+/// What can be listed: a kind of the catalogue, or formulas.
+enum Listed {
+    Kind(EffectKind),
+    Formula(FormulaEntry),
 }
 
 impl EffectsCommand {
@@ -36,16 +46,36 @@ impl EffectsCommand {
     /// # Errors
     /// A kind that there is not.
     pub fn execute(&self) -> Result<()> {
-        let named = |name: &String| EffectKind::named(name).map_err(|e| no_kind(name, &e.to_string()));
-        let kinds = match &self.kinds[..] {
-            [] => EffectKind::ALL.to_vec(),
+        let formula = || Listed::Formula(FormulaEntry::new());
+        let named = |name: &String| match name == Formula::KIND {
+            true => Ok(formula()),
+            false => EffectKind::named(name).map(Listed::Kind).map_err(|e| no_kind(name, &e.to_string())),
+        };
+        let listed = match &self.kinds[..] {
+            [] => EffectKind::ALL.iter().copied().map(Listed::Kind).chain([formula()]).collect(),
             names => names.iter().map(named).collect::<Result<Vec<_>, _>>()?,
         };
         output::print(&if self.json {
-            format!("{:#}", serde_json::json!(kinds.into_iter().map(EffectKind::entry).collect::<Vec<_>>()))
+            format!("{:#}", serde_json::json!(listed.iter().map(Listed::json).collect::<Vec<_>>()))
         } else {
-            kinds.into_iter().map(for_people).collect::<Vec<_>>().join("\n\n\n")
+            listed.iter().map(Listed::for_people).collect::<Vec<_>>().join("\n\n\n")
         })
+    }
+}
+
+impl Listed {
+    fn json(&self) -> serde_json::Value {
+        match self {
+            Listed::Kind(kind) => serde_json::json!(kind.entry()),
+            Listed::Formula(formula) => serde_json::json!(formula),
+        }
+    }
+
+    fn for_people(&self) -> String {
+        match self {
+            Listed::Kind(kind) => for_people(*kind),
+            Listed::Formula(formula) => formula.for_people(),
+        }
     }
 }
 
@@ -100,6 +130,11 @@ fn example(kind: EffectKind) -> String {
     };
     // A table of texts and numbers can always be written.
     let text = toml::to_string(&Example { effects: [variant.example()] }).unwrap_or_default();
+    lines_of(&text)
+}
+
+/// Lines of a file, indented.
+fn lines_of(text: &str) -> String {
     text.trim_end().lines().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
 }
 

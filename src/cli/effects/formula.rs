@@ -1,0 +1,96 @@
+//! What `mrbd effects` says of formulas: laws that the catalogue does not have.
+
+use serde::Serialize;
+
+use super::{Example, indented, lines_of};
+use mrbd_formula::{Formula, FormulaError, Function, Parameter, Place};
+
+/// A formula as an entry beside those of the catalogue.
+#[derive(Debug, Serialize)]
+pub struct FormulaEntry {
+    name: &'static str,
+    places: Vec<PlaceEntry>,
+    operators: &'static str,
+    functions: Vec<&'static str>,
+    law: &'static str,
+    description: &'static str,
+    told_by: &'static str,
+}
+
+/// Where a formula acts, what it sees there, and what it gives.
+#[derive(Debug, Serialize)]
+struct PlaceEntry {
+    place: &'static str,
+    key: &'static str,
+    gives: &'static str,
+    variables: [&'static str; 3],
+}
+
+const LAW: &str = "what acts on the wall: a spring is -k*x";
+const DESCRIPTION: &str = "A force at the top or a moment at a joint as arithmetic of what moves there. Units are checked, kinks are \
+                           met exactly, and a jump against the motion at v = 0 is friction. What Python reads, it reads \
+                           the same way; a comparison is 0 or 1. The acceleration a stands for a mass: `carriage_mass` has it.";
+const OPERATORS: &str = "+ - * / ** < <= > >=";
+const TOLD_BY: &str = "a test at another amplitude: formulas that agree in one range part beyond it";
+
+impl FormulaEntry {
+    /// Of the formulas that a wall file may have.
+    pub fn new() -> Self {
+        let places = Place::ALL.map(|place| PlaceEntry {
+            place: place.name(),
+            key: place.key(),
+            gives: if place == Place::Top { "a force, N" } else { "a moment, N m" },
+            variables: if place == Place::Top {
+                ["x m", "v m/s", "a m/s²"]
+            } else {
+                ["phi rad", "w rad/s", "N the weight on the joint, N"]
+            },
+        });
+        Self {
+            name: Formula::KIND,
+            places: Vec::from(places),
+            operators: OPERATORS,
+            functions: Function::ALL.map(Function::name).to_vec(),
+            law: LAW,
+            description: DESCRIPTION,
+            told_by: TOLD_BY,
+        }
+    }
+
+    /// As text.
+    pub fn for_people(&self) -> String {
+        let mut lines = vec![format!("{} — at the top or at a joint", self.name), indented(self.description)];
+        lines.push(format!("  {}", self.law));
+        let of_place = |p: &PlaceEntry| {
+            format!("  place = \"{}\": {} gives {} of {}", p.place, p.key, p.gives, p.variables.join(", "))
+        };
+        lines.extend(self.places.iter().map(of_place));
+        lines.push(format!("  operators {}; functions {}", self.operators, self.functions.join(" ")));
+        lines.push(indented(&format!("Told by itself by {}.", self.told_by)));
+        lines.push("  In a wall file (several add up):\n".to_owned());
+        // The example is a formula, as the test below shows.
+        let text = example().ok().and_then(|law| toml::to_string(&Example { effects: [law] }).ok());
+        lines.push(lines_of(&text.unwrap_or_default()));
+        lines.join("\n")
+    }
+}
+
+fn example() -> Result<Formula, FormulaError> {
+    let parameters = [
+        Parameter::new("k", 2500.0, "N/m"),
+        Parameter::new("c", 900.0, "N*(s/m)**p"),
+        Parameter::new("p", 1.7, "1"),
+    ];
+    Formula::parse("-k*x - c*abs(v)**p*sign(v)", Place::Top, &parameters)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_the_example_is_a_formula() {
+        let text = FormulaEntry::new().for_people();
+        assert!(example().is_ok() && text.contains("force_n = \"-k*x - c*abs(v)**p*sign(v)\""), "{text}");
+    }
+}
