@@ -50,6 +50,10 @@ fn jump(
     }
     match &switch.at {
         SwitchAt::Line { variable: VELOCITY, value } => at_velocity(program, index, *value, names, range),
+        // With the weight alone, which stays.
+        _ if names[2] == "N" && !switch.depends_on(DISPLACEMENT) && !switch.depends_on(VELOCITY) => {
+            Ok(Jump::None)
+        }
         _ if switch.depends_on(DISPLACEMENT) && !switch.depends_on(VELOCITY) && !switch.depends_on(2) => {
             at_displacement(program, index, switch, names, range)
         }

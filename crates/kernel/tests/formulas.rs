@@ -5,6 +5,7 @@ use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Contact, Effect, ImpactLaw, Restitution, RockingWall, Wall, WallParameters};
 use mrbd_kernel::simulate::{
     Accuracy, Observer, Outcome, Response, Shaking, Simulator, simulate, simulate_observed,
+    simulate_side_by_side,
 };
 use mrbd_kernel::solver::Quintic;
 
@@ -272,6 +273,7 @@ fn strangers() -> Vec<Formula> {
             "-k*phi*abs(phi) - mu*N*tanh(w/s)*b",
             &[("k", 2e5, "N*m"), ("mu", 0.1, ""), ("s", 0.05, "1/s"), ("b", 0.05, "m")],
         ),
+        formula(Place::Crack, "-c*w*max(N - L, 0)/L*(N > L)", &[("c", 500.0, "N*m*s"), ("L", 10e3, "N")]),
         formula(Place::Ground, "-M*(abs(phi)/r)**0.7*sign(phi)", &[("M", 300.0, "N*m"), ("r", 0.01, "rad")]),
     ]
 }
@@ -341,12 +343,21 @@ fn analytic_formulas_add_up_and_go_beside_effects() {
 }
 
 #[test]
-fn analytic_windows_of_a_run_go_where_the_run_goes() {
-    for law in strangers() {
-        let wall = with_formulas(std::slice::from_ref(&law), table_wall());
-        let simulator = Simulator::new(&wall, &shaking(1.0), ACCURACY);
-        let whole = simulator.run(&mut ());
-        assert_eq!(format!("{whole:?}"), format!("{:?}", simulate(&wall, &shaking(1.0), ACCURACY)), "{law}");
+fn analytic_a_wall_with_a_formula_moves_side_by_side_as_alone_to_the_bit() {
+    let named = Wall::new(table_wall()).expect("a wall");
+    let mut walls: Vec<Wall> =
+        strangers().into_iter().map(|law| with_formulas(&[law], table_wall())).collect();
+    walls.extend([named.clone(), named.clone(), named]);
+    let mut waiting = walls.iter().enumerate();
+    let mut next = || {
+        let (index, wall) = waiting.next()?;
+        Some((index, Simulator::new(wall, &shaking(1.0), ACCURACY).prepared()))
+    };
+    let mut beside = vec![None; walls.len()];
+    simulate_side_by_side(&mut next, &mut |index, response| beside[index] = Some(response));
+    for (wall, beside) in walls.iter().zip(beside) {
+        let alone = simulate(wall, &shaking(1.0), ACCURACY);
+        assert_eq!(format!("{beside:?}"), format!("{:?}", Some(alone)), "{:?}", wall.parameters().formulas);
     }
 }
 

@@ -63,6 +63,7 @@ fn share_of(wall: &RockingWall, contact: Contact, turn: &Turn, ends: [&Point; 2]
             let Bernstein(rates) = rates(from, to, h);
             end_of(Bernstein(rates.map(|rate| side * (rate - value))), rounding)
         }
+        Path::Nowhere => None,
         Path::Both => {
             let (displacement, rates) = (hermite(from, to, h), rates(from, to, h));
             let at = |k: usize| {

@@ -27,6 +27,8 @@ pub(crate) enum Path {
     Rate(f64),
     /// With both.
     Both,
+    /// Nowhere: with a weight, which stays.
+    Nowhere,
 }
 
 impl FormulaLaws {
@@ -66,7 +68,8 @@ impl Turn<'_> {
     pub fn path(&self) -> Path {
         match &self.switch.at {
             SwitchAt::Line { variable: 0, value } => Path::Displacement(*value),
-            SwitchAt::Line { value, .. } => Path::Rate(*value),
+            SwitchAt::Line { variable: 1, value } => Path::Rate(*value),
+            SwitchAt::Line { .. } => Path::Nowhere,
             SwitchAt::Surface(_) => Path::Both,
         }
     }
