@@ -11,7 +11,7 @@ use super::threads::Threads;
 use super::{output, stop};
 use crate::error::Result;
 use crate::results::diagnosis::{OutputNames, write_results};
-use mrbd_lab::diagnose::answer::{FoundEffect, Summary};
+use mrbd_lab::diagnose::answer::{FittedNumber, FoundEffect, OwnHypothesis, Summary};
 use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
 
 /// Find where model and measurement disagree, and name the missing effect.
@@ -77,7 +77,26 @@ fn in_words(summary: &Summary) -> String {
         }
         _ => "windowed error: no window in which the wall moves".to_owned(),
     });
+    lines.extend(summary.hypotheses.iter().map(own_in_words));
     lines.join("\n")
+}
+
+/// A law of the user's own: its numbers, and how well it follows.
+fn own_in_words(own: &OwnHypothesis) -> String {
+    let number = |n: &FittedNumber| {
+        let within = n.sd.map_or_else(String::new, |sd| format!(" ± {sd:.2e}"));
+        format!("{} = {:.5}{within} {}", n.key, n.value, n.unit).trim_end().to_owned()
+    };
+    let numbers = own.parameters.iter().map(number).collect::<Vec<_>>().join(", ");
+    let error = &own.windowed_error;
+    match (error.fit, error.held_out) {
+        (None, _) => format!("your {:?}: no fit makes a wall that follows", own.name),
+        (Some(fit), held_out) => {
+            let held_out = held_out.map_or_else(String::new, |error| format!(", {error:.2} held out"));
+            let closes = if own.closes_gap { "closes the gap" } else { "does not close the gap" };
+            format!("your {:?}: {closes}, windowed error {fit:.2}{held_out}; {numbers}", own.name)
+        }
+    }
 }
 
 /// An effect and its place, and a line for each of its numbers.

@@ -20,6 +20,7 @@ mod convergence;
 mod describe;
 mod diagnose;
 mod diagnose_force;
+mod diagnose_own;
 mod diagnose_twin;
 mod direction;
 mod drawn;

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::fit::{Problem, windowed_error};
 use super::hypothesis::{ACTING, Hypothesis, Nuisance, Scales, WALL_NUMBERS, wall_number};
 use super::trials::{Data, untouched};
-use crate::experiment::file::{ExperimentFile, TestTable};
+use crate::experiment::file::{ExperimentFile, HypothesisTable, TestTable};
 use crate::experiment::test_data::check_radians;
 use crate::experiment::{Purpose, Test, TestData, load_tests, rest_offset_rad, windows};
 use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER, TOO_LARGE_RAD};
@@ -30,6 +30,8 @@ pub struct Experiment {
     pub wall_table: toml::Table,
     /// What was uncertain of it.
     pub nuisances: Vec<Nuisance>,
+    /// Laws of the user's own, tried beside the catalogue.
+    pub hypotheses: Vec<HypothesisTable>,
     /// What was measured.
     pub tests: Vec<TestData>,
     /// The same tests, for the error over whole runs (Eq. 8).
@@ -65,8 +67,10 @@ impl Experiment {
         let note = |(role, file): (String, PathBuf)| FileNote::of(&role, &file);
         let read = file.files(path).into_iter().filter(|(role, _)| role != "coefficients");
         let inputs = read.map(note).collect::<Result<_>>()?;
+        check_hypotheses(path, &file.hypotheses, wall.parameters())?;
         Ok(Self {
             path: path.to_path_buf(),
+            hypotheses: file.hypotheses,
             wall_path,
             wall,
             wall_table,
@@ -77,6 +81,24 @@ impl Experiment {
             inputs,
         })
     }
+}
+
+/// Refuses laws of the user's own that the wall cannot have with the numbers that are written.
+fn check_hypotheses(path: &Path, own: &[HypothesisTable], wall: &WallParameters) -> Result<(), InputError> {
+    for (i, HypothesisTable { name, formula }) in own.iter().enumerate() {
+        let key = |key: &str| format!("hypotheses[{i}].{key}");
+        if own[..i].iter().any(|earlier| earlier.name == *name) {
+            return Err(InputError::key(path, key("name"), format!("{name:?} again"), "each name once"));
+        }
+        if let Some(zero) = formula.parameters().iter().find(|parameter| parameter.value == 0.0) {
+            let allowed = "a value of the size that is looked for, with its sign";
+            return Err(InputError::key(path, key(&format!("parameters.{}", zero.name)), "0", allowed));
+        }
+        let mut with = wall.clone();
+        with.formulas.push(formula.clone());
+        Wall::new(with).map_err(|e| InputError::key(path, key(formula.place().key()), e.found, e.allowed))?;
+    }
+    Ok(())
 }
 
 fn nuisances(path: &Path, file: &ExperimentFile, wall: &WallParameters) -> Result<Vec<Nuisance>, InputError> {

@@ -72,7 +72,8 @@ pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Res
         windows = new_windows;
     }
     let found = judge(&flow.trials(&windows), first_fits);
-    Ok(Findings { experiment, tests: flow.tests, windows, found })
+    let own = flow.trials(&windows).own_hypotheses(&found.before);
+    Ok(Findings { experiment, tests: flow.tests, windows, found, own })
 }
 
 /// An experiment, with its tests as they are read so far.

@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::toml_file;
-use mrbd_kernel::model::ImpactLaw;
+use mrbd_formula::Formula;
+use mrbd_kernel::model::{FurtherLaw, ImpactLaw};
 use mrbd_kernel::simulate::Accuracy;
 
 /// An experiment file as written; its paths are relative to its folder.
@@ -24,6 +26,42 @@ pub struct ExperimentFile {
     pub calibrate: CalibrateTable,
     /// The tests.
     pub tests: Vec<TestTable>,
+    /// Laws of the user's own that a diagnosis tries beside the catalogue.
+    #[serde(default)]
+    pub hypotheses: Vec<HypothesisTable>,
+}
+
+/// `[[hypotheses]]`: a name, and the keys of a formula of a wall file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HypothesisTable {
+    /// Name in results.
+    pub name: String,
+    /// The law, with the values from which a fit starts.
+    pub formula: Formula,
+}
+
+impl<'de> Deserialize<'de> for HypothesisTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut table = toml::Table::deserialize(deserializer)?;
+        let name = match table.remove("name") {
+            Some(toml::Value::String(name)) if !name.trim().is_empty() => name,
+            Some(other) => {
+                return Err(D::Error::custom(format!("{other} for `name`, expected a name in quotes")));
+            }
+            None => return Err(D::Error::missing_field("name")),
+        };
+        match FurtherLaw::deserialize(table).map_err(|e| D::Error::custom(e.message()))? {
+            FurtherLaw::Formula(formula) if formula.parameters().is_empty() => {
+                Err(D::Error::custom("a formula without parameters, expected a number to be found"))
+            }
+            FurtherLaw::Formula(formula) => Ok(Self { name, formula }),
+            FurtherLaw::Effect(effect) => {
+                let kind = effect.entry().name;
+                let allowed = "`formula`: the catalogue is tried anyway";
+                Err(D::Error::custom(format!("kind `{kind}` of a hypothesis, expected {allowed}")))
+            }
+        }
+    }
 }
 
 /// `[calibrate]`.

@@ -49,6 +49,7 @@ impl Findings<'_> {
             could_hide: self.could_hide(),
             confused: confused(&data, &found.recalibrated, &found.tried),
             rivals: found.tried.iter().map(|tried| self.rival(tried)).collect(),
+            hypotheses: self.own_hypotheses(),
             missing_force: force.summary(physics),
             next_tests: next_tests(self),
             program: concat!("mrbd ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -275,7 +276,7 @@ fn whole_wme(test: &Test, wall: &Wall) -> Option<f64> {
     finite(test.simulate(wall, Accuracy::default()).wme)
 }
 
-fn of_both<T>([fit, held_out]: [T; 2]) -> FitHeldOut<T> {
+pub(super) fn of_both<T>([fit, held_out]: [T; 2]) -> FitHeldOut<T> {
     FitHeldOut { fit, held_out }
 }
 

@@ -5,9 +5,10 @@
 //! | [`Findings`] | fitted hypotheses and the windows they were fitted to, before anything is said of them |
 //! | [`summary`] | the types of `diagnosis.json`, written, read and scored as one struct |
 //! | [`rows`] | the rows of the tables beside it, and how they follow from the findings |
-//! | `conclusion`, `updated_wall` | how the summary and the updated wall file follow from the findings |
+//! | `conclusion`, `own`, `updated_wall` | how the summary and the updated wall file follow from the findings |
 
 mod conclusion;
+mod own;
 pub mod rows;
 pub mod summary;
 mod updated_wall;
@@ -21,7 +22,7 @@ use rows::ForceBeforeAfter;
 pub use rows::Tables;
 pub use summary::{
     Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, ForceSize, FoundEffect, KIND,
-    MissingForce, Rival, Stages, Summary, TestErrors, WallFit, WindowCounts,
+    MissingForce, OwnHypothesis, Rival, Stages, Summary, TestErrors, WallFit, WindowCounts,
 };
 
 /// A diagnosis: the verdict with everything it rests on.
@@ -75,6 +76,8 @@ pub struct Findings<'e> {
     pub windows: [Vec<Window>; 2],
     /// The answer, and every hypothesis that was fitted.
     pub found: Found,
+    /// Laws of the user's own, in the order of the experiment.
+    pub own: Vec<Option<FittedHypothesis>>,
 }
 
 impl Findings<'_> {

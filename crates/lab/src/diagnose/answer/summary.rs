@@ -46,6 +46,9 @@ pub struct Summary {
     pub confused: Vec<Confused>,
     /// Every hypothesis that was tried, the best first.
     pub rivals: Vec<Rival>,
+    /// Laws of the user's own, in the order of the experiment; they do not enter the verdict.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hypotheses: Vec<OwnHypothesis>,
     /// The force that is missing at the top.
     pub missing_force: MissingForce,
     /// Tests that would part a class; `None` for any other verdict.
@@ -209,6 +212,25 @@ pub struct Rival {
     pub wme: FitHeldOut<Option<f64>>,
     /// Least and largest of that error over numbers that fit as well.
     pub wme_range: FitHeldOut<Option<[f64; 2]>>,
+}
+
+/// A law of the user's own, fitted.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct OwnHypothesis {
+    /// Its name in the experiment.
+    pub name: String,
+    /// Where it acts.
+    pub place: String,
+    /// The formula.
+    pub formula: String,
+    /// Its numbers as fitted, in their units; empty where no fit makes a wall.
+    pub parameters: Vec<FittedNumber>,
+    /// Windowed error, in standard deviations of the noise.
+    pub windowed_error: FitHeldOut<Option<f64>>,
+    /// What speaks against it, in natural logarithms of likelihood; `None` where no fit makes a wall.
+    pub against: Option<Against>,
+    /// Whether what it leaves is near enough to noise to be the truth, in tests held out too.
+    pub closes_gap: bool,
 }
 
 /// What speaks against a hypothesis, in natural logarithms of likelihood.

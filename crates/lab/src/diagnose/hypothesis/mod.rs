@@ -14,6 +14,7 @@ pub use unknown::{WALL_NUMBERS, WallNumber, wall_number};
 
 use nalgebra::{DMatrix, DVector};
 
+use mrbd_formula::Formula;
 use mrbd_kernel::model::{Effect, EffectKind, EffectVariant, Role, Wall, WallParameters};
 use unknown::Slot;
 
@@ -57,6 +58,22 @@ impl Hypothesis {
             unknowns.extend(addition.unknowns(base, scales, index));
         }
         Self { base: base.clone(), additions: additions.to_vec(), unknowns, nuisances: count }
+    }
+
+    /// The wall with these uncertainties and a law of the user's own, whose numbers are to be found.
+    ///
+    /// A number is looked for from next to nothing to ten times what is written, and keeps its sign.
+    pub fn of_formula(
+        base: &WallParameters,
+        scales: &Scales,
+        nuisances: &[Nuisance],
+        formula: &Formula,
+    ) -> Self {
+        let mut hypothesis = Self::new(base, scales, nuisances, &[]);
+        hypothesis.base.formulas.push(formula.clone());
+        let written = formula.parameters().iter().enumerate();
+        hypothesis.unknowns.extend(written.map(|(i, parameter)| Unknown::of_formula(i, parameter)));
+        hypothesis
     }
 
     /// Where the search starts.
@@ -125,8 +142,10 @@ impl Hypothesis {
     /// The parameters of the wall these values make; `None` if an effect is outside its bounds.
     pub fn parameters_of_wall(&self, values: &[f64]) -> Option<WallParameters> {
         let mut p = self.base.clone();
+        let mut written = Vec::new();
         for (unknown, &value) in self.unknowns.iter().zip(values) {
             match unknown.slot {
+                Slot::Written(_) => written.push(value),
                 Slot::Number(number) => (number.set)(&mut p, value),
                 Slot::Coefficient(l) => p.restitution.coefficients[l] = value,
                 Slot::Added(index, _) => match self.additions[index] {
@@ -137,6 +156,9 @@ impl Hypothesis {
             }
         }
         p.effects.extend(self.effects(values)?);
+        if let Some(formula) = p.formulas.last_mut().filter(|_| !written.is_empty()) {
+            *formula = formula.with_values(&written).ok()?;
+        }
         Some(p)
     }
 

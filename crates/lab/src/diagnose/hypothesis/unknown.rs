@@ -2,6 +2,7 @@
 
 use crate::experiment::TestData;
 use crate::limits::{PRIOR_REACH, WIDE_PRIOR};
+use mrbd_formula::Parameter;
 use mrbd_kernel::model::{Quantity, RockingWall, Wall, WallParameters};
 
 /// Where the value of an unknown goes.
@@ -13,6 +14,8 @@ pub enum Slot {
     Coefficient(usize),
     /// Addition by its index, parameter by its index.
     Added(usize, usize),
+    /// Parameter of the formula that stands last in the wall, by its index.
+    Written(usize),
 }
 
 /// One number to be found.
@@ -36,7 +39,26 @@ pub struct Unknown {
     pub(super) slot: Slot,
 }
 
+/// A parameter of a formula of the user's own reaches from this share of what is written to this multiple.
+const REACH_OF_WRITTEN: [f64; 2] = [1e-3, 10.0];
+
 impl Unknown {
+    /// The parameter with this index of a formula of the user's own.
+    pub(super) fn of_formula(index: usize, parameter: &Parameter) -> Self {
+        let ends = REACH_OF_WRITTEN.map(|share| share * parameter.value);
+        Self {
+            key: parameter.name.clone(),
+            // Units of formulas are the user's: they stand beside the formula.
+            unit: "",
+            start: parameter.value,
+            scale: parameter.value.abs(),
+            lower: ends[0].min(ends[1]),
+            upper: ends[0].max(ends[1]),
+            prior_sd: None,
+            slot: Slot::Written(index),
+        }
+    }
+
     /// Whether it is a number of the addition with this index.
     pub fn belongs_to(&self, index: usize) -> bool {
         matches!(self.slot, Slot::Added(i, _) if i == index)

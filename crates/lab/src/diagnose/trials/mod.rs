@@ -6,6 +6,7 @@
 //! | `fitted_hypothesis` | what came of it: whether it follows the tests within noise, closes a gap, does something |
 //! | `effects` | the wall as given, its own numbers, effects one by one and in pairs, an answer fitted again |
 //! | `imitation` | hypotheses that could imitate the best |
+//! | `own` | laws of the user's own |
 //! | `friction` | friction that gives a little first |
 //! | `patterns` | patterns read again, without a sensor's gain and with joints open by less than the noise |
 
@@ -13,6 +14,7 @@ mod effects;
 mod fitted_hypothesis;
 mod friction;
 mod imitation;
+mod own;
 mod patterns;
 mod search;
 
