@@ -30,6 +30,14 @@ force_n = "-k*x**3"
 k = { value = 1e6, unit = "N/m**3" }
 "#;
 
+/// The second law, but for its name.
+const SPRING: &str = r#"kind = "formula"
+place = "top"
+force_n = "-k*x**3"
+[hypotheses.parameters]
+k = { value = 1e6, unit = "N/m**3" }
+"#;
+
 fn append(path: &Path, text: &str) {
     let before = fs::read_to_string(path).expect("written");
     fs::write(path, before + text).expect("written again");
@@ -74,7 +82,12 @@ fn rejects_hypotheses_that_are_none() {
         ("value = 1e6", "value = 0", &["hypotheses[1].parameters.k", "found 0", "with its sign"]),
         ("-k*x**3", "-k*x**2", &["`-k*x**2` in N/m", "allowed: N"]),
         ("-k*x**3", "-k*x**4/x", &["hypotheses[1].force_n", "`x` may be zero"]),
-        ("kind = \"formula\"", "kind = \"gap\"", &["unknown key"]),
+        ("kind = \"formula\"", "kind = \"gap\"", &["hypotheses[0]", "of gap"]),
+        (
+            SPRING,
+            "kind = \"viscous_damping\"\ncoefficient_n_s_per_m = 100.0\n",
+            &["kind `viscous_damping`", "is tried anyway"],
+        ),
     ] {
         assert!(HYPOTHESES.contains(found), "{found}");
         fs::write(&experiment, tests.clone() + &HYPOTHESES.replacen(found, put, 1)).expect("written");

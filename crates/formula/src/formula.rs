@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
+use crate::compile::compile;
 use crate::dimension::{self, Dimension, Names};
 use crate::error::FormulaError;
 use crate::expression::{Expression, Function};
 use crate::jump::{Jump, jumps};
 use crate::parse::parse;
-use crate::program::{Program, State, compile};
+use crate::program::{Program, State};
 use crate::range::{Range, check_finite};
 use crate::switch::Branches;
 use crate::unit::dimension_of;

@@ -9,7 +9,7 @@
 //! | --- | --- | --- |
 //! | `parse` | text | an [`Expression`], or where it is none |
 //! | `dimension` | an expression, the units of its parameters | the dimension of each subexpression |
-//! | `program` | an expression, the values of its parameters | a tape that is run, and its switches |
+//! | `compile`, `program` | an expression, the values of its parameters | a tape that is run, and its switches |
 //! | `range` | an expression, a range of states | whether it is finite everywhere there |
 //! | `jump` | a program, a range of states | where the force jumps, and whether that can be followed |
 //!
@@ -28,6 +28,7 @@
 //! # Ok::<(), mrbd_formula::FormulaError>(())
 //! ```
 
+mod compile;
 mod dimension;
 mod error;
 mod expression;

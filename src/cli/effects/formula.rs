@@ -23,7 +23,7 @@ struct PlaceEntry {
     place: &'static str,
     key: &'static str,
     gives: &'static str,
-    variables: [&'static str; 3],
+    variables: &'static [&'static str],
 }
 
 const LAW: &str = "what acts on the wall: a spring is -k*x";
@@ -41,9 +41,9 @@ impl FormulaEntry {
             key: place.key(),
             gives: if place == Place::Top { "a force, N" } else { "a moment, N m" },
             variables: if place == Place::Top {
-                ["x m", "v m/s", "a m/s²"]
+                &["x m", "v m/s"]
             } else {
-                ["phi rad", "w rad/s", "N the weight on the joint, N"]
+                &["phi rad", "w rad/s", "N the weight on the joint, N"]
             },
         });
         Self {

@@ -303,7 +303,7 @@ impl<'de> Visitor<'de> for ItemVisitor {
     type Value = Item;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a number, a word, a list of numbers or a table")
+        f.write_str("a number, a word or a list of numbers, or a table of parameters")
     }
 
     fn visit_f64<E>(self, number: f64) -> Result<Item, E> {
