@@ -327,6 +327,17 @@ limits! {
 }
 
 limits! {
+    /// When a law that no catalogue has is told as a formula.
+    FORMULA:
+    /// What the shape of an atom costs beside its numbers.
+    ///
+    /// About the logarithm of the number of shapes.
+    LAW_LENGTH: f64 = 3.0, "ln of likelihood";
+    /// Laws of one atom, and of two, that are refined off the grid.
+    LAWS_REFINED: usize = 16, "";
+}
+
+limits! {
     /// What could hide, what could not be told apart, and which test would.
     BEYOND:
     /// Distance from doing nothing at which an effect is detected.
@@ -346,7 +357,7 @@ limits! {
 }
 
 /// Every group by its name in the guide.
-pub const GROUPS: [(&str, &[Limit]); 10] = [
+pub const GROUPS: [(&str, &[Limit]); 11] = [
     ("files", FILES),
     ("patterns", PATTERNS),
     ("windows", WINDOWS),
@@ -356,5 +367,6 @@ pub const GROUPS: [(&str, &[Limit]); 10] = [
     ("second", SECOND),
     ("other law", OTHER_LAW),
     ("place", PLACE),
+    ("formula", FORMULA),
     ("beyond", BEYOND),
 ];

@@ -74,8 +74,13 @@ impl RockingWall {
 
     /// Angular accelerations of the free bodies by a horizontal force of 1 N at the top, M⁻¹ J_x, rad/s².
     pub fn accelerations_by_force(&self, contact: Contact, theta: Pair) -> Pair {
+        self.accelerations_by_moments(contact, theta, self.top_arms_m(contact, theta))
+    }
+
+    /// Angular accelerations of the free bodies by a pair of moments, N m: M⁻¹ of them, rad/s².
+    pub fn accelerations_by_moments(&self, contact: Contact, theta: Pair, moments_n_m: Pair) -> Pair {
         let motion = self.motion(contact);
-        motion.mass_matrix(Rotations::new(theta)).solve(motion.freedom, self.top_arms_m(contact, theta))
+        motion.mass_matrix(Rotations::new(theta)).solve(motion.freedom, moments_n_m)
     }
 
     /// The pair of moments M θ'' that these angular accelerations need, N m.

@@ -17,6 +17,7 @@
 
 pub mod answer;
 pub mod certainty;
+pub mod discovery;
 pub mod experiment;
 pub mod fit;
 pub mod force;

@@ -9,6 +9,7 @@
 mod curves;
 mod jumps;
 mod points;
+mod weak_form;
 
 pub use curves::acts_at_top;
 pub use curves::curve_left;
@@ -18,3 +19,4 @@ pub use jumps::{Jump, jumps};
 pub use jumps::{Stretch, stretches};
 pub use points::Kernel;
 pub use points::{ForcePoint, force_points, median_share_off_top};
+pub use weak_form::{SITES, Sample, Site, WeakStretch, weak_stretches};

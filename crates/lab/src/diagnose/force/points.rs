@@ -61,16 +61,16 @@ pub fn median_share_off_top(points: &[ForcePoint]) -> Option<(f64, usize)> {
 }
 
 /// One test under one wall.
-struct Residual {
+pub(super) struct Residual {
     index: usize,
-    test: TestData,
-    wall: RockingWall,
+    pub(super) test: TestData,
+    pub(super) wall: RockingWall,
     simulator: Simulator,
     spring: SpringMemory,
 }
 
 impl Residual {
-    fn new(index: usize, test: &TestData, physics: &Physics) -> Self {
+    pub(super) fn new(index: usize, test: &TestData, physics: &Physics) -> Self {
         // Rotations as they are, not as the sensors of this wall read them.
         let reading = physics.wall.reading();
         let mut test = test.clone();
@@ -91,14 +91,8 @@ impl Residual {
     }
 
     fn points(mut self) -> Vec<ForcePoint> {
-        let full = self.test.samples_in(HALF_REACH * self.wall.response_time_s());
-        let least = ((LEAST_REACH * full as f64) as usize).max(2);
         let mut points = Vec::new();
-        for stretch in stretches(&self.test) {
-            let half = full.min((stretch.states.len() - 1) / 2);
-            if stretch.freedom == Freedom::Rest || half < least {
-                continue;
-            }
+        for (stretch, half) in self.telling() {
             let model = self.model(&stretch);
             let kernel = Kernel::new(half);
             for middle in (half..stretch.states.len() - half).step_by(half) {
@@ -113,8 +107,17 @@ impl Residual {
         points
     }
 
+    /// Stretches in motion that are long enough, each with half the reach of its test function, in samples.
+    pub(super) fn telling(&self) -> Vec<(Stretch, usize)> {
+        let full = self.test.samples_in(HALF_REACH * self.wall.response_time_s());
+        let least = ((LEAST_REACH * full as f64) as usize).max(2);
+        let reach = |stretch: &Stretch| full.min((stretch.states.len() - 1) / 2);
+        let moving = stretches(&self.test).into_iter().filter(|stretch| stretch.freedom != Freedom::Rest);
+        moving.map(|s| (reach(&s), s)).filter(|(half, _)| *half >= least).map(|(half, s)| (s, half)).collect()
+    }
+
     /// Angular accelerations of the model at every sample of a stretch.
-    fn model(&mut self, stretch: &Stretch) -> Vec<Pair> {
+    pub(super) fn model(&mut self, stretch: &Stretch) -> Vec<Pair> {
         let at = |(i, state): (usize, &State)| {
             let k = stretch.from + i;
             let plastic_m = self.spring.plastic_m(k, &self.wall, stretch.contact, state.theta);

@@ -1,0 +1,96 @@
+//! The missing force as equations: what any law must make up for, with what is uncertain of the wall beside it.
+
+use super::law::{Atom, Law};
+use crate::diagnose::force::{SITES, Sample, Site, WeakStretch, weak_stretches};
+use crate::diagnose::hypothesis::Hypothesis;
+use crate::experiment::{Purpose, TestData};
+use nalgebra::{DMatrix, DVector};
+
+/// Change of an uncertain number of the wall over which its trace is taken, in standard deviations of what was known.
+const CHANGE_SD: f64 = 0.5;
+
+/// Weak-form equations of the tests to fit under a wall: rows over the noise, free of correlation.
+#[derive(Debug)]
+pub struct Points {
+    stretches: Vec<WeakStretch>,
+    /// What the model lacks.
+    pub missing: DVector<f64>,
+    /// What a standard deviation of each uncertain number of the wall makes of it.
+    pub wall: DMatrix<f64>,
+    /// The test of each row.
+    pub test: Vec<usize>,
+    /// By site: largest displacement and velocity.
+    pub reach: [[f64; 2]; 3],
+}
+
+impl Points {
+    /// Under the wall of a hypothesis without additions, with its numbers where they start. `None` without such a wall, or
+    /// where no stretch is long enough.
+    pub fn new(tests: &[TestData], wall: &Hypothesis) -> Option<Self> {
+        let fitted = tests.iter().enumerate().filter(|(_, test)| test.purpose == Purpose::Fit);
+        let tests = fitted.collect::<Vec<_>>();
+        let at = |values: &[f64]| Some(weak_stretches(&tests, &wall.physics(values)?));
+        let missing = |stretches: &[WeakStretch]| {
+            DVector::from_vec(stretches.iter().flat_map(|s| s.missing().to_vec()).collect())
+        };
+        let start = wall.start();
+        let stretches = at(&start)?;
+        let own = missing(&stretches);
+        if own.is_empty() {
+            return None;
+        }
+        let mut traces = Vec::new();
+        for (i, unknown) in wall.unknowns.iter().enumerate() {
+            let mut values = start.clone();
+            values[i] += CHANGE_SD * unknown.prior_sd?;
+            let moved = missing(&at(&values)?);
+            // Of another number of rows only where a stretch ends by the wall's time of response.
+            if moved.len() == own.len() {
+                traces.push((&own - moved) / CHANGE_SD);
+            }
+        }
+        let wall = match traces.is_empty() {
+            true => DMatrix::zeros(own.len(), 0),
+            false => DMatrix::from_columns(&traces),
+        };
+        let test = stretches.iter().flat_map(|s| vec![s.test; s.rows()]).collect();
+        Some(Self { reach: SITES.map(|site| reach(&stretches, site)), stretches, missing: own, wall, test })
+    }
+
+    /// Rows of a law of one atom of size 1.
+    pub fn column(&self, atom: &Atom) -> DVector<f64> {
+        let [q0, u0] = self.reach[atom.site as usize];
+        let mut rows = Vec::with_capacity(self.missing.len());
+        for stretch in &self.stretches {
+            let value = |sample: &Sample| {
+                let [q, u] = sample.motion[atom.site as usize];
+                -atom.shape.value(atom.numbers, q / q0, u / u0)
+            };
+            let law = stretch.samples.iter().map(value).collect::<Vec<_>>();
+            rows.extend(stretch.by_law(atom.site, &law));
+        }
+        DVector::from_vec(rows)
+    }
+
+    /// Rows of a law.
+    pub fn of_law(&self, law: &Law) -> DVector<f64> {
+        let zero = DVector::zeros(self.missing.len());
+        law.atoms.iter().fold(zero, |sum, atom| sum + self.column(atom) * atom.size)
+    }
+
+    /// Displacements and velocities at a site that were excited, as shares of the largest.
+    pub fn excited(&self, site: Site) -> impl Iterator<Item = [f64; 2]> {
+        let [q0, u0] = self.reach[site as usize];
+        let samples = self.stretches.iter().flat_map(|stretch| &stretch.samples);
+        samples.map(move |sample| sample.motion[site as usize]).map(move |[q, u]| [q / q0, u / u0])
+    }
+}
+
+/// Largest displacement and velocity at a site.
+fn reach(stretches: &[WeakStretch], site: Site) -> [f64; 2] {
+    let samples = || stretches.iter().flat_map(|stretch| &stretch.samples);
+    [0, 1].map(|i| {
+        let largest = samples().map(|s| s.motion[site as usize][i].abs()).fold(0.0, f64::max);
+        largest.max(f64::MIN_POSITIVE)
+    })
+}

@@ -1,0 +1,79 @@
+//! Tests of a simulated wall with a law that is known, for tests of what finds it.
+
+use std::path::Path;
+
+use super::points::Points;
+use crate::diagnose::hypothesis::{Hypothesis, Nuisance, Scales, wall_number};
+use crate::experiment::{Purpose, Sampled, TestData, rest_offset_rad};
+use mrbd_files::parse_wall;
+use mrbd_kernel::accelerogram::Accelerogram;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Shaking, Simulator};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+const STARTER: &str = include_str!("../../../../../src/starter/wall.toml");
+const STEP_S: f64 = 1.0 / 256.0;
+const SHAKEN_S: f64 = 10.0;
+const TAIL_S: f64 = 4.0;
+
+/// The starter's wall with effects, as TOML.
+pub fn wall_with(effects: &str) -> Wall {
+    parse_wall(Path::new("wall.toml"), &format!("{STARTER}\n{effects}")).expect("a wall")
+}
+
+/// What is told of the wall beforehand: stiffness to 2 %, mass to 1 %.
+pub fn known(tests: &[TestData]) -> Hypothesis {
+    let wall = wall_with("");
+    let number = |(key, sd): (&str, f64)| Nuisance::Number(wall_number(key).expect("a number"), sd);
+    let nuisances = [("stiffness_n_per_m", 0.02), ("mass_kg", 0.01)].map(number);
+    Hypothesis::new(wall.parameters(), &Scales::of(&wall, tests), &nuisances, &[])
+}
+
+/// Four tests of a wall, read with white noise.
+pub fn tests_of(wall: &Wall, noise_rad: f64) -> Vec<TestData> {
+    let one = |(seed, [amplitude_m_s2, frequency_hz]): (u64, [f64; 2])| {
+        let record = swept(amplitude_m_s2, frequency_hz);
+        let shaking = Shaking { horizontal: Some(record), vertical: None, tail_s: TAIL_S };
+        let time_s = (0..).map(|k| STEP_S * f64::from(k)).take_while(|t| *t < SHAKEN_S + TAIL_S - 0.1);
+        let time_s = time_s.collect::<Vec<_>>();
+        let mut sampled = Sampled::at_all(&time_s);
+        Simulator::new(wall, &shaking, Accuracy::default()).run(&mut sampled);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
+        let read = sampled.rows().iter().map(|(theta, _)| theta.map(|t| t + noise_rad * noise()));
+        let theta_rad = read.collect::<Vec<_>>();
+        let largest_rad = theta_rad.iter().flatten().fold(0.0, |most, t: &f64| t.abs().max(most));
+        assert!((0.003..0.05).contains(&largest_rad), "rocks and stands: {largest_rad} rad in test {seed}");
+        TestData {
+            name: format!("test {seed}"),
+            purpose: Purpose::Fit,
+            shaking,
+            rest_offset_rad: rest_offset_rad(&theta_rad, [noise_rad; 2]),
+            theta_rad,
+            time_s,
+            noise_rad: [noise_rad; 2],
+            read_gain: [1.0; 2],
+            step_s: STEP_S,
+            gap_s: 2.5 * STEP_S,
+        }
+    };
+    (1..).zip([[1.3, 1.0], [1.6, 1.3], [1.4, 0.8], [2.0, 1.6]]).map(one).collect()
+}
+
+/// Points of these tests under the wall as it is known.
+pub fn points_of(tests: &[TestData]) -> Points {
+    Points::new(tests, &known(tests)).expect("points")
+}
+
+/// A sine that swells, sweeps and fades.
+fn swept(amplitude_m_s2: f64, frequency_hz: f64) -> Accelerogram {
+    let at = |k: u32| {
+        let t = 0.005 * f64::from(k);
+        let swell = (std::f64::consts::PI * t / SHAKEN_S).sin();
+        let phase = std::f64::consts::TAU * frequency_hz * t * (1.0 + 0.06 * t);
+        amplitude_m_s2 * swell * phase.sin()
+    };
+    Accelerogram::new(0.005, (0..=2000).map(at).collect()).expect("a record")
+}
