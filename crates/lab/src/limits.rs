@@ -335,6 +335,26 @@ limits! {
     LAW_LENGTH: f64 = 3.0, "ln of likelihood";
     /// Laws of one atom, and of two, that are refined off the grid.
     LAWS_REFINED: usize = 16, "";
+    /// Evidence over points from which laws are tried in windows.
+    ///
+    /// Where nothing is hidden the best law costs more than it gains.
+    WORTH_WINDOWS: f64 = 10.0, "ln of likelihood";
+    /// Laws of one atom that are fitted to windows, and of two where no single one closes the gap.
+    LAWS_IN_WINDOWS: usize = 7, "";
+    /// Largest size of a law in windows, over that found over points.
+    MOST_OF_LAW: f64 = 10.0, "";
+    /// Share of the gain over points that a law must keep in tests that it was not fitted to, one left out after the other.
+    ///
+    /// Chosen: right laws keep 0.9 and more.
+    LEFT_OUT_SHARE: f64 = 0.5, "share";
+    /// Loss in a single such test that refuses it.
+    LEFT_OUT_LOSS: f64 = 15.0, "ln of likelihood";
+    /// Distance of a number of a shape from its bounds below which it is at them, and nothing is known of it.
+    AT_BOUND: f64 = 0.005, "share of the range";
+    /// Distance of an exponent from 0, ½, 1, 3/2, 2, 3 ... within which the law with that exponent is tried too.
+    EXACT_WITHIN: f64 = 0.2, "";
+    /// Largest difference of two forces over what was excited below which they are one law, over the largest force.
+    SAME_FORCE: f64 = 0.02, "share";
 }
 
 limits! {

@@ -12,6 +12,7 @@
 //! | [`verdict`] | nothing missing, the wall's own numbers, one effect or two by name, or a place |
 //! | [`certainty`] | how well its numbers are known, what could not be told from it, which test would tell |
 //! | [`force`] | the missing force, measured: no hypothesis enters |
+//! | [`discovery`] | a law outside the catalogue, found in it and written as a [`formula`] |
 //! | [`mod@crate::limits`] | every number that decides |
 //! | [`answer`] | all of it worked out: what `diagnosis.json` and the tables hold |
 
@@ -21,6 +22,7 @@ pub mod discovery;
 pub mod experiment;
 pub mod fit;
 pub mod force;
+pub mod formula;
 pub mod hypothesis;
 pub mod next_tests;
 pub mod trials;

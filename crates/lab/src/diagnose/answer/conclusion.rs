@@ -28,13 +28,15 @@ impl Findings<'_> {
     pub(super) fn summary(&self, physics: &[Physics; 2], force: &ForceBeforeAfter) -> Summary {
         let (data, found) = (self.data(), &self.found);
         let has_names = matches!(found.verdict, Verdict::Named | Verdict::Class);
-        let own_place = || has_names.then(|| found.after.hypothesis.additions[0].place());
+        let has_formula = matches!(found.verdict, Verdict::Formula | Verdict::FormulaClass);
+        let own_place = || (has_names || has_formula).then(|| found.after.hypothesis.additions[0].place());
         let stages = [&found.before, &found.recalibrated, found.kept()];
         Summary {
             kind: KIND.to_owned(),
             verdict: found.verdict,
             place: found.place.or_else(own_place).map(str::to_owned),
-            effects: self.effects(has_names),
+            effects: if has_formula { self.formulas(&found.after) } else { self.effects(has_names) },
+            equivalent_formulas: self.equivalent_formulas(),
             equivalent: found.equivalent.clone(),
             wall: wall_fits(&found.after),
             tests: self.test_errors(physics),
@@ -48,7 +50,7 @@ impl Findings<'_> {
             },
             could_hide: self.could_hide(),
             confused: confused(&data, &found.recalibrated, &found.tried),
-            rivals: found.tried.iter().map(|tried| self.rival(tried)).collect(),
+            rivals: found.rivals(&data).into_iter().map(|tried| self.rival(tried)).collect(),
             hypotheses: self.own_hypotheses(),
             missing_force: force.summary(physics),
             next_tests: next_tests(self),
@@ -70,6 +72,9 @@ impl Findings<'_> {
             interval: BTreeMap::new(),
             written_as: None,
             sets_in_over_m: None,
+            formula: None,
+            units: BTreeMap::new(),
+            range: BTreeMap::new(),
         };
         self.found
             .place
@@ -112,7 +117,10 @@ impl Findings<'_> {
 
     /// Every added number of every hypothesis, the best first.
     pub(super) fn rival_rows(&self) -> Vec<RivalRow> {
-        self.found.tried.iter().zip(1..).flat_map(|(tried, rank)| self.rows_of_rival(tried, rank)).collect()
+        {
+            let all = self.found.rivals(&self.data());
+            all.into_iter().zip(1..).flat_map(|(tried, rank)| self.rows_of_rival(tried, rank)).collect()
+        }
     }
 
     fn rows_of_rival(&self, tried: &FittedHypothesis, rank: u64) -> Vec<RivalRow> {
@@ -152,6 +160,9 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
             interval,
             written_as: Some(addition.name()),
             sets_in_over_m: Some(friction.onset_m),
+            formula: None,
+            units: BTreeMap::new(),
+            range: BTreeMap::new(),
         };
     }
     let own = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
@@ -164,6 +175,9 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
         interval,
         written_as: None,
         sets_in_over_m: None,
+        formula: None,
+        units: BTreeMap::new(),
+        range: BTreeMap::new(),
     }
 }
 

@@ -26,6 +26,9 @@ pub struct Summary {
     pub place: Option<String>,
     /// The effects of the answer; for `place_only` one without a name.
     pub effects: Vec<FoundEffect>,
+    /// Of a class of formulas the others, each as its effects; the simplest stands in `effects`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub equivalent_formulas: Vec<Vec<FoundEffect>>,
     /// Kinds, or numbers of the wall, that these tests cannot tell apart.
     pub equivalent: Vec<String>,
     /// Uncertain numbers of the wall as the answer has them.
@@ -65,9 +68,14 @@ impl Summary {
         matches!(self.verdict, Verdict::Named | Verdict::Class)
     }
 
+    /// Whether the verdict gives a law outside the catalogue as a formula.
+    pub fn has_formula(&self) -> bool {
+        matches!(self.verdict, Verdict::Formula | Verdict::FormulaClass)
+    }
+
     /// Whether the updated wall is another than the wall as given.
     pub fn has_updated_wall(&self) -> bool {
-        self.has_names() || self.verdict == Verdict::Recalibrated
+        self.has_names() || self.has_formula() || self.verdict == Verdict::Recalibrated
     }
 }
 
@@ -120,6 +128,15 @@ pub struct FoundEffect {
     /// Displacement over which friction sets in, m, where it does not jump.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sets_in_over_m: Option<f64>,
+    /// A law outside the catalogue: the force or moment on the wall, as formulas of wall files have it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub formula: Option<String>,
+    /// Units of its parameters by name.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub units: BTreeMap<String, String>,
+    /// What the tests excited of its variables: `x_m` and `v_m_s` at the top, `phi_rad` and `w_rad_s` at joints.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub range: BTreeMap<String, [f64; 2]>,
 }
 
 /// An uncertain number of the wall.

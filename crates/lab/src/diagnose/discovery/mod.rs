@@ -3,17 +3,19 @@
 //! | module | idea |
 //! | --- | --- |
 //! | `points` | the missing force as equations, with what is uncertain of the wall |
-//! | `shape`, `law` | what a law may look like |
 //! | `search` | all laws of one atom and of two, weighed by evidence over points |
+//! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
+//! | `guards` | what refuses a law that fits |
+//! | `equals` | laws that the tests cannot tell apart |
 
-mod law;
+mod by_windows;
+mod equals;
+mod guards;
 mod points;
 mod search;
-mod shape;
 #[cfg(test)]
 mod twin;
 
-pub use law::{Atom, Law};
+pub use by_windows::{Discovered, OpenGap};
 pub use points::Points;
 pub use search::{Candidate, Searched, search};
-pub use shape::{Meaning, Shape, ShapeNumber, Side};

@@ -1,7 +1,7 @@
 //! The missing force as equations: what any law must make up for, with what is uncertain of the wall beside it.
 
-use super::law::{Atom, Law};
-use crate::diagnose::force::{SITES, Sample, Site, WeakStretch, weak_stretches};
+use crate::diagnose::force::{Sample, WeakStretch, weak_stretches};
+use crate::diagnose::formula::{Atom, Law, Site};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::{Purpose, TestData};
 use nalgebra::{DMatrix, DVector};
@@ -54,18 +54,21 @@ impl Points {
             false => DMatrix::from_columns(&traces),
         };
         let test = stretches.iter().flat_map(|s| vec![s.test; s.rows()]).collect();
-        Some(Self { reach: SITES.map(|site| reach(&stretches, site)), stretches, missing: own, wall, test })
+        Some(Self {
+            reach: Site::ALL.map(|site| reach(&stretches, site)),
+            stretches,
+            missing: own,
+            wall,
+            test,
+        })
     }
 
     /// Rows of a law of one atom of size 1.
     pub fn column(&self, atom: &Atom) -> DVector<f64> {
-        let [q0, u0] = self.reach[atom.site as usize];
+        let one = Atom { size: 1.0, ..*atom };
         let mut rows = Vec::with_capacity(self.missing.len());
         for stretch in &self.stretches {
-            let value = |sample: &Sample| {
-                let [q, u] = sample.motion[atom.site as usize];
-                -atom.shape.value(atom.numbers, q / q0, u / u0)
-            };
+            let value = |sample: &Sample| one.force(sample.motion[atom.site as usize]);
             let law = stretch.samples.iter().map(value).collect::<Vec<_>>();
             rows.extend(stretch.by_law(atom.site, &law));
         }
@@ -75,14 +78,21 @@ impl Points {
     /// Rows of a law.
     pub fn of_law(&self, law: &Law) -> DVector<f64> {
         let zero = DVector::zeros(self.missing.len());
-        law.atoms.iter().fold(zero, |sum, atom| sum + self.column(atom) * atom.size)
+        law.atoms().fold(zero, |sum, atom| sum + self.column(&atom) * atom.size)
     }
 
-    /// Displacements and velocities at a site that were excited, as shares of the largest.
+    /// Displacements and velocities at a site that were excited.
     pub fn excited(&self, site: Site) -> impl Iterator<Item = [f64; 2]> {
-        let [q0, u0] = self.reach[site as usize];
         let samples = self.stretches.iter().flat_map(|stretch| &stretch.samples);
-        samples.map(move |sample| sample.motion[site as usize]).map(move |[q, u]| [q / q0, u / u0])
+        samples.map(move |sample| sample.motion[site as usize])
+    }
+
+    /// Least and largest displacement and velocity at a site.
+    pub fn range(&self, site: Site) -> [[f64; 2]; 2] {
+        [0, 1].map(|i| {
+            let of = self.excited(site).map(|motion| motion[i]);
+            of.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], x| [least.min(x), most.max(x)])
+        })
     }
 }
 
@@ -91,6 +101,12 @@ fn reach(stretches: &[WeakStretch], site: Site) -> [f64; 2] {
     let samples = || stretches.iter().flat_map(|stretch| &stretch.samples);
     [0, 1].map(|i| {
         let largest = samples().map(|s| s.motion[site as usize][i].abs()).fold(0.0, f64::max);
-        largest.max(f64::MIN_POSITIVE)
+        rounded(largest.max(f64::MIN_POSITIVE))
     })
+}
+
+/// To two digits.
+fn rounded(x: f64) -> f64 {
+    let digit = 10.0_f64.powf(x.log10().floor() - 1.0);
+    (x / digit).round() * digit
 }

@@ -4,10 +4,8 @@
 //! wall's uncertain numbers under their priors. The best of each kind is then refined off the grid. The order is the same on
 //! every run.
 
-use super::law::{Atom, Law};
 use super::points::Points;
-use super::shape::Shape;
-use crate::diagnose::force::{SITES, Site};
+use crate::diagnose::formula::{Atom, Law, LawSlot, Shape, Site};
 use crate::limits::{LAW_LENGTH, LAWS_REFINED};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -56,6 +54,30 @@ impl<'p> Equations<'p> {
         all
     }
 
+    /// The points they are made of.
+    pub fn points(&self) -> &Points {
+        self.points
+    }
+
+    /// Square root of a row's weight.
+    pub fn weight(&self, row: usize) -> f64 {
+        self.weight[row]
+    }
+
+    /// Mean square of what is left, over the noise.
+    pub fn variance(&self) -> f64 {
+        self.variance
+    }
+
+    /// Steps of the wall's uncertain numbers beside a law, in standard deviations of what was known.
+    pub fn wall_steps(&self, law: &Law) -> Option<DVector<f64>> {
+        let left = (&self.points.missing - self.points.of_law(law)).component_mul(&self.weight);
+        let count = self.points.wall.ncols();
+        let wall = DMatrix::from_fn(left.len(), count, |i, k| self.weight[i] * self.points.wall[(i, k)]);
+        let normal = wall.tr_mul(&wall) + DMatrix::identity(count, count) * self.variance;
+        Some(normal.cholesky()?.solve(&wall.tr_mul(&left)))
+    }
+
     /// Rows weighed, without what the wall's numbers can do.
     fn off_wall(&self, rows: &DVector<f64>) -> DVector<f64> {
         let mut all = rows.component_mul(&self.weight).resize_vertically(self.wall.nrows(), 0.0);
@@ -76,11 +98,14 @@ impl<'p> Equations<'p> {
 
     /// A law with the sizes that fit best, and its evidence; `None` where a size may not be.
     fn fitted(&self, law: &Law) -> Option<Candidate> {
-        let columns = law.atoms.iter().map(|atom| self.off_wall(&self.points.column(atom)));
+        let columns = law.atoms().map(|atom| self.off_wall(&self.points.column(&atom)));
         let (sizes, gain) = self.sizes(&columns.collect::<Vec<_>>())?;
-        let atoms = law.atoms.iter().zip(&sizes).map(|(atom, size)| Atom { size: *size, ..*atom });
-        let law = Law { atoms: atoms.collect() };
-        let allowed = law.atoms.iter().all(|atom| atom.may_be(atom.size));
+        self.candidate(law.map(|a, atom| Atom { size: sizes[a], ..atom }), gain)
+    }
+
+    /// A law that was fitted, with its evidence; `None` where a size may not be.
+    fn candidate(&self, law: Law, gain: f64) -> Option<Candidate> {
+        let allowed = law.atoms().all(|atom| atom.may_be(atom.size));
         allowed.then(|| Candidate { evidence: self.evidence(&law, gain), law })
     }
 
@@ -88,16 +113,16 @@ impl<'p> Equations<'p> {
     /// (Schwarz) and the length of the formula.
     fn evidence(&self, law: &Law, gain: f64) -> f64 {
         let rows = self.points.missing.len() as f64;
-        let price = 0.5 * law.numbers() as f64 * rows.ln() + LAW_LENGTH * law.atoms.len() as f64;
+        let price = 0.5 * law.slots().len() as f64 * rows.ln() + LAW_LENGTH * law.atoms().count() as f64;
         0.5 * gain / self.variance - price
     }
 
     /// Numbers of the shapes off the grid, one after the other.
     fn refined(&self, candidate: Candidate) -> Candidate {
-        let mut best = candidate;
+        let mut best = candidate.clone();
         for _ in 0..ROUNDS {
-            for a in 0..best.law.atoms.len() {
-                for i in 0..best.law.atoms[a].shape.numbers().len() {
+            for slot in candidate.law.slots() {
+                if let LawSlot::Number(a, i) = slot {
                     best = self.refined_by(best, a, i);
                 }
             }
@@ -107,13 +132,17 @@ impl<'p> Equations<'p> {
 
     /// One number of one atom, by golden section between its neighbours on the grid.
     fn refined_by(&self, best: Candidate, a: usize, i: usize) -> Candidate {
-        let atom = best.law.atoms[a];
         let with = |value: f64| {
-            let mut law = best.law.clone();
-            law.atoms[a].numbers[i] = value;
-            self.fitted(&law)
+            let moved = |own: usize, mut atom: Atom| {
+                if own == a {
+                    atom.numbers[i] = value;
+                }
+                atom
+            };
+            self.fitted(&best.law.map(moved))
         };
         let evidence = |value: f64| with(value).map_or(f64::NEG_INFINITY, |c| c.evidence);
+        let Some(atom) = best.law.atoms().nth(a) else { return best };
         let value = golden(neighbours(atom.shape.numbers()[i].grid, atom.numbers[i]), evidence);
         with(value).filter(|new| new.evidence > best.evidence).unwrap_or(best)
     }
@@ -172,7 +201,7 @@ pub struct Searched<'p> {
 
 /// Searches all laws of one atom and of two over points.
 pub fn search(points: &Points) -> Option<Searched<'_>> {
-    let atoms = atoms();
+    let atoms = atoms(points);
     let columns = atoms.par_iter().map(|atom| points.column(atom)).collect::<Vec<_>>();
     let even = Equations::new(points, DVector::repeat(points.missing.len(), 1.0), 1.0);
     let best = Scan::new(&even, &atoms, &columns).best()?;
@@ -207,13 +236,21 @@ fn ordered(mut laws: Vec<Candidate>) -> Vec<Candidate> {
 }
 
 /// Every atom of every shape on its grid.
-fn atoms() -> Vec<Atom> {
+fn atoms(points: &Points) -> Vec<Atom> {
     let of_site = |site: Site| {
         let shapes = if site == Site::Top { &Shape::ALL[..] } else { &Shape::AT_JOINTS[..] };
         shapes.iter().flat_map(move |shape| on_grid(*shape).map(move |numbers| (site, *shape, numbers)))
     };
-    let all = SITES.into_iter().flat_map(of_site);
-    all.map(|(site, shape, numbers)| Atom { site, shape, numbers, size: 1.0 }).collect()
+    let all = Site::ALL.into_iter().flat_map(of_site);
+    let atom = |(site, shape, numbers): (Site, Shape, [f64; 2])| Atom {
+        site,
+        shape,
+        numbers,
+        size: 1.0,
+        reach: points.reach[site as usize],
+        is_exact: false,
+    };
+    all.map(atom).collect()
 }
 
 /// All numbers of a shape on its grid.
@@ -244,22 +281,20 @@ impl<'e, 'p> Scan<'e, 'p> {
         Self { equations, atoms, kinds, gram: all.tr_mul(&all), pull: all.tr_mul(&equations.missing) }
     }
 
-    fn candidate(&self, of: &[usize], sizes: &[f64], gain: f64) -> Option<Candidate> {
-        let atoms = of.iter().zip(sizes).map(|(i, size)| Atom { size: *size, ..self.atoms[*i] });
-        let law = Law { atoms: atoms.collect() };
-        let allowed = law.atoms.iter().all(|atom| atom.may_be(atom.size));
-        allowed.then(|| Candidate { evidence: self.equations.evidence(&law, gain), law })
+    fn atom(&self, i: usize, size: f64) -> Atom {
+        Atom { size, ..self.atoms[i] }
     }
 
     fn single(&self, i: usize) -> Option<Candidate> {
         let (sizes, gain) = single(self.gram[(i, i)], self.pull[i])?;
-        self.candidate(&[i], &sizes, gain)
+        self.equations.candidate(Law::of(self.atom(i, sizes[0])), gain)
     }
 
     fn pair(&self, i: usize, k: usize) -> Option<Candidate> {
         let gram = [self.gram[(i, i)], self.gram[(i, k)], self.gram[(k, k)]];
         let (sizes, gain) = pair(gram, [self.pull[i], self.pull[k]])?;
-        self.candidate(&[i, k], &sizes, gain)
+        let law = Law { first: self.atom(i, sizes[0]), second: Some(self.atom(k, sizes[1])) };
+        self.equations.candidate(law, gain)
     }
 
     /// The best of each kind, best first.
@@ -304,9 +339,9 @@ fn best_of_each<K: Ord>(all: impl Iterator<Item = (K, Candidate)>) -> Vec<Candid
 
 #[cfg(test)]
 mod tests {
-    use super::super::shape::Side;
     use super::super::twin::{points_of, tests_of, wall_with};
     use super::*;
+    use crate::diagnose::formula::Side;
 
     const NOISE_RAD: f64 = 3e-5;
 
@@ -315,7 +350,7 @@ mod tests {
         let points = points_of(&tests_of(&wall_with(effect), NOISE_RAD));
         let found = search(&points).expect("laws");
         let best = &found.singles[0];
-        (best.law.atoms[0], best.evidence, points.reach[best.law.atoms[0].site as usize])
+        (best.law.first, best.evidence, points.reach[best.law.first.site as usize])
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::points::Points;
+use crate::diagnose::formula::{Atom, Law, Shape, Site};
 use crate::diagnose::hypothesis::{Hypothesis, Nuisance, Scales, wall_number};
 use crate::experiment::{Purpose, Sampled, TestData, rest_offset_rad};
 use mrbd_files::parse_wall;
@@ -66,6 +67,33 @@ pub fn tests_of(wall: &Wall, noise_rad: f64) -> Vec<TestData> {
 pub fn points_of(tests: &[TestData]) -> Points {
     Points::new(tests, &known(tests)).expect("points")
 }
+
+/// Points of a wall without effects, with a law added to what is missing in the tests that have it. Noise is white.
+pub fn points_with(law: &Law, has_it: impl Fn(usize) -> bool) -> Points {
+    let mut points = points_of(&tests_of(&wall_with(""), 3e-5));
+    let added = points.of_law(law);
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    for row in 0..points.missing.len() {
+        let noise: f64 = StandardNormal.sample(&mut random);
+        points.missing[row] = noise + if has_it(points.test[row]) { added[row] } else { 0.0 };
+    }
+    points
+}
+
+/// A drag at the top.
+pub fn drag(n: f64, size: f64) -> Law {
+    Law::of(Atom {
+        site: Site::Top,
+        shape: Shape::Drag,
+        numbers: [n, 0.0],
+        size,
+        reach: REACH,
+        is_exact: false,
+    })
+}
+
+/// Largest displacement and velocity of the top that a law is told in shares of: about those of the tests.
+const REACH: [f64; 2] = [0.1, 0.6];
 
 /// A sine that swells, sweeps and fades.
 fn swept(amplitude_m_s2: f64, frequency_hz: f64) -> Accelerogram {

@@ -19,4 +19,4 @@ pub use jumps::{Jump, jumps};
 pub use jumps::{Stretch, stretches};
 pub use points::Kernel;
 pub use points::{ForcePoint, force_points, median_share_off_top};
-pub use weak_form::{SITES, Sample, Site, WeakStretch, weak_stretches};
+pub use weak_form::{Sample, WeakStretch, weak_stretches};

@@ -5,25 +5,12 @@
 
 use super::jumps::Stretch;
 use super::points::{Kernel, Residual};
+use crate::diagnose::formula::Site;
 use crate::diagnose::hypothesis::Physics;
 use crate::experiment::{Freedom, TestData};
 use mrbd_kernel::model::{Pair, State};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
-
-/// Where a law acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Site {
-    /// A horizontal force at the top, N, by x and v.
-    Top,
-    /// A moment at the ground, N m, by θ_1 and its velocity.
-    Ground,
-    /// A moment between the bodies at the crack, N m, by φ = θ_2 − θ_1 and its velocity.
-    Crack,
-}
-
-/// Every site, in the order of the arrays of a [`Sample`].
-pub const SITES: [Site; 3] = [Site::Top, Site::Ground, Site::Crack];
 
 /// What moves at each place at an instant, and what a unit of force or moment there does to the free bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]

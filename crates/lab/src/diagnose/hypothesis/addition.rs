@@ -2,7 +2,8 @@
 
 use super::unknown::{Slot, wall_number};
 use super::{Scales, Unknown, WallNumber};
-use crate::limits::{FACTOR_SD, STRONGEST_DAMPER};
+use crate::diagnose::formula::{Law, LawSlot, Meaning};
+use crate::limits::{FACTOR_SD, MOST_OF_LAW, STRONGEST_DAMPER};
 use mrbd_kernel::model::{
     EffectKind, EffectParameter, EffectVariant, Joint, Place, Quantity, Role, WallParameters,
 };
@@ -19,6 +20,8 @@ pub enum Addition {
     LumpedCarriage,
     /// A number of the wall outside what was known of it: a symptom, never an answer.
     Number(&'static WallNumber),
+    /// A law that is none of the catalogue, with the numbers that were found for it over points.
+    Formula(Law),
     /// A vertical motion that cannot have been: the record backwards. Shows what a term without meaning gains.
     Placebo,
 }
@@ -30,6 +33,7 @@ impl Addition {
             Addition::Effect(variant) => variant.name(),
             Addition::LumpedCarriage => format!("{}.lumped", EffectKind::CarriageMass.name()),
             Addition::Number(number) => number.key.into(),
+            Addition::Formula(law) => law.name(),
             Addition::Placebo => "placebo".into(),
         }
     }
@@ -39,7 +43,7 @@ impl Addition {
         match self {
             Addition::Effect(variant) => Some(variant.kind),
             Addition::LumpedCarriage => Some(EffectKind::CarriageMass),
-            Addition::Number(_) | Addition::Placebo => None,
+            Addition::Number(_) | Addition::Formula(_) | Addition::Placebo => None,
         }
     }
 
@@ -56,6 +60,7 @@ impl Addition {
             Addition::Number(number) if number.key.starts_with("diaphragm") => "top",
             Addition::Number(number) if number.key.starts_with("corners") => "joint",
             Addition::Number(_) => "masses",
+            Addition::Formula(law) => law.first.site.name(),
             Addition::Placebo => "none",
         }
     }
@@ -85,6 +90,7 @@ impl Addition {
                 unknowns[0].scale = reach;
                 unknowns
             }
+            Addition::Formula(law) => law_unknowns(law, index),
             Addition::Placebo => alone("ratio", Quantity::Ratio, 0.0, -2.0, 2.0),
         }
     }
@@ -123,6 +129,44 @@ fn effect_unknowns(variant: EffectVariant, scales: &Scales, index: usize) -> Vec
         }
     };
     parameters.filter(acting).map(unknown).collect()
+}
+
+/// Sizes, which do nothing at 0, and numbers of shapes, within what the search looks at.
+fn law_unknowns(law: &Law, index: usize) -> Vec<Unknown> {
+    let atoms = law.atoms().collect::<Vec<_>>();
+    let of = |(i, (slot, value)): (usize, (LawSlot, f64))| {
+        let bounds =
+            |start: f64, scale: f64, [lower, upper]: [f64; 2], key: &str, unit: &'static str| Unknown {
+                key: key.into(),
+                unit,
+                start,
+                scale,
+                lower,
+                upper,
+                prior_sd: None,
+                slot: Slot::Added(index, i),
+            };
+        match slot {
+            LawSlot::Size(a) => {
+                let most = MOST_OF_LAW * value.abs();
+                let least = if atoms[a].only_resists() { 0.0 } else { -most };
+                bounds(0.0, value.abs(), [least, most], "size", atoms[a].site.unit())
+            }
+            LawSlot::Number(a, k) => {
+                let number = &atoms[a].shape.numbers()[k];
+                let ends = [number.grid[0], number.grid[number.grid.len() - 1]];
+                let [displacement, velocity] = atoms[a].site.motion_units();
+                let unit = match number.meaning {
+                    Meaning::Exponent => "",
+                    Meaning::Displacement => displacement,
+                    Meaning::Velocity => velocity,
+                };
+                let scale = value.abs().max(f64::MIN_POSITIVE);
+                bounds(value, scale, ends.map(|end| end * atoms[a].unit_of(k)), number.letter, unit)
+            }
+        }
+    };
+    law.slots().into_iter().zip(law.values()).enumerate().map(of).collect()
 }
 
 /// Numbers of the wall that stand beside the effects as rivals: what a wrong drawing or a wrong weight would do.

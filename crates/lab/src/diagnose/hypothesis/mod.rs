@@ -15,6 +15,7 @@ pub use unknown::{WALL_NUMBERS, WallNumber, wall_number};
 use nalgebra::{DMatrix, DVector};
 
 use mrbd_formula::Formula;
+use crate::diagnose::formula::{Law, LawSlot};
 use mrbd_kernel::model::{Effect, EffectKind, EffectVariant, Role, Wall, WallParameters};
 use unknown::Slot;
 
@@ -125,6 +126,7 @@ impl Hypothesis {
                     let carriage = EffectKind::CarriageMass.variant(None).ok()?;
                     effects.push(carriage.with_parameters(&[mass_kg]).ok()?);
                 }
+                Addition::Formula(law) => effects.extend(self.law(law, index, values).effects()?),
                 Addition::Number(_) | Addition::Placebo => {}
             }
         }
@@ -165,6 +167,32 @@ impl Hypothesis {
     fn added(&self, index: usize, parameter: usize, values: &[f64]) -> Option<f64> {
         let slot = Slot::Added(index, parameter);
         self.unknowns.iter().zip(values).find(|(u, _)| u.slot == slot).map(|(_, v)| *v)
+    }
+
+    /// The law that an addition is with these values.
+    fn law(&self, law: &Law, index: usize, values: &[f64]) -> Law {
+        let own = self.unknowns.iter().zip(values).filter(|(unknown, _)| unknown.belongs_to(index));
+        law.with_values(&own.map(|(_, value)| *value).collect::<Vec<_>>())
+    }
+
+    /// The laws outside the catalogue among its additions, with these values.
+    pub fn laws(&self, values: &[f64]) -> Vec<Law> {
+        let law = |(index, addition): (usize, &Addition)| match addition {
+            Addition::Formula(law) => Some(self.law(law, index, values)),
+            _ => None,
+        };
+        self.additions.iter().enumerate().filter_map(law).collect()
+    }
+
+    /// Whether a number is a size, which does nothing where it starts, and no number of a law's shape.
+    pub fn is_size(&self, number: usize) -> bool {
+        match self.unknowns[number].slot {
+            Slot::Added(index, i) => match &self.additions[index] {
+                Addition::Formula(law) => matches!(law.slots().get(i), Some(LawSlot::Size(_))),
+                _ => true,
+            },
+            Slot::Number(_) | Slot::Coefficient(_) => true,
+        }
     }
 
     fn parameters(&self, variant: EffectVariant, index: usize, values: &[f64]) -> Vec<f64> {

@@ -64,6 +64,11 @@ impl Unknown {
         matches!(self.slot, Slot::Added(i, _) if i == index)
     }
 
+    /// The value nearest to this one between its bounds.
+    pub fn within(&self, value: f64) -> f64 {
+        value.clamp(self.lower, self.upper)
+    }
+
     /// A value with a share of its distance from the start.
     pub fn with_share(&self, share: f64, value: f64) -> f64 {
         (self.start + share * (value - self.start)).clamp(self.lower, self.upper)

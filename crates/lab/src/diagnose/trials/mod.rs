@@ -26,7 +26,7 @@ pub use fitted_hypothesis::{
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub use patterns::{gain_misread, reads_better, set_gain};
 pub use patterns::{opened_as_given, opened_windows};
-pub use search::untouched;
+pub use search::{refit, untouched};
 
 use rayon::prelude::*;
 
@@ -35,7 +35,7 @@ use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
 use crate::limits::{POLISHED, WORTH_POLISH};
 use search::{Coarse, worth_finishing};
-use search::{finish, refit, try_coarsely};
+use search::{finish, try_coarsely};
 
 /// Where hypotheses are tried.
 pub struct Trials<'a, P> {
@@ -48,7 +48,8 @@ pub struct Trials<'a, P> {
 }
 
 impl<P: Progress> Trials<'_, P> {
-    pub(super) fn hypothesis(&self, nuisances: &[Nuisance], additions: &[Addition]) -> Hypothesis {
+    /// The wall with what is uncertain of it and what is added.
+    pub fn hypothesis(&self, nuisances: &[Nuisance], additions: &[Addition]) -> Hypothesis {
         Hypothesis::new(self.experiment.wall.parameters(), &self.experiment.scales, nuisances, additions)
     }
 

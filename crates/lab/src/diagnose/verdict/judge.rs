@@ -6,12 +6,13 @@ use super::worth_naming::worth_two;
 use super::{OtherLaw, Verdict};
 use super::{name_of_number, names};
 use crate::Progress;
+use crate::diagnose::discovery::{Discovered, OpenGap};
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
 use crate::diagnose::trials::{
-    FirstFits, FittedHypothesis, Trials, against, best_answer, closes, does_something, is_noise, joint_error,
-    kinds,
+    Data, FirstFits, FittedHypothesis, Trials, against, best_answer, closes, does_something, is_noise,
+    joint_error, kinds,
 };
 use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
@@ -33,15 +34,29 @@ pub struct Found {
     pub place: Option<&'static str>,
     /// What speaks for another law than the best of the catalogue, where that closes the gap.
     pub other_law: Option<OtherLaw>,
+    /// Laws outside the catalogue, where they were looked for and points speak of one.
+    pub discovered: Option<Discovered>,
     /// Everything tried, best first.
     pub tried: Vec<FittedHypothesis>,
 }
 
 impl Found {
+    /// Everything tried: effects of the catalogue, and laws outside it, best first.
+    pub fn rivals<'f>(&'f self, data: &Data) -> Vec<&'f FittedHypothesis> {
+        let laws = self.discovered.iter().flat_map(|discovered| &discovered.tried);
+        let mut all = self.tried.iter().chain(laws).collect::<Vec<_>>();
+        all.sort_by(|a, b| against(data, a).total_cmp(&against(data, b)));
+        all
+    }
+
     /// The hypothesis whose wall is written: that of the answer, or the wall as given where there is none.
     pub fn kept(&self) -> &FittedHypothesis {
         match self.verdict {
-            Verdict::Named | Verdict::Class | Verdict::Recalibrated => &self.after,
+            Verdict::Named
+            | Verdict::Class
+            | Verdict::Formula
+            | Verdict::FormulaClass
+            | Verdict::Recalibrated => &self.after,
             _ => &self.before,
         }
     }
@@ -69,6 +84,7 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
             equivalent: Vec::new(),
             place: None,
             other_law: None,
+            discovered: None,
             tried: Vec::new(),
         },
     }
@@ -244,8 +260,40 @@ impl<P: Progress> Gap<'_, P> {
         Some(Answer { verdict: Verdict::Class, after: answer.after, equivalent })
     }
 
-    /// No law of the catalogue follows, but where the force is missing may show.
+    /// No law of the catalogue follows: one outside it that does, or where the force is missing.
     fn placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
+        let discovered = self.discovered(&tried);
+        match discovered.as_ref().and_then(|discovered| self.formula(discovered)) {
+            Some(answer) => {
+                let tried = self.trials.ordered(tried);
+                Found { discovered, other_law, ..self.found(answer, tried) }
+            }
+            None => Found { discovered, ..self.only_placed(other_law, tried) },
+        }
+    }
+
+    /// Laws outside the catalogue.
+    fn discovered(&self, tried: &[FittedHypothesis]) -> Option<Discovered> {
+        let (trials, recalibrated) = (self.trials, &self.recalibrated);
+        let nearest = tried.iter().chain([recalibrated]);
+        let nearest = nearest.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)));
+        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error };
+        let worth = |one: &FittedHypothesis, two: &FittedHypothesis| worth_two(&trials.data, one, two);
+        trials.discover(&gap, worth, |law| !OtherLaw::beside(&trials.data, law).speaks())
+    }
+
+    /// The answer that laws outside the catalogue make, if one holds.
+    fn formula(&self, discovered: &Discovered) -> Option<Answer> {
+        let after = discovered.equals.first()?.clone();
+        let verdict = if discovered.equals.len() == 1 { Verdict::Formula } else { Verdict::FormulaClass };
+        let others = discovered.equals.iter().filter(|_| verdict == Verdict::FormulaClass);
+        let equivalent =
+            others.flat_map(|t| t.hypothesis.laws(&t.fit.values)).map(|law| law.name()).collect();
+        Some(Answer { verdict, after, equivalent })
+    }
+
+    /// Where the force is missing, if that shows.
+    fn only_placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
         let measured = || {
             let physics = self.before.hypothesis.physics(&self.before.fit.values)?;
@@ -266,6 +314,16 @@ impl<P: Progress> Gap<'_, P> {
 
     fn found(self, Answer { verdict, after, equivalent }: Answer, tried: Vec<FittedHypothesis>) -> Found {
         let Self { before, recalibrated, .. } = self;
-        Found { verdict, before, recalibrated, after, equivalent, place: None, other_law: None, tried }
+        Found {
+            verdict,
+            before,
+            recalibrated,
+            after,
+            equivalent,
+            place: None,
+            other_law: None,
+            discovered: None,
+            tried,
+        }
     }
 }

@@ -29,6 +29,10 @@ pub enum Verdict {
     Named,
     /// Several that these data cannot tell apart.
     Class,
+    /// A law outside the catalogue, found as a formula.
+    Formula,
+    /// Several such laws that these data cannot tell apart.
+    FormulaClass,
     /// A place where a force is missing, by a law that is not in the catalogue.
     PlaceOnly,
     /// A gap, and no more is known.
@@ -45,6 +49,8 @@ impl Verdict {
             Self::Recalibrated => "recalibrated",
             Self::Named => "named",
             Self::Class => "class",
+            Self::Formula => "formula",
+            Self::FormulaClass => "formula_class",
             Self::PlaceOnly => "place_only",
             Self::Unknown => "unknown",
             Self::NoPower => "no_power",

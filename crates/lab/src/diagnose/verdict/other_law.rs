@@ -28,7 +28,7 @@ fn trends_with_amplitude(data: &Data, tried: &FittedHypothesis) -> Option<Vec<Tr
     let sides = [(data.fit, &tried.fit), (data.held_out, &tried.held_out)];
     let slopes = slopes(h, &tried.fit, sides)?;
     let rank = ranks(&slopes.iter().map(|s| s.amplitude).collect::<Vec<_>>());
-    let asked = (h.nuisances..h.unknowns.len()).filter(|&i| h.unknowns[i].prior_sd.is_none());
+    let asked = (h.nuisances..h.unknowns.len()).filter(|&i| h.unknowns[i].prior_sd.is_none() && h.is_size(i));
     Some(asked.filter_map(|i| trend(h, &tried.fit, &slopes, &rank, i)).collect())
 }
 

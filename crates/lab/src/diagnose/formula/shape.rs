@@ -60,6 +60,15 @@ pub enum Shape {
     OneSidedOpening(Side),
 }
 
+/// A power of displacement or velocity, and the number of the shape that it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Power {
+    /// The exponent.
+    pub value: f64,
+    /// By its place among the numbers; `None` where it is 1 always.
+    pub number: Option<usize>,
+}
+
 /// What a number of a shape is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Meaning {
@@ -191,6 +200,26 @@ impl Shape {
             | Self::DampedFar
             | Self::OneWay(_)
             | Self::OneSidedOpening(_) => true,
+        }
+    }
+
+    /// The powers of displacement and velocity that its value is proportional to; `None` where it is none.
+    pub fn powers(self, [first, second]: [f64; 2]) -> [Option<Power>; 2] {
+        let of = |number: usize, value: f64| Some(Power { value, number: Some(number) });
+        let line = Some(Power { value: 1.0, number: None });
+        match self {
+            Self::Spring | Self::EvenSpring | Self::OneSidedSpring(_) => [of(0, first), None],
+            Self::Stop(_) | Self::DeadZone => [of(1, second), None],
+            Self::Drag | Self::OneWay(_) => [None, of(0, first)],
+            Self::Opening => [of(0, first), of(1, second)],
+            Self::OneSidedOpening(_) => [of(0, first), line],
+            Self::DampedBeyond(_) | Self::DampedFar => [None, line],
+            Self::Saturation
+            | Self::SlowSaturation
+            | Self::Clipped
+            | Self::DragSaturation
+            | Self::SlowDragSaturation
+            | Self::Stribeck => [None, None],
         }
     }
 

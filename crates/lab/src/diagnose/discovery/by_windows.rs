@@ -1,0 +1,133 @@
+//! Laws found over points, fitted to windows with their impacts: these alone judge.
+
+use super::equals::simplest_of_equals;
+use super::guards::{holds_in_each_test, lies_inside};
+use super::points::Points;
+use super::search::{Candidate, Searched, search};
+use crate::Progress;
+use crate::diagnose::formula::{Law, Site, nearest_exact};
+use crate::diagnose::hypothesis::Addition;
+use crate::diagnose::trials::{FittedHypothesis, Trials, against, closes, does_something, refit};
+use crate::limits::{LAWS_IN_WINDOWS, WORTH_A_NAME, WORTH_WINDOWS};
+use rayon::prelude::*;
+
+/// Laws outside the catalogue that were tried, and those that hold.
+#[derive(Debug, Clone)]
+pub struct Discovered {
+    /// Laws that close the gap and that the tests cannot tell apart, the simplest first; none where no law holds.
+    pub equals: Vec<FittedHypothesis>,
+    /// Every law that was fitted to windows, the best first.
+    pub tried: Vec<FittedHypothesis>,
+    /// By site: least and largest displacement and velocity that were excited.
+    pub excited: [[[f64; 2]; 2]; 3],
+}
+
+impl Discovered {
+    /// What was excited at a site: least and largest displacement and velocity.
+    pub fn at(&self, site: Site) -> [[f64; 2]; 2] {
+        self.excited[site as usize]
+    }
+}
+
+/// A gap that the catalogue does not close.
+#[derive(Debug, Clone, Copy)]
+pub struct OpenGap<'t> {
+    /// The wall with its uncertain numbers fitted.
+    pub recalibrated: &'t FittedHypothesis,
+    /// The hypothesis of the catalogue that follows best: the states of windows start from its own.
+    pub nearest: &'t FittedHypothesis,
+    /// Windowed error of the wall as given.
+    pub error: f64,
+}
+
+impl<P: Progress> Trials<'_, P> {
+    /// Looks for a law outside the catalogue that closes a gap. `None` where points say nothing of one.
+    ///
+    /// A law of two atoms must be worth it beside the best of one: `worth_two` tells.
+    pub fn discover(
+        &self,
+        gap: &OpenGap,
+        worth_two: impl Fn(&FittedHypothesis, &FittedHypothesis) -> bool,
+        holds: impl Fn(&FittedHypothesis) -> bool,
+    ) -> Option<Discovered> {
+        let wall = self.hypothesis(&self.experiment.nuisances, &[]);
+        let points = Points::new(self.data.fit.tests, &wall)?;
+        let searched = search(&points)?;
+        let best = searched.singles.iter().chain(&searched.pairs).map(|c| c.evidence).fold(0.0, f64::max);
+        if best < WORTH_WINDOWS {
+            return None;
+        }
+        let mut tried = self.laws_in_windows(gap, &searched, &searched.singles, "laws of one atom");
+        let may_be = |t: &&FittedHypothesis| self.may_be(gap, &searched, t);
+        let one = tried.iter().filter(may_be).cloned().collect::<Vec<_>>();
+        let mut closing = one;
+        let single = searched.singles.first().map_or(0.0, |c| c.evidence);
+        if closing.is_empty() && searched.pairs.first().is_some_and(|pair| pair.evidence > single) {
+            let simpler = tried.first().unwrap_or(gap.recalibrated).clone();
+            let pairs = self.laws_in_windows(gap, &searched, &searched.pairs, "laws of two atoms");
+            closing = pairs.iter().filter(may_be).filter(|two| worth_two(&simpler, two)).cloned().collect();
+            tried.extend(pairs);
+        }
+        let closing = closing.into_iter().filter(|t| holds(t)).collect();
+        let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
+        Some(Discovered {
+            equals,
+            tried: self.ordered(tried),
+            excited: Site::ALL.map(|site| points.range(site)),
+        })
+    }
+
+    /// Whether a law that was fitted to windows closes the gap, with numbers that mean something.
+    fn may_be(&self, gap: &OpenGap, searched: &Searched, tried: &FittedHypothesis) -> bool {
+        let gain = against(&self.data, gap.recalibrated) - against(&self.data, tried);
+        let laws = tried.hypothesis.laws(&tried.fit.values);
+        let sound = |law: &Law| lies_inside(law) && holds_in_each_test(&searched.equations, law);
+        closes(tried, gap.error) && does_something(tried) && gain >= WORTH_A_NAME && laws.iter().all(sound)
+    }
+
+    /// The best of laws found over points, fitted to windows; the first of these with exact exponents too.
+    fn laws_in_windows(
+        &self,
+        gap: &OpenGap,
+        searched: &Searched,
+        laws: &[Candidate],
+        what: &str,
+    ) -> Vec<FittedHypothesis> {
+        let sound = |c: &&Candidate| {
+            c.evidence > WORTH_WINDOWS
+                && lies_inside(&c.law)
+                && holds_in_each_test(&searched.equations, &c.law)
+        };
+        let laws = laws.iter().filter(sound).take(LAWS_IN_WINDOWS).map(|c| c.law).collect::<Vec<_>>();
+        self.progress.begin(what, laws.len());
+        let fit = |law: &Law| {
+            let found = self.law_in_windows(gap, searched, law);
+            self.progress.advance(1);
+            found
+        };
+        let free = self.ordered(laws.par_iter().filter_map(fit).collect());
+        let exact = free.iter().filter_map(exact_law).collect::<Vec<_>>();
+        self.progress.begin(what, exact.len());
+        self.ordered([free, exact.par_iter().filter_map(fit).collect()].concat())
+    }
+
+    /// A law fitted to windows from its values over points.
+    fn law_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<FittedHypothesis> {
+        let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
+        let steps = searched.equations.wall_steps(law)?;
+        let own = h.unknowns.iter().take(h.nuisances).zip(steps.iter());
+        let own = own.map(|(unknown, step)| unknown.start + step * unknown.prior_sd.unwrap_or(0.0));
+        let values = own.chain(law.values()).collect::<Vec<_>>();
+        let within = values.iter().zip(&h.unknowns).map(|(value, unknown)| unknown.within(*value));
+        let values = within.collect::<Vec<_>>();
+        refit(&self.data, h, gap.nearest, &values)
+    }
+}
+
+/// The law of a fitted hypothesis with exact exponents, where all of them are near such.
+fn exact_law(tried: &FittedHypothesis) -> Option<Law> {
+    let h = &tried.hypothesis;
+    let sd = |i: usize| tried.fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)].max(0.0).sqrt());
+    let deviations = (h.nuisances..h.unknowns.len()).map(sd).collect::<Vec<_>>();
+    nearest_exact(h.laws(&tried.fit.values).first()?, &deviations)
+}

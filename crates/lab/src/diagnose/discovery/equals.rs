@@ -1,0 +1,69 @@
+//! Laws that the tests cannot tell apart, and which of them are one law by two names.
+
+use super::points::Points;
+use crate::diagnose::formula::{Law, Site};
+use crate::diagnose::trials::{Data, FittedHypothesis, against};
+use crate::limits::{EQUIVALENT, SAME_FORCE};
+
+/// Of laws in order, best first, those that are as good as the best: the simplest of those that are one force over what was
+/// excited.
+pub fn simplest_of_equals(
+    data: &Data,
+    points: &Points,
+    closing: Vec<FittedHypothesis>,
+) -> Vec<FittedHypothesis> {
+    let Some(best) = closing.first().map(|best| against(data, best)) else { return Vec::new() };
+    let mut equals = closing.into_iter().filter(|t| against(data, t) < best + EQUIVALENT).collect::<Vec<_>>();
+    // Stable: of as many numbers and the same place, the better comes first.
+    equals.sort_by_key(|t| (t.hypothesis.unknowns.len(), law_of(t).map(|law| law.first.site)));
+    let mut kept: Vec<FittedHypothesis> = Vec::new();
+    for one in equals {
+        let known = |other: &FittedHypothesis| {
+            let pair = law_of(&one).zip(law_of(other));
+            pair.is_some_and(|(a, b)| difference(points, &a, &b) < SAME_FORCE)
+        };
+        if !kept.iter().any(known) {
+            kept.push(one);
+        }
+    }
+    kept
+}
+
+fn law_of(tried: &FittedHypothesis) -> Option<Law> {
+    tried.hypothesis.laws(&tried.fit.values).into_iter().next()
+}
+
+/// Largest difference of the forces of two laws over what was excited, over the largest force of the first at its place.
+pub fn difference(points: &Points, one: &Law, other: &Law) -> f64 {
+    let at = |site: Site| {
+        let force = |law: &Law, motion: [f64; 2]| {
+            law.atoms().filter(|atom| atom.site == site).map(|atom| atom.force(motion)).sum::<f64>()
+        };
+        let (mut apart, mut largest) = (0.0_f64, 0.0_f64);
+        for motion in points.excited(site) {
+            let forces = [one, other].map(|law| force(law, motion));
+            apart = apart.max((forces[0] - forces[1]).abs());
+            largest = forces.iter().fold(largest, |most, f| most.max(f.abs()));
+        }
+        if largest > 0.0 { apart / largest } else { 0.0 }
+    };
+    Site::ALL.map(at).into_iter().fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::twin::{drag, points_with};
+    use super::*;
+
+    #[test]
+    fn analytic_laws_are_one_where_their_forces_are_over_what_was_excited() {
+        let law = drag(2.0, 300.0);
+        let points = points_with(&law, |_| true);
+        // |v|^2 and |v|^2.02 part by 0.4 % of the largest force, |v| and |v|^2 by a quarter of it.
+        assert!(difference(&points, &law, &drag(2.02, 300.0)) < SAME_FORCE);
+        let apart = difference(&points, &law, &drag(1.0, 300.0));
+        assert!((0.15..0.35).contains(&apart), "{apart}");
+        let joint = Law::of(crate::diagnose::formula::Atom { site: Site::Ground, ..law.first });
+        assert!((difference(&points, &law, &joint) - 1.0).abs() < 1e-12);
+    }
+}

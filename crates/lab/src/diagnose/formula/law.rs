@@ -1,0 +1,142 @@
+//! A law: one atom or two at a place, each a shape with a size and numbers.
+
+use super::Site;
+use super::shape::{Meaning, Shape};
+
+/// A shape at a place with its numbers, in shares of the largest displacement and velocity there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Atom {
+    /// Where it acts.
+    pub site: Site,
+    /// How.
+    pub shape: Shape,
+    /// Numbers of the shape, in its order.
+    pub numbers: [f64; 2],
+    /// Force at the top, N, or moment at a joint, N m, where the shape is 1. It resists where this is positive.
+    pub size: f64,
+    /// Largest displacement and velocity there: m and m/s, or rad and rad/s.
+    pub reach: [f64; 2],
+    /// Whether the exponents among its numbers are as they are, and not fitted.
+    pub is_exact: bool,
+}
+
+impl Atom {
+    /// Whether it may have this size: a damper never feeds the wall, and a stop pushes back.
+    pub fn may_be(&self, size: f64) -> bool {
+        size > 0.0 || !self.only_resists()
+    }
+
+    /// Whether it only resists.
+    pub fn only_resists(&self) -> bool {
+        self.shape.is_damper() || matches!(self.shape, Shape::Stop(_) | Shape::DeadZone)
+    }
+
+    /// What a number of it stands for.
+    pub fn meaning(&self, number: usize) -> Meaning {
+        self.shape.numbers()[number].meaning
+    }
+
+    /// What one in shares of the largest is in the units of the site, for a number of it.
+    pub fn unit_of(&self, number: usize) -> f64 {
+        match self.meaning(number) {
+            Meaning::Exponent => 1.0,
+            Meaning::Displacement => self.reach[0],
+            Meaning::Velocity => self.reach[1],
+        }
+    }
+
+    /// Numbers that are fitted, by their place in [`Atom::numbers`].
+    pub fn free(&self) -> impl Iterator<Item = usize> + use<> {
+        let atom = *self;
+        let free = move |i: &usize| !(atom.is_exact && atom.meaning(*i) == Meaning::Exponent);
+        (0..self.shape.numbers().len()).filter(free)
+    }
+
+    /// Force or moment on the wall at a displacement and a velocity.
+    pub fn force(&self, [q, u]: [f64; 2]) -> f64 {
+        -self.size * self.shape.value(self.numbers, q / self.reach[0], u / self.reach[1])
+    }
+}
+
+/// Which number of which atom.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LawSlot {
+    /// Its size.
+    Size(usize),
+    /// A number of its shape.
+    Number(usize, usize),
+}
+
+/// A sum of one atom or two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Law {
+    /// The first atom.
+    pub first: Atom,
+    /// The second, if there is one.
+    pub second: Option<Atom>,
+}
+
+impl Law {
+    /// Of one atom.
+    pub fn of(atom: Atom) -> Self {
+        Self { first: atom, second: None }
+    }
+
+    /// Its atoms.
+    pub fn atoms(&self) -> impl Iterator<Item = Atom> + use<> {
+        [Some(self.first), self.second].into_iter().flatten()
+    }
+
+    /// The same with atoms changed, each with its index.
+    #[must_use]
+    pub fn map(self, change: impl Fn(usize, Atom) -> Atom) -> Self {
+        Self { first: change(0, self.first), second: self.second.map(|atom| change(1, atom)) }
+    }
+
+    /// Numbers that are fitted, in order.
+    pub fn slots(&self) -> Vec<LawSlot> {
+        let of = |(a, atom): (usize, Atom)| {
+            std::iter::once(LawSlot::Size(a)).chain(atom.free().map(move |i| LawSlot::Number(a, i)))
+        };
+        self.atoms().enumerate().flat_map(of).collect()
+    }
+
+    /// Their values, in the units of the site.
+    pub fn values(&self) -> Vec<f64> {
+        let atoms = self.atoms().collect::<Vec<_>>();
+        let value = |slot: &LawSlot| match *slot {
+            LawSlot::Size(a) => atoms[a].size,
+            LawSlot::Number(a, i) => atoms[a].numbers[i] * atoms[a].unit_of(i),
+        };
+        self.slots().iter().map(value).collect()
+    }
+
+    /// The law with such values.
+    #[must_use]
+    pub fn with_values(&self, values: &[f64]) -> Self {
+        let mut law = *self;
+        for (slot, &value) in self.slots().iter().zip(values) {
+            law = law.map(|a, mut atom| {
+                match *slot {
+                    LawSlot::Size(own) if own == a => atom.size = value,
+                    LawSlot::Number(own, i) if own == a => atom.numbers[i] = value / atom.unit_of(i),
+                    _ => {}
+                }
+                atom
+            });
+        }
+        law
+    }
+
+    /// Its formulas with their places, for tables: `-c*v*abs(v) at top`.
+    pub fn name(&self) -> String {
+        let one = |written: &super::Written| format!("{} at {}", written.text, written.site.name());
+        self.written().iter().map(one).collect::<Vec<_>>().join(" and ")
+    }
+
+    /// Whether two are of the same shapes at the same places, whatever their numbers.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let kinds = |law: &Self| law.atoms().map(|atom| (atom.site, atom.shape)).collect::<Vec<_>>();
+        kinds(self) == kinds(other)
+    }
+}
