@@ -58,7 +58,7 @@ mod tests {
     #[test]
     fn analytic_laws_are_one_where_their_forces_are_over_what_was_excited() {
         let law = drag(2.0, 300.0);
-        let points = points_with(&law, |_| true);
+        let points = points_with(&law, |_| 1.0);
         // |v|^2 and |v|^2.02 part by 0.4 % of the largest force, |v| and |v|^2 by a quarter of it.
         assert!(difference(&points, &law, &drag(2.02, 300.0)) < SAME_FORCE);
         let apart = difference(&points, &law, &drag(1.0, 300.0));

@@ -85,18 +85,18 @@ mod tests {
     #[test]
     fn analytic_a_law_of_every_test_holds_in_each_and_one_of_a_single_test_does_not() {
         let law = drag(2.0, 300.0);
-        let everywhere = points_with(&law, |_| true);
+        let everywhere = points_with(&law, |_| 1.0);
         let found = search(&everywhere).expect("laws");
         assert!(holds_in_each_test(&found.equations, &law));
-        let once = points_with(&drag(2.0, 3000.0), |test| test == 1);
-        let found = search(&once).expect("laws");
-        assert!(found.singles[0].evidence > 10.0, "it gains all the same: {:?}", found.singles[0]);
-        assert!(!holds_in_each_test(&found.equations, &found.singles[0].law));
+        // As large and the other way in the tests in which the wall moves less.
+        let turned = points_with(&law, |test| if test == 2 { 1.0 } else { -3.0 });
+        let found = search(&turned).expect("laws");
+        assert!(!holds_in_each_test(&found.equations, &law));
     }
 
     #[test]
     fn rejects_a_force_that_feeds_the_wall() {
-        let points = points_with(&drag(2.0, -300.0), |_| true);
+        let points = points_with(&drag(2.0, -300.0), |_| 1.0);
         let found = search(&points).expect("laws");
         for candidate in found.singles.iter().chain(&found.pairs) {
             for atom in candidate.law.atoms() {

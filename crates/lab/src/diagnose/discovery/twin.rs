@@ -68,14 +68,14 @@ pub fn points_of(tests: &[TestData]) -> Points {
     Points::new(tests, &known(tests)).expect("points")
 }
 
-/// Points of a wall without effects, with a law added to what is missing in the tests that have it. Noise is white.
-pub fn points_with(law: &Law, has_it: impl Fn(usize) -> bool) -> Points {
+/// Points of a wall without effects, with a share of a law added to what is missing in each test. Noise is white.
+pub fn points_with(law: &Law, share: impl Fn(usize) -> f64) -> Points {
     let mut points = points_of(&tests_of(&wall_with(""), 3e-5));
     let added = points.of_law(law);
     let mut random = ChaCha8Rng::seed_from_u64(5);
     for row in 0..points.missing.len() {
         let noise: f64 = StandardNormal.sample(&mut random);
-        points.missing[row] = noise + if has_it(points.test[row]) { added[row] } else { 0.0 };
+        points.missing[row] = noise + share(points.test[row]) * added[row];
     }
     points
 }
