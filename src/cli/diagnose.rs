@@ -19,8 +19,8 @@ use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
 /// Cuts the tests into short windows, simulates each from a fitted state, and
 /// tries every effect of the catalogue (mrbd effects) and their pairs within
 /// what was known of the wall ([prior] of the experiment). Judged on tests with
-/// use = "hold-out". Answers none, recalibrated, named, class, place_only,
-/// unknown or no_power.
+/// use = "hold-out". Answers none, recalibrated, named, class, formula,
+/// formula_class, place_only, unknown or no_power.
 ///
 /// Examples:
 ///   mrbd diagnose experiment.toml --out diagnosed
@@ -101,7 +101,7 @@ fn own_in_words(own: &OwnHypothesis) -> String {
 
 /// An effect and its place, and a line for each of its numbers.
 fn effect_in_words(effect: &FoundEffect) -> Vec<String> {
-    let name = effect.name.as_deref().unwrap_or("a law outside the catalogue");
+    let name = effect.formula.as_deref().or(effect.name.as_deref()).unwrap_or("a law outside the catalogue");
     let number = |((key, value), [low, high]): ((&String, &f64), &[f64; 2])| {
         format!("    {key} = {value:.5} (90 %: {low:.5} to {high:.5})")
     };

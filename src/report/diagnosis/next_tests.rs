@@ -29,6 +29,8 @@ fn in_words(summary: &Summary) -> String {
     match summary.verdict {
         Verdict::None | Verdict::Recalibrated => "Nothing is open. A test that turns the wall further lowers what could still hide.",
         Verdict::Named => "Nothing else explains these tests; the next one should confirm the effect where it is largest, or at another size.",
+        Verdict::Formula => "The formula holds over what these tests excited. The next one should confirm it beyond, at another amplitude: shapes that agree here part there.",
+        Verdict::FormulaClass => "The formulas agree over what these tests excited. Another amplitude, larger or much smaller, parts them; a slow pull of the top parts springs from dampers.",
         Verdict::NoPower => "A test in which the wall rocks: stronger shaking, or a release.",
         Verdict::Class | Verdict::PlaceOnly | Verdict::Unknown => "No two hypotheses stand level, so none can be chosen to part them. The shape of the missing force says where to look: a test that visits the displacements or velocities where its points are few, or a slow pull of the top, measures it directly.",
     }

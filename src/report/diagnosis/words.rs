@@ -42,9 +42,11 @@ fn effect(e: &FoundEffect) -> String {
     let at = at(&e.place);
     let value = |(key, value): (&String, &f64)| {
         let interval = e.interval.get(key);
+        let unit = e.units.get(key).filter(|unit| !unit.is_empty());
+        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
         let range = interval
             .map_or(String::new(), |[low, high]| format!(" (90 %: {} to {})", number(*low), number(*high)));
-        format!("{key} = {}{range}", number(*value))
+        format!("{key} = {}{unit}{range}", number(*value))
     };
     let values = e.parameters.iter().map(value).collect::<Vec<_>>().join(", ");
     let onset = e.sets_in_over_m.map_or(String::new(), |m| {
@@ -53,7 +55,8 @@ fn effect(e: &FoundEffect) -> String {
             number(1e3 * m)
         )
     });
-    format!("{}, {at}: {values}{onset}", e.name.as_deref().unwrap_or("a law outside the catalogue"))
+    let law = e.formula.as_deref().or(e.name.as_deref());
+    format!("{}, {at}: {values}{onset}", law.unwrap_or("a law outside the catalogue"))
 }
 
 /// A place in a sentence.
@@ -81,6 +84,15 @@ pub fn lead(summary: &Summary) -> String {
             "A class: {} explain these tests alike. The first of them: {effects}.",
             summary.equivalent.join(", ")
         ),
+        Verdict::Formula => format!(
+            "A formula: {effects}. No effect of the catalogue explains these tests; this law does, as far as they went ({}).",
+            ranges(summary)
+        ),
+        Verdict::FormulaClass => format!(
+            "A class of formulas: {} explain these tests alike, and no effect of the catalogue does. The simplest: {effects}. All hold as far as the tests went ({}).",
+            summary.equivalent.join(", "),
+            ranges(summary)
+        ),
         Verdict::PlaceOnly => {
             let place = summary.place.as_deref().map_or("somewhere".to_owned(), at);
             let like = imitation(summary);
@@ -95,6 +107,13 @@ pub fn lead(summary: &Summary) -> String {
                 .to_owned()
         }
     }
+}
+
+/// What was excited of the variables of formulas.
+fn ranges(summary: &Summary) -> String {
+    let one =
+        |(key, [low, high]): (&String, &[f64; 2])| format!("{key} {} to {}", number(*low), number(*high));
+    summary.effects.iter().flat_map(|e| e.range.iter().map(one)).collect::<Vec<_>>().join(", ")
 }
 
 /// What an unnamed law looks like, where something in the catalogue nearly explains the tests.
