@@ -7,7 +7,7 @@ use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{WALL_NUMBERS, WallNumber};
 use crate::diagnose::trials::FittedHypothesis;
 use mrbd_files::error::InputError;
-use mrbd_kernel::model::WallParameters;
+use mrbd_kernel::model::{FurtherLaw, WallParameters};
 
 impl Findings<'_> {
     /// The text of the wall file with what was found.
@@ -33,7 +33,9 @@ fn updated_wall_toml(experiment: &Experiment, after: &FittedHypothesis) -> Resul
         let list = found.restitution.coefficients.iter().map(|c| Value::Float(*c)).collect();
         set(&mut table, "restitution.coefficients", Value::Array(list));
     }
-    let added = h.effects(values).ok_or_else(impossible)?;
+    let effects = h.effects(values).ok_or_else(impossible)?.into_iter().map(FurtherLaw::Effect);
+    let formulas = h.formulas(values).ok_or_else(impossible)?.into_iter().map(FurtherLaw::Formula);
+    let added = effects.chain(formulas).collect::<Vec<_>>();
     if !added.is_empty() {
         let unwritable =
             |e: toml::ser::Error| InputError::file(path, e.to_string(), "effects that can be written");

@@ -5,10 +5,11 @@ use super::guards::{holds_in_each_test, lies_inside};
 use super::points::Points;
 use super::search::{Candidate, Searched, search};
 use crate::Progress;
+use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
-use crate::diagnose::hypothesis::Addition;
+use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{FittedHypothesis, Trials, against, closes, does_something, refit};
-use crate::limits::{LAWS_IN_WINDOWS, WORTH_A_NAME, WORTH_WINDOWS};
+use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS};
 use rayon::prelude::*;
 
 /// Laws outside the catalogue that were tried, and those that hold.
@@ -99,29 +100,66 @@ impl<P: Progress> Trials<'_, P> {
                 && holds_in_each_test(&searched.equations, &c.law)
         };
         let laws = laws.iter().filter(sound).take(LAWS_IN_WINDOWS).map(|c| c.law).collect::<Vec<_>>();
-        self.progress.begin(what, laws.len());
-        let fit = |law: &Law| {
-            let found = self.law_in_windows(gap, searched, law);
+        self.progress.begin(&format!("{what}, a first look"), laws.len());
+        let look = |law: &Law| {
+            let start = self.start_in_windows(gap, searched, law);
+            self.progress.advance(1);
+            start
+        };
+        let mut starts = laws.par_iter().filter_map(look).collect::<Vec<_>>();
+        starts.sort_by(|a, b| a.nats.total_cmp(&b.nats));
+        starts.truncate(LAWS_FITTED);
+        self.progress.begin(what, starts.len());
+        let fit = |start: &Start| {
+            let found = refit(&self.data, start.hypothesis.clone(), gap.nearest, &start.values);
             self.progress.advance(1);
             found
         };
-        let free = self.ordered(laws.par_iter().filter_map(fit).collect());
-        let exact = free.iter().filter_map(exact_law).collect::<Vec<_>>();
-        self.progress.begin(what, exact.len());
-        self.ordered([free, exact.par_iter().filter_map(fit).collect()].concat())
+        let free = self.ordered(starts.par_iter().filter_map(fit).collect());
+        let exact = self.exactly(&free);
+        self.ordered([free, exact].concat())
     }
 
-    /// A law fitted to windows from its values over points.
-    fn law_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<FittedHypothesis> {
-        let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
-        let steps = searched.equations.wall_steps(law)?;
-        let own = h.unknowns.iter().take(h.nuisances).zip(steps.iter());
-        let own = own.map(|(unknown, step)| unknown.start + step * unknown.prior_sd.unwrap_or(0.0));
-        let values = own.chain(law.values()).collect::<Vec<_>>();
-        let within = values.iter().zip(&h.unknowns).map(|(value, unknown)| unknown.within(*value));
-        let values = within.collect::<Vec<_>>();
-        refit(&self.data, h, gap.nearest, &values)
+    /// The best of fitted laws once more, with exact exponents where theirs are near.
+    fn exactly(&self, free: &[FittedHypothesis]) -> Vec<FittedHypothesis> {
+        let Some(best) = free.first().map(|best| against(&self.data, best)) else { return Vec::new() };
+        let near = free.iter().filter(|t| against(&self.data, t) < best + NEAR_BEST);
+        let exact = near.filter_map(|t| Some((t, exact_law(t)?))).collect::<Vec<_>>();
+        self.progress.begin("laws with exact exponents", exact.len());
+        let fit = |(from, law): &(&FittedHypothesis, Law)| {
+            let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
+            let own = from.fit.values.iter().take(h.nuisances).copied();
+            let values = own.chain(law.values()).collect::<Vec<_>>();
+            let found = refit(&self.data, h, from, &values);
+            self.progress.advance(1);
+            found
+        };
+        exact.par_iter().filter_map(fit).collect()
     }
+
+    /// A law with the numbers that points give it and the wall, and how well windows follow it so, their states fitted.
+    fn start_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<Start> {
+        let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
+        let steps = searched.equations.wall_steps(law)?;
+        let own = hypothesis.unknowns.iter().take(hypothesis.nuisances).zip(steps.iter());
+        let own = own.map(|(unknown, step)| unknown.start + step * unknown.prior_sd.unwrap_or(0.0));
+        let values = own.chain(law.values()).zip(&hypothesis.unknowns);
+        let values = values.map(|(value, unknown)| unknown.within(value)).collect::<Vec<_>>();
+        let states = gap.nearest.fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
+        let fit = self.data.fit.states(&hypothesis, &values, &states, LOOK_STEPS, false)?;
+        Some(Start { nats: nats(&fit.windows), hypothesis, values })
+    }
+}
+
+/// Steps of the states of windows at a first look.
+const LOOK_STEPS: usize = 2;
+
+/// A law at a first look.
+struct Start {
+    hypothesis: Hypothesis,
+    values: Vec<f64>,
+    /// What windows say against it.
+    nats: f64,
 }
 
 /// The law of a fitted hypothesis with exact exponents, where all of them are near such.

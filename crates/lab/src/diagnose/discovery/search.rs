@@ -6,7 +6,7 @@
 
 use super::points::Points;
 use crate::diagnose::formula::{Atom, Law, LawSlot, Shape, Site};
-use crate::limits::{LAW_LENGTH, LAWS_REFINED};
+use crate::limits::{LAW_LENGTH, LAWS_REFINED, RARE_LAW_LENGTH};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
@@ -113,7 +113,8 @@ impl<'p> Equations<'p> {
     /// (Schwarz) and the length of the formula.
     fn evidence(&self, law: &Law, gain: f64) -> f64 {
         let rows = self.points.missing.len() as f64;
-        let price = 0.5 * law.slots().len() as f64 * rows.ln() + LAW_LENGTH * law.atoms().count() as f64;
+        let length = |atom: Atom| if atom.shape.is_common() { LAW_LENGTH } else { RARE_LAW_LENGTH };
+        let price = 0.5 * law.slots().len() as f64 * rows.ln() + law.atoms().map(length).sum::<f64>();
         0.5 * gain / self.variance - price
     }
 

@@ -109,7 +109,7 @@ const EVEN: &[ShapeNumber] = &[exponent(&[0.5, 1.0, 1.5, 2.0, 3.0, 4.0])];
 const ONE_SIDED: &[ShapeNumber] = &[exponent(&[0.5, 1.0, 1.5, 2.0, 3.0, 4.0])];
 /// Thresholds lie inside what was excited: beyond the last there is too little to see.
 const THRESHOLDS: &[f64] = &[0.04, 0.08, 0.13, 0.2, 0.28, 0.36, 0.45, 0.54, 0.63, 0.72, 0.8, 0.87];
-const STOP: &[ShapeNumber] = &[threshold("g", THRESHOLDS), exponent(&[1.0, 1.5, 2.0])];
+const STOP: &[ShapeNumber] = &[threshold("g", THRESHOLDS), exponent(&[0.75, 1.0, 1.5, 2.0, 2.5])];
 const WIDTHS: &[f64] = &[0.03, 0.06, 0.1, 0.16, 0.25, 0.4, 0.63, 1.0, 1.6];
 const SATURATION: &[ShapeNumber] = &[threshold("d", WIDTHS)];
 const CLIPPED: &[ShapeNumber] = &[threshold("d", THRESHOLDS)];
@@ -123,7 +123,7 @@ const SPEEDS: &[ShapeNumber] = &[speed(WIDTHS)];
 const BEYOND: &[ShapeNumber] = &[threshold("g", THRESHOLDS)];
 const ONE_WAY: &[ShapeNumber] = &[exponent(&[0.5, 1.0, 1.5, 2.0, 3.0])];
 const ONE_SIDED_OPENING: &[ShapeNumber] =
-    &[ShapeNumber { letter: "p", meaning: Meaning::Exponent, grid: &[0.0, 0.5, 1.0, 1.5, 2.0, 3.0] }];
+    &[ShapeNumber { letter: "p", meaning: Meaning::Exponent, grid: &[0.3, 0.5, 1.0, 1.5, 2.0, 3.0] }];
 
 impl Shape {
     /// Every shape.
@@ -161,6 +161,29 @@ impl Shape {
         Self::Opening,
         Self::DragSaturation,
     ];
+
+    /// Whether walls have it often: other shapes must gain more.
+    pub fn is_common(self) -> bool {
+        match self {
+            Self::Spring
+            | Self::OneSidedSpring(_)
+            | Self::Stop(_)
+            | Self::DeadZone
+            | Self::Saturation
+            | Self::Drag
+            | Self::Opening
+            | Self::DragSaturation => true,
+            Self::EvenSpring
+            | Self::SlowSaturation
+            | Self::Clipped
+            | Self::SlowDragSaturation
+            | Self::Stribeck
+            | Self::DampedBeyond(_)
+            | Self::DampedFar
+            | Self::OneWay(_)
+            | Self::OneSidedOpening(_) => false,
+        }
+    }
 
     /// Its numbers but for its size.
     pub fn numbers(self) -> &'static [ShapeNumber] {

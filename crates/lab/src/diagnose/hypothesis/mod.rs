@@ -16,6 +16,7 @@ use nalgebra::{DMatrix, DVector};
 
 use mrbd_formula::Formula;
 use crate::diagnose::formula::{Law, LawSlot};
+use mrbd_formula::Formula;
 use mrbd_kernel::model::{Effect, EffectKind, EffectVariant, Role, Wall, WallParameters};
 use unknown::Slot;
 
@@ -126,8 +127,7 @@ impl Hypothesis {
                     let carriage = EffectKind::CarriageMass.variant(None).ok()?;
                     effects.push(carriage.with_parameters(&[mass_kg]).ok()?);
                 }
-                Addition::Formula(law) => effects.extend(self.law(law, index, values).effects()?),
-                Addition::Number(_) | Addition::Placebo => {}
+                Addition::Number(_) | Addition::Formula(_) | Addition::Placebo => {}
             }
         }
         Some(effects)
@@ -161,6 +161,7 @@ impl Hypothesis {
         if let Some(formula) = p.formulas.last_mut().filter(|_| !written.is_empty()) {
             *formula = formula.with_values(&written).ok()?;
         }
+        p.formulas.extend(self.formulas(values)?);
         Some(p)
     }
 
@@ -182,6 +183,12 @@ impl Hypothesis {
             _ => None,
         };
         self.additions.iter().enumerate().filter_map(law).collect()
+    }
+
+    /// The same as formulas for the wall file; `None` where one is refused.
+    pub fn formulas(&self, values: &[f64]) -> Option<Vec<Formula>> {
+        let all = self.laws(values).iter().map(Law::formulas).collect::<Option<Vec<_>>>()?;
+        Some(all.concat())
     }
 
     /// Whether a number is a size, which does nothing where it starts, and no number of a law's shape.
