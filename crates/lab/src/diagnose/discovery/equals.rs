@@ -5,8 +5,8 @@ use crate::diagnose::formula::{Law, Site};
 use crate::diagnose::trials::{Data, FittedHypothesis, against};
 use crate::limits::{EQUIVALENT, SAME_FORCE};
 
-/// Of laws in order, best first, those that are as good as the best: the simplest of those that are one force over what was
-/// excited.
+/// Of laws in order, best first, those that are as good as the best: the better of those that are alike but for exact
+/// exponents, the simplest of those that are one force over what was excited.
 pub fn simplest_of_equals(
     data: &Data,
     points: &Points,
@@ -14,6 +14,13 @@ pub fn simplest_of_equals(
 ) -> Vec<FittedHypothesis> {
     let Some(best) = closing.first().map(|best| against(data, best)) else { return Vec::new() };
     let mut equals = closing.into_iter().filter(|t| against(data, t) < best + EQUIVALENT).collect::<Vec<_>>();
+    let mut shapes: Vec<Law> = Vec::new();
+    equals.retain(|t| {
+        let Some(law) = law_of(t) else { return false };
+        let is_first = !shapes.iter().any(|better| better.is_like(&law));
+        shapes.push(law);
+        is_first
+    });
     // Stable: of as many numbers and the same place, the better comes first.
     equals.sort_by_key(|t| (t.hypothesis.unknowns.len(), law_of(t).map(|law| law.first.site)));
     let mut kept: Vec<FittedHypothesis> = Vec::new();
