@@ -79,13 +79,14 @@ fn numbers(summary: &Summary) -> Vec<Number> {
     let mut numbers = Vec::new();
     for effect in summary.effects.iter().filter(|e| e.parameters.len() <= 2) {
         for (key, value) in &effect.parameters {
-            let meaning = format!("{key}, {}", effect.name.as_deref().unwrap_or_default());
+            let law = effect.formula.as_deref().or(effect.name.as_deref());
+            let meaning = format!("{key}, {}", law.unwrap_or_default());
             numbers.push(of(number(*value), &meaning));
         }
     }
     numbers.push(of(error(summary.windowed_error.before), "times the noise: error of the wall as given"));
     numbers.push(of(error(summary.windowed_error.recalibrated), "with its own numbers recalibrated"));
-    if summary.has_names() {
+    if summary.has_names() || summary.has_formula() {
         numbers.push(of(error(summary.windowed_error.after), "with what was found"));
     }
     numbers

@@ -21,6 +21,7 @@ mod describe;
 mod diagnose;
 mod diagnose_force;
 mod diagnose_own;
+mod diagnose_formula;
 mod diagnose_twin;
 mod direction;
 mod drawn;

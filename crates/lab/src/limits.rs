@@ -347,6 +347,8 @@ limits! {
     LAWS_IN_WINDOWS: usize = 8, "";
     /// The best of these are fitted to windows.
     LAWS_FITTED: usize = 3, "";
+    /// The best of these are told among the rivals.
+    LAWS_TOLD: usize = 4, "";
     /// Largest size of a law in windows, over that found over points.
     MOST_OF_LAW: f64 = 10.0, "";
     /// Share of the gain over points that a law must keep in tests that it was not fitted to, one left out after the other.

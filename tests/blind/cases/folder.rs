@@ -88,7 +88,8 @@ fn answer(case: &Case, tests: &[Test]) -> Value {
     let (verdict, equivalent) = match case.kind {
         // Within the scatter of the prior, recalibrating is as right as seeing nothing.
         Kind::Nothing => (json!(["none", "recalibrated", "no_power"]), json!([])),
-        Kind::Outside(_) => (json!(["place_only", "unknown"]), json!([])),
+        // Whether a formula is the right one is not told here.
+        Kind::Outside(_) => (json!(["place_only", "unknown", "formula", "formula_class"]), json!([])),
         Kind::Lumped(Freedom::Nothing) | Kind::One(_) | Kind::Pair(..) => (json!("named"), json!([])),
         Kind::Lumped(_) => (json!(["class", "named"]), json!(["stiffness"])),
     };

@@ -138,9 +138,9 @@ impl Row {
         self.kind.starts_with("outside")
     }
 
-    /// Whether an effect was claimed, by name or as a class.
+    /// Whether something was claimed to be there, by name, as a class or as a formula.
     pub fn claims(&self) -> bool {
-        matches!(self.verdict.as_str(), "named" | "class")
+        matches!(self.verdict.as_str(), "named" | "class" | "formula" | "formula_class")
     }
 
     /// Exactly what was hidden was named.

@@ -49,7 +49,7 @@ pub fn table(rows: &[Row]) -> String {
     let outside: Vec<&Row> = rows.iter().filter(|row| row.hides_other_law()).collect();
     let honest = |row: &&&Row| matches!(row.verdict.as_str(), "place_only" | "unknown");
     add("another law: place_only or unknown", "≥ 80 %", Counted::of(&outside, honest).told());
-    add("– wrong name", "≤ 10 %", Counted::of(&outside, |row| row.claims()).told());
+    add("– wrong name", "≤ 10 %", Counted::of(&outside, |row| row.wrong()).told());
     let errors: Vec<f64> = rows.iter().filter_map(|row| row.parameter_error).collect();
     let error = median(errors.iter().copied());
     let told = error.map_or("no cases".into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));

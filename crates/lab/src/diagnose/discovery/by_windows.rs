@@ -9,7 +9,7 @@ use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{FittedHypothesis, Trials, against, closes, does_something, refit};
-use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS};
+use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS};
 use rayon::prelude::*;
 
 /// Laws outside the catalogue that were tried, and those that hold.
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 pub struct Discovered {
     /// Laws that close the gap and that the tests cannot tell apart, the simplest first; none where no law holds.
     pub equals: Vec<FittedHypothesis>,
-    /// Every law that was fitted to windows, the best first.
+    /// The best laws that were fitted to windows, in order.
     pub tried: Vec<FittedHypothesis>,
     /// By site: least and largest displacement and velocity that were excited.
     pub excited: [[[f64; 2]; 2]; 3],
@@ -71,11 +71,9 @@ impl<P: Progress> Trials<'_, P> {
         }
         let closing = closing.into_iter().filter(|t| holds(t)).collect();
         let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
-        Some(Discovered {
-            equals,
-            tried: self.ordered(tried),
-            excited: Site::ALL.map(|site| points.range(site)),
-        })
+        let mut tried = self.ordered(tried);
+        tried.truncate(LAWS_TOLD);
+        Some(Discovered { equals, tried, excited: Site::ALL.map(|site| points.range(site)) })
     }
 
     /// Whether a law that was fitted to windows closes the gap, with numbers that mean something.
