@@ -14,7 +14,6 @@ pub use unknown::{WALL_NUMBERS, WallNumber, wall_number};
 
 use nalgebra::{DMatrix, DVector};
 
-use mrbd_formula::Formula;
 use crate::diagnose::formula::{Law, LawSlot};
 use mrbd_formula::Formula;
 use mrbd_kernel::model::{Effect, EffectKind, EffectVariant, Role, Wall, WallParameters};
@@ -198,7 +197,7 @@ impl Hypothesis {
                 Addition::Formula(law) => matches!(law.slots().get(i), Some(LawSlot::Size(_))),
                 _ => true,
             },
-            Slot::Number(_) | Slot::Coefficient(_) => true,
+            Slot::Number(_) | Slot::Coefficient(_) | Slot::Written(_) => true,
         }
     }
 
