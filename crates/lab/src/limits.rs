@@ -353,7 +353,7 @@ limits! {
     MOST_OF_LAW: f64 = 10.0, "";
     /// Share of the gain over points that a law must keep in tests that it was not fitted to, one left out after the other.
     ///
-    /// Chosen: right laws keep 0.9 and more.
+    /// Chosen.
     LEFT_OUT_SHARE: f64 = 0.5, "share";
     /// Loss in a single such test that refuses it.
     LEFT_OUT_LOSS: f64 = 15.0, "ln of likelihood";
