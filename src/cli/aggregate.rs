@@ -90,7 +90,7 @@ fn read(folder: &Path) -> Result<Aggregated> {
 /// Writes medians, and the findings of a sweep, beside the runs; nothing is printed of a study that is finished.
 ///
 /// # Errors
-/// As [`AggregateCommand::execute`].
+/// The folder holds no results that can be aggregated; medians that cannot be written.
 pub fn keep_medians(folder: &Path) -> Result<()> {
     keep(folder, &read(folder)?)
 }

@@ -26,7 +26,7 @@ use mrbd_records::Suite;
 /// Circolare 2019, C8.7.1.2.1: α_0 by virtual work in every mechanism, e*, the linear check (q = 2), the nonlinear one with
 /// T_SLV, a_g,SLV and ζ, at the ground or on a floor (C7.2.3). With --records also the check by nonlinear dynamic analysis
 /// (C8.7.1.2.1.9): beyond d_0 in no run, and the mean of the largest displacements below d_SLV.
-/// The site file has [site] as `mrbd records check` reads it, and may have [building], [assessment] and [sources].
+/// The site file has `[site]` as `mrbd records check` reads it, and may have `[building]`, `[assessment]` and `[sources]`.
 ///
 /// Examples:
 ///   mrbd assess wall.toml --site site.toml
