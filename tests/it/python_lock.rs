@@ -25,5 +25,8 @@ fn regress_both_locks_hold_the_same_versions() {
         .filter(|(name, known)| python.get(*name).is_some_and(|held| !known.is_subset(held)))
         .collect();
     assert!(unlike.is_empty(), "in crates/python: `cargo update -p NAME --precise VERSION` for {unlike:?}");
+    let own = program.keys().filter(|name| name.starts_with("mrbd"));
+    let missing: Vec<_> = own.filter(|name| !python.contains_key(*name)).collect();
+    assert!(missing.is_empty(), "in crates/python: `cargo metadata --offline` for {missing:?}");
     assert!(python.contains_key("mrbd") && python.len() > 100, "{} packages", python.len());
 }
