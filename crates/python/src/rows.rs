@@ -121,6 +121,8 @@ impl Rows {
                 .unwrap_or(WallParameters::DEFAULT_COLLAPSE_RATIO),
             initial_rotation_rad: [or_zero("initial_theta1_rad"), or_zero("initial_theta2_rad")],
             effects: self.effects(row)?,
+            // A formula is a text of its own, no number of a row: walls of files have them.
+            formulas: Vec::new(),
         };
         Wall::new(parameters).map_err(|e| e.to_string())
     }

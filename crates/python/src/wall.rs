@@ -138,10 +138,10 @@ impl Wall {
         self.svg()
     }
 
-    /// Further effects, as in the wall file.
+    /// Further effects and formulas, as in the wall file.
     #[getter]
     fn effects<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        values::python(py, &self.parameters().effects)
+        values::python(py, &self.parameters().further_laws())
     }
 
     /// What becomes of velocities at impacts: the section `[restitution]` of a wall file.
@@ -193,7 +193,7 @@ impl Wall {
     fn __repr__(&self) -> String {
         let p = self.parameters();
         let crack = p.crack_height_m.map_or("not cracked".to_owned(), |m| format!("cracked at {m} m"));
-        let effects = match p.effects.len() {
+        let effects = match p.further_laws().len() {
             0 => String::new(),
             some => format!(", {some} effects"),
         };

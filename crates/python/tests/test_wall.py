@@ -42,6 +42,19 @@ def test_regress_every_effect_of_the_catalogue_goes_into_a_wall_and_back():
     assert damped.effects == [{"kind": "viscous_damping", "coefficient_n_s_per_m": 1500.0}]
 
 
+def test_regress_a_formula_goes_into_a_wall_and_back_and_runs_as_the_effect_of_the_catalogue(record_file):
+    wall = mrbd.Wall(**STRIP, diaphragm={"mass_kg": 179.0, "stiffness_n_per_m": 37e3})
+    named = wall.replace(effects=[{"kind": "viscous_damping", "coefficient_n_s_per_m": 1500.0}])
+    parameters = {"c": {"value": 1500.0, "unit": "N*s/m"}}
+    law = {"kind": "formula", "place": "top", "force_n": "-c*v", "parameters": parameters}
+    written = wall.replace(effects=[law])
+    assert written.effects == [law] and mrbd.Wall.parse(written.toml) == written
+    record = mrbd.records.read(record_file)
+    assert mrbd.simulate(written, record).theta1_rad.tolist() == mrbd.simulate(named, record).theta1_rad.tolist()
+    with pytest.raises(mrbd.InputError, match=r"effects\[0\]: .*`-c\*x` in N\*s .*; allowed: N"):
+        wall.replace(effects=[{**law, "force_n": "-c*x"}])
+
+
 def test_analytic_a_description_tells_the_acceleration_that_opens_a_block():
     block = mrbd.Wall(thickness_m=0.3, height_m=3.0, length_m=1.0, density_kg_m3=1800.0)
     # tan α = b/h, to the rounding of a handful of products.
