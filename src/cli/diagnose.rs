@@ -10,6 +10,7 @@ use super::shell::shell_word;
 use super::threads::Threads;
 use super::{output, stop};
 use crate::error::Result;
+use crate::report::numbers_of;
 use crate::results::diagnosis::{OutputNames, write_results};
 use mrbd_lab::diagnose::answer::{FittedNumber, FoundEffect, OwnHypothesis, Summary};
 use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
@@ -102,11 +103,7 @@ fn own_in_words(own: &OwnHypothesis) -> String {
 /// An effect and its place, and a line for each of its numbers.
 fn effect_in_words(effect: &FoundEffect) -> Vec<String> {
     let name = effect.formula.as_deref().or(effect.name.as_deref()).unwrap_or("a law outside the catalogue");
-    let number = |((key, value), [low, high]): ((&String, &f64), &[f64; 2])| {
-        format!("    {key} = {value:.5} (90 %: {low:.5} to {high:.5})")
-    };
     let mut lines = vec![format!("  {name} at {}", effect.place)];
-    // Both are maps over the same keys, so that they run in one order.
-    lines.extend(effect.parameters.iter().zip(effect.interval.values()).map(number));
+    lines.extend(numbers_of(effect).iter().map(|number| format!("    {number}")));
     lines
 }

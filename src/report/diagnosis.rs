@@ -22,7 +22,8 @@ use crate::error::Result;
 use crate::results::diagnosis::tables::TABLES;
 use mrbd_lab::diagnose::answer::{Summary, WallFit};
 use mrbd_lab::experiment_file::Purpose;
-use words::{number, with_sd};
+pub use words::numbers_of;
+use words::{number, unit_of, with_sd};
 
 /// Measured: dark grey.
 const MEASURED: Colour = PALETTE[6];
@@ -81,7 +82,7 @@ fn numbers(summary: &Summary) -> Vec<Number> {
         for (key, value) in &effect.parameters {
             let law = effect.formula.as_deref().or(effect.name.as_deref());
             let meaning = format!("{key}, {}", law.unwrap_or_default());
-            numbers.push(of(number(*value), &meaning));
+            numbers.push(of(number(*value) + &unit_of(effect, key), &meaning));
         }
     }
     numbers.push(of(error(summary.windowed_error.before), "times the noise: error of the wall as given"));

@@ -53,6 +53,7 @@ mod sweep;
 mod wall;
 mod words;
 
+pub use diagnosis::numbers_of;
 pub use push::push_svg;
 pub use run::{ImpactMark, PlotFile, RunPicture, Watch};
 pub use wall::wall_svg;

@@ -38,17 +38,27 @@ pub fn parameters(all: &[FittedNumber]) -> String {
     all.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
+/// The numbers of an effect, each with its unit and its 90 % interval.
+pub fn numbers_of(e: &FoundEffect) -> Vec<String> {
+    let value = |(key, value): (&String, &f64)| {
+        let range = e
+            .interval
+            .get(key)
+            .map_or(String::new(), |[low, high]| format!(" (90 %: {} to {})", number(*low), number(*high)));
+        format!("{key} = {}{}{range}", number(*value), unit_of(e, key))
+    };
+    e.parameters.iter().map(value).collect()
+}
+
+/// The unit of a number, after a space; empty where the key says it.
+pub fn unit_of(e: &FoundEffect, key: &str) -> String {
+    let unit = e.units.get(key).filter(|unit| !unit.is_empty());
+    unit.map_or(String::new(), |unit| format!(" {unit}"))
+}
+
 fn effect(e: &FoundEffect) -> String {
     let at = at(&e.place);
-    let value = |(key, value): (&String, &f64)| {
-        let interval = e.interval.get(key);
-        let unit = e.units.get(key).filter(|unit| !unit.is_empty());
-        let unit = unit.map_or(String::new(), |unit| format!(" {unit}"));
-        let range = interval
-            .map_or(String::new(), |[low, high]| format!(" (90 %: {} to {})", number(*low), number(*high)));
-        format!("{key} = {}{unit}{range}", number(*value))
-    };
-    let values = e.parameters.iter().map(value).collect::<Vec<_>>().join(", ");
+    let values = numbers_of(e).join(", ");
     let onset = e.sets_in_over_m.map_or(String::new(), |m| {
         format!(
             ", which sets in over {} mm: the wall file has it as a spring that yields so soon",
@@ -86,12 +96,12 @@ pub fn lead(summary: &Summary) -> String {
         ),
         Verdict::Formula => format!(
             "A formula: {effects}. No effect of the catalogue explains these tests; this law does, as far as they went ({}).",
-            ranges(summary)
+            ranges(&summary.effects)
         ),
         Verdict::FormulaClass => format!(
             "A class of formulas: {} explain these tests alike, and no effect of the catalogue does. The simplest: {effects}. All hold as far as the tests went ({}).",
             summary.equivalent.join(", "),
-            ranges(summary)
+            ranges(&summary.effects)
         ),
         Verdict::PlaceOnly => {
             let place = summary.place.as_deref().map_or("somewhere".to_owned(), at);
@@ -110,10 +120,13 @@ pub fn lead(summary: &Summary) -> String {
 }
 
 /// What was excited of the variables of formulas.
-fn ranges(summary: &Summary) -> String {
-    let one =
-        |(key, [low, high]): (&String, &[f64; 2])| format!("{key} {} to {}", number(*low), number(*high));
-    summary.effects.iter().flat_map(|e| e.range.iter().map(one)).collect::<Vec<_>>().join(", ")
+fn ranges(effects: &[FoundEffect]) -> String {
+    let one = |(key, [low, high]): (&String, &[f64; 2])| {
+        let (variable, unit) = key.split_once('_').unwrap_or((key, ""));
+        // Units of a key as people write them: `v_m_s` is v in m/s.
+        format!("{variable} from {} to {} {}", number(*low), number(*high), unit.replace('_', "/"))
+    };
+    effects.iter().flat_map(|e| e.range.iter().map(one)).collect::<Vec<_>>().join(", ")
 }
 
 /// What an unnamed law looks like, where something in the catalogue nearly explains the tests.
@@ -135,5 +148,17 @@ mod tests {
     fn regress_numbers_have_four_digits() {
         let told = [1487.38977, 12018135.0, 0.0054263, 37.1049, -0.5, 0.0].map(number);
         assert_eq!(told, ["1487", "1.202e7", "0.005426", "37.10", "-0.5000", "0"]);
+    }
+
+    #[test]
+    fn regress_a_formula_has_units_and_says_how_far_it_was_seen() {
+        let effect: FoundEffect = serde_json::from_value(serde_json::json!({
+            "kind": "formula", "name": "formula", "formula": "-c*abs(x)*v", "place": "top",
+            "parameters": { "c": 50096.2 }, "interval": { "c": [49668.1, 50524.4] }, "units": { "c": "N/m*(s/m)" },
+            "range": { "v_m_s": [-0.31409, 0.33729] },
+        }))
+        .expect("an effect");
+        assert_eq!(numbers_of(&effect), ["c = 50096 N/m*(s/m) (90 %: 49668 to 50524)"]);
+        assert_eq!(ranges(&[effect]), "v from -0.3141 to 0.3373 m/s");
     }
 }
