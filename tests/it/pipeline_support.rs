@@ -8,7 +8,7 @@ use mrbd::survey::Survey;
 use mrbd_files::coefficients::CoefficientSets;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{
-    Accuracy, EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Shaking, Work,
+    Accuracy, EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Shaking, Start, Work,
 };
 use mrbd_records::{About, Accelerogram, IntensityMeasures, Suite, SuiteRecord};
 
@@ -102,8 +102,9 @@ pub fn response(wall: &Wall, over_alpha: f64, outcome: Outcome) -> Response {
             passed_through_j: 2.0,
             ..EnergyLedger::default()
         },
-        demand: [JointDemand { friction: 0.4, tensions: 0 }; 2],
+        demand: [JointDemand { friction: 0.4, tensions: 0, compression_n: 0.0 }; 2],
         work: Work { steps: 10, rejected_steps: 1, evaluations: 70, tolerance_steps: 2 },
+        left: Start::default(),
     }
 }
 

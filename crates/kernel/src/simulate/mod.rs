@@ -9,6 +9,7 @@ mod history;
 mod response;
 mod rest;
 mod run;
+mod sequence;
 mod side_by_side;
 mod simulator;
 mod switches;
@@ -21,6 +22,7 @@ pub use ensemble::{
 pub use ground_path::FREE_RELEASE_STEP_S;
 pub use history::{History, HistoryRow, Observer};
 pub use response::{EnergyLedger, Impacts, JointDemand, Openings, Outcome, Peak, Response, Work};
+pub use sequence::{following, simulate_sequence};
 pub use side_by_side::{
     Prepared, simulate_side_by_side, simulate_side_by_side_at, simulate_watched_side_by_side,
 };

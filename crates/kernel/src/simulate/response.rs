@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::simulator::Start;
 use crate::model::Table2Change;
 
 /// A largest value over a run: size, sign and when.
@@ -127,6 +128,9 @@ pub struct JointDemand {
     pub friction: f64,
     /// How often the pivot came under tension: the wall would have flown.
     pub tensions: u64,
+    /// Largest compression at the ends of the steps of a wall that moved, N; 0 of one that did not. Impulses are not in it.
+    #[serde(default)]
+    pub compression_n: f64,
 }
 
 /// The work of the solver.
@@ -172,6 +176,9 @@ pub struct Response {
     pub demand: [JointDemand; 2],
     /// Effort.
     pub work: Work,
+    /// Where the run left the wall: what a next one starts from, see [`super::following`]. It is not written.
+    #[serde(skip)]
+    pub left: Start,
 }
 
 impl Response {

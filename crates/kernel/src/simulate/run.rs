@@ -10,7 +10,7 @@ use super::ground_path::{GroundPath, Piece};
 use super::history::Observer;
 use super::response::{Outcome, Peak, Response};
 use super::rest::RestLimits;
-use super::simulator::{Placed, Simulator};
+use super::simulator::{Placed, Simulator, Start};
 use super::totals::Totals;
 use crate::model::{
     Contact, MechanicsError, MotionRate, Pair, Pivot, Reactions, RockingWall, State, Vector, opening,
@@ -298,6 +298,12 @@ impl<O: Observer> Run<O> {
         Ok(false)
     }
 
+    /// Plastic displacement of a yielding spring now, m; one that yields has moved on since it began to.
+    fn plastic_displacement_m(&self) -> f64 {
+        let x_c = self.wall.top_displacement_m(self.contact, self.now.position);
+        self.wall.wall().plastic_displacement_m(self.wall.regime().plastic_m, x_c)
+    }
+
     fn reactions(&self, point: &Point, ground: Vector) -> Reactions {
         self.wall.motion(self.contact).reactions(point.position, point.velocity, point.acceleration, ground)
     }
@@ -362,6 +368,12 @@ impl<O: Observer> Run<O> {
             energy: self.totals.energy,
             demand: self.totals.demand,
             work: self.totals.work,
+            left: Start {
+                time_s: end_time_s,
+                state: State { theta: self.now.position, omega: self.now.velocity },
+                contact: Some(self.contact),
+                plastic_displacement_m: self.plastic_displacement_m(),
+            },
         }
     }
 }

@@ -69,6 +69,7 @@ impl Totals {
             if force.normal > 0.0 && force.shear.abs() > demand.friction * force.normal {
                 demand.friction = force.shear.abs() / force.normal;
             }
+            demand.compression_n = demand.compression_n.max(force.normal);
             demand.tensions += u64::from(tension && !self.in_tension[i]);
             self.in_tension[i] = tension;
         }
