@@ -5,13 +5,18 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::output;
-use crate::aggregate::{Distributions, Medians, aggregate, distributions, print_medians, write_medians};
+use crate::aggregate::{
+    Distributions, Medians, SEQUENCES_TABLE, Sequences, aggregate, distributions, print_medians, sequences, write_medians,
+};
 use crate::error::Result;
-use crate::findings::{Conclusions, conclusions, report, report_distributions, write_findings};
+use crate::findings::{
+    Conclusions, conclusions, report, report_distributions, report_sequences, write_findings,
+};
 use crate::study::pipeline::Kind;
 use crate::study::runs::{Completeness, Manifest};
 
-/// Read the runs of a study, write medians.parquet (and findings.csv of a sweep) beside them, print tables and findings.
+/// Read the runs of a study, write medians.parquet (and findings.csv of a sweep, sequences.parquet of sequences) beside
+/// them, print tables and findings.
 #[derive(Debug, Args)]
 pub struct AggregateCommand {
     /// Output folder of `mrbd run`.
@@ -32,6 +37,9 @@ impl AggregateCommand {
             (Aggregated::Sweep(medians, _), true) => {
                 output::to_stdout(|out| print_medians(out, medians).map_err(output::failed))?;
             }
+            (Aggregated::Sequences(study), true) => {
+                output::to_stdout(|out| study.print_csv(out).map_err(output::failed))?;
+            }
             (Aggregated::Drawn(study), true) => {
                 output::to_stdout(|out| study.print_csv(out).map_err(output::failed))?;
             }
@@ -48,6 +56,7 @@ impl AggregateCommand {
 enum Aggregated {
     Sweep(Medians, Vec<Conclusions>),
     Drawn(Distributions),
+    Sequences(Sequences),
 }
 
 /// Aggregates the study in a folder, prints its medians with what they decide and writes them there.
@@ -65,6 +74,7 @@ fn print(aggregated: &Aggregated) -> Result<()> {
         let printed = match aggregated {
             Aggregated::Sweep(medians, conclusions) => report(out, medians, conclusions),
             Aggregated::Drawn(study) => report_distributions(out, study),
+            Aggregated::Sequences(study) => report_sequences(out, study),
         };
         printed.map_err(output::failed)
     })
@@ -77,11 +87,13 @@ fn read(folder: &Path) -> Result<Aggregated> {
             let conclusions = conclusions(&medians);
             Aggregated::Sweep(medians, conclusions)
         }
+        Kind::Sequence => Aggregated::Sequences(sequences(folder)?),
         kind => Aggregated::Drawn(distributions(folder, kind)?),
     };
     let completeness = match &aggregated {
         Aggregated::Sweep(medians, _) => medians.completeness,
         Aggregated::Drawn(study) => study.completeness,
+        Aggregated::Sequences(study) => study.completeness,
     };
     tell_unfinished(completeness);
     Ok(aggregated)
@@ -103,6 +115,7 @@ fn keep(folder: &Path, aggregated: &Aggregated) -> Result<()> {
             write_findings(&folder.join("findings.csv"), medians, conclusions)
         }
         Aggregated::Drawn(study) => study.write(&file),
+        Aggregated::Sequences(study) => study.write(&folder.join(SEQUENCES_TABLE)),
     }
 }
 

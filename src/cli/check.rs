@@ -41,6 +41,10 @@ impl CheckCommand {
                 let medians = aggregate(&self.folder)?;
                 (medians.variants.clone(), figures_of_sweep(&medians), medians.completeness)
             }
+            Kind::Sequence => {
+                let allowed = "a sweep or a study of drawn façades; `mrbd aggregate` tells what sequences do";
+                return Err(InputError::file(&self.folder, "a study of sequences, without medians", allowed).into());
+            }
             kind => {
                 let study = distributions(&self.folder, kind)?;
                 (study.variants.clone(), figures_of_drawn(&study), study.completeness)

@@ -220,8 +220,12 @@ fn tell_failures(block: &[Finished], told: &mut usize) {
 
 fn report(tally: Tally, seconds: f64) {
     let runs = tally.runs();
+    let before = match tally.collapsed_before {
+        0 => String::new(),
+        fallen => format!(", {fallen} found the wall fallen"),
+    };
     eprintln!(
-        "mrbd: {runs} runs in {seconds:.1} s, {:.0} a second: {} stood, {} collapsed, {} failed",
+        "mrbd: {runs} runs in {seconds:.1} s, {:.0} a second: {} stood, {} collapsed, {} failed{before}",
         runs as f64 / seconds.max(f64::MIN_POSITIVE),
         tally.stood,
         tally.collapsed,

@@ -9,6 +9,7 @@
 //! | `sweep` | the paper's figures 12 and 14 to 20 from the medians and runs of a sweep |
 //! | `run` | one run: histories, and the wall in motion |
 //! | `drawn` | drawn façades: fragilities with intervals and data, quantiles, draws against the survey |
+//! | `sequences` | what records do after others |
 //! | `history` | a history file |
 //! | `calibration` | measured against simulated, intervals, convergence (Figs. 6 to 8) |
 //! | `diagnosis` | where model and tests part, the missing force, candidates and rivals, before and after |
@@ -48,6 +49,7 @@ mod provenance;
 mod push;
 mod rotations;
 mod run;
+mod sequences;
 mod suites;
 mod sweep;
 mod wall;
@@ -70,6 +72,7 @@ pub fn html(summary: &Summary) -> Result<String> {
     let page = match summary {
         Summary::Sweep(sweep) => Ok(sweep::page(sweep)),
         Summary::Drawn(drawn) => Ok(drawn::page(drawn)),
+        Summary::Sequences(after) => Ok(sequences::page(after)),
         Summary::Calibration(calibrated) => Ok(calibration::page(calibrated)),
         Summary::Diagnosis(folder) => diagnosis::page(folder),
         Summary::Comparison(folder) => comparison::page(folder),

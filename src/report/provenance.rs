@@ -99,7 +99,8 @@ pub fn run_links(files: &[PathBuf]) -> Vec<Link> {
     let record = |file: &PathBuf| file.parent().map(Path::to_path_buf);
     let link = |file: &PathBuf| {
         let path = file.to_string_lossy().replace('\\', "/");
-        let name = path.strip_prefix("runs/record=").unwrap_or(&path);
+        let prefixes = ["runs/record=", "runs/sequence="];
+        let name = prefixes.iter().find_map(|prefix| path.strip_prefix(prefix)).unwrap_or(&path);
         let alone = files.iter().filter(|other| record(other) == record(file)).count() == 1;
         let name = if alone { name.strip_suffix("/part-1.parquet").unwrap_or(name) } else { name };
         Link { text: name.to_owned(), href: address(&path) }

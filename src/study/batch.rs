@@ -10,13 +10,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::chain;
 use super::ladder::Search;
 use super::pipeline::{Limit, Variant};
 use super::plan::{Growth, Plan, Run};
 use indicatif::ProgressBar;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{
-    Accuracy, Outcome, Prepared, Response, Shaking, Simulator, simulate, simulate_side_by_side,
+    Accuracy, Outcome, Prepared, Response, Shaking, Simulator, Start, simulate, simulate_side_by_side,
 };
 use rayon::prelude::*;
 
@@ -33,7 +34,12 @@ pub struct Finished<R = Run> {
     pub simulations: u64,
     /// What an incremental analysis found beside its last run.
     pub found: Option<Found>,
+    /// Part of the sequence, from 0, in which the wall had fallen before that of the run began.
+    pub fell_in: Option<usize>,
 }
+
+/// The outcome of a part of a sequence that found the wall fallen.
+pub const COLLAPSED_BEFORE: &str = "collapsed before";
 
 /// What an incremental analysis found; the run and its response are those at the intensity it ended with: the lowest
 /// found to exceed the limit, or the last one where none did.
@@ -48,7 +54,7 @@ pub struct Found {
 impl<R> Finished<R> {
     /// A run that nothing came of yet.
     pub fn planned(run: R) -> Self {
-        Self { run, response: None, failure: None, simulations: 0, found: None }
+        Self { run, response: None, failure: None, simulations: 0, found: None, fell_in: None }
     }
 
     /// The response of a run that was carried to its end, standing or collapsed.
@@ -56,8 +62,11 @@ impl<R> Finished<R> {
         self.response.as_ref().filter(|_| self.failure.is_none())
     }
 
-    /// `stood`, `collapsed` or `failed`.
+    /// `stood`, `collapsed` or `failed`; `collapsed before` of a part of a sequence that found the wall fallen.
     pub fn outcome(&self) -> &'static str {
+        if self.fell_in.is_some() {
+            return COLLAPSED_BEFORE;
+        }
         self.usable().map_or("failed", |response| response.outcome.name())
     }
 }
@@ -71,12 +80,14 @@ pub struct Tally {
     pub collapsed: u64,
     /// Could not be finished.
     pub failed: u64,
+    /// Found the wall fallen in an earlier part of the sequence.
+    pub collapsed_before: u64,
 }
 
 impl Tally {
     /// All of them.
     pub fn runs(self) -> u64 {
-        self.stood + self.collapsed + self.failed
+        self.stood + self.collapsed + self.failed + self.collapsed_before
     }
 
     /// Counts these runs too.
@@ -85,6 +96,7 @@ impl Tally {
             match finished.outcome() {
                 "stood" => self.stood += 1,
                 "collapsed" => self.collapsed += 1,
+                COLLAPSED_BEFORE => self.collapsed_before += 1,
                 _ => self.failed += 1,
             }
         }
@@ -95,6 +107,12 @@ impl Tally {
 pub trait Simulate {
     /// Simulates one wall.
     fn one(&self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy) -> Response;
+
+    /// Simulates one wall from where an earlier run left it.
+    fn from(&self, wall: &Wall, shaking: &Shaking, accuracy: Accuracy, start: &Start) -> Response {
+        let simulator = Simulator::new(wall, shaking, accuracy);
+        simulator.run_from(start, simulator.end_s(), &mut ())
+    }
 
     /// Whether [`simulate`] of several walls side by side is the same.
     fn goes_side_by_side(&self) -> bool {
@@ -130,6 +148,9 @@ pub fn run_all(
     simulate: &(impl Simulate + Sync),
     progress: &ProgressBar,
 ) -> Vec<Finished> {
+    if plan.sequences().len() > 0 {
+        return chain::run_chains(plan, &positions, simulate, progress);
+    }
     if simulate.goes_side_by_side() {
         return run_side_by_side(plan, &positions, progress);
     }
@@ -143,6 +164,9 @@ pub fn run_all(
 
 /// Runs one run; a façade that is no wall, or a panic of the simulator, is a failure of this run, not of the study.
 pub fn run_one(run: Run, simulate: &impl Simulate) -> Finished {
+    if run.sequence.is_some() {
+        return chain::run_part(&run, simulate);
+    }
     let planned = Finished::planned(run);
     let outcome = catch_unwind(AssertUnwindSafe(|| match planned.run.growth() {
         None => single(planned.clone(), simulate),
@@ -152,7 +176,7 @@ pub fn run_one(run: Run, simulate: &impl Simulate) -> Finished {
 }
 
 /// Simulates a run at the factor it is at.
-fn single(finished: Finished, simulate: &impl Simulate) -> Finished {
+pub(super) fn single(finished: Finished, simulate: &impl Simulate) -> Finished {
     let run = &finished.run;
     let wall = match &run.wall {
         Ok(wall) => wall,

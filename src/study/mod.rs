@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | [`pipeline`] | a file | what is asked for: variants, parameters, intensities |
 //! | [`plan`] | a pipeline | a list of runs, computed one by one: façades, walls, records, ids |
+//! | [`sequence`] | tables of a pipeline | records one after another, and the rows they make |
 //! | [`batch`] | a plan | finished runs in order, on all threads; limits searched by growing intensities |
 //! | [`cases`] | walls and motions as a caller has them | finished runs in order, on all threads; no plan, no folder |
 //! | [`ladder`] | a limit | the lowest intensity found to exceed it |
@@ -13,8 +14,10 @@
 pub mod batch;
 pub mod campaign;
 pub mod cases;
+mod chain;
 pub mod ladder;
 pub mod pipeline;
 pub mod plan;
 pub mod runs;
+pub mod sequence;
 mod study_table;

@@ -5,6 +5,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use super::sequence::SequenceTable;
 use super::study_table::StudyTables;
 pub use super::study_table::{Cloud, Drawn, Incremental, Kind, Limit, Loading, Stripes, Study};
 use crate::error::{InputError, Result};
@@ -68,6 +69,8 @@ pub struct Pipeline {
     pub kind: Kind,
     /// Which façades, and how strongly they are shaken.
     pub study: Study,
+    /// Records one after another; empty but in a study of sequences.
+    pub sequence: Vec<SequenceTable>,
     /// Assumptions to run it under, the one to compare with first; never empty.
     pub variants: Vec<Variant>,
 }
@@ -91,6 +94,8 @@ struct PipelineFile {
     cloud: Option<Cloud>,
     stripes: Option<Stripes>,
     incremental: Option<Incremental>,
+    #[serde(default)]
+    sequence: Vec<SequenceTable>,
 }
 
 #[derive(Deserialize)]
@@ -128,6 +133,7 @@ impl Pipeline {
             cloud: file.cloud,
             stripes: file.stripes,
             incremental: file.incremental,
+            sequence: file.sequence.clone(),
         };
         let study = tables.study(path, file.kind, &variants)?;
         check_members(path, file.kind, &variants)?;
@@ -142,6 +148,7 @@ impl Pipeline {
             floor: file.floor,
             kind: file.kind,
             study,
+            sequence: file.sequence,
             variants,
         })
     }
@@ -193,7 +200,7 @@ fn variants(path: &Path, common: Changes, tables: Vec<VariantTable>) -> Result<V
 /// Only what a sweep says is judged by ensembles.
 fn check_members(path: &Path, kind: Kind, variants: &[Variant]) -> Result<()> {
     match variants.iter().find_map(|variant| variant.member.as_ref()) {
-        Some(Member { member_of, .. }) if kind.is_drawn() => {
+        Some(Member { member_of, .. }) if kind != Kind::Sweep => {
             let found = format!("those of {member_of:?} in a study of kind {:?}", kind.name());
             Err(InputError::key(path, "variants.members", found, "members only in a sweep").into())
         }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::pipeline::SweepTable;
 use super::pipeline::Variant;
+use super::sequence::{self, SequenceTable};
 use crate::error::{InputError, Result};
 use crate::survey::Configuration;
 use crate::survey::sampling::Sampling;
@@ -28,11 +29,14 @@ pub enum Kind {
     Stripes,
     /// The same, every record scaled up until the wall reaches a limit.
     Incremental,
+    /// Façades of a sweep or drawn ones, under records one after another.
+    Sequence,
 }
 
 impl Kind {
-    /// All five.
-    pub const ALL: [Self; 5] = [Self::Sweep, Self::MonteCarlo, Self::Cloud, Self::Stripes, Self::Incremental];
+    /// All six.
+    pub const ALL: [Self; 6] =
+        [Self::Sweep, Self::MonteCarlo, Self::Cloud, Self::Stripes, Self::Incremental, Self::Sequence];
 
     /// Name in pipeline files and manifests.
     pub fn name(self) -> &'static str {
@@ -42,12 +46,13 @@ impl Kind {
             Kind::Cloud => "cloud",
             Kind::Stripes => "stripes",
             Kind::Incremental => "incremental",
+            Kind::Sequence => "sequence",
         }
     }
 
-    /// Whether its façades are drawn.
+    /// Whether it tells of façades drawn from the survey. Those of sequences may be drawn; what it tells is another thing.
     pub fn is_drawn(self) -> bool {
-        self != Kind::Sweep
+        !matches!(self, Kind::Sweep | Kind::Sequence)
     }
 }
 
@@ -217,12 +222,14 @@ pub(super) struct StudyTables {
     pub cloud: Option<Cloud>,
     pub stripes: Option<Stripes>,
     pub incremental: Option<Incremental>,
+    pub sequence: Vec<SequenceTable>,
 }
 
 impl StudyTables {
     /// The study of a kind, its tables checked: those it needs, and no others.
     pub fn study(self, path: &Path, kind: Kind, variants: &[Variant]) -> Result<Study> {
         self.check_keys(path, kind)?;
+        sequence::check(path, &self.sequence)?;
         let loading = match (kind, self.cloud, self.stripes, self.incremental) {
             (Kind::Cloud, Some(cloud), ..) => Loading::Cloud(checked_cloud(path, cloud)?),
             (Kind::Stripes, _, Some(stripes), _) => Loading::Stripes(checked_stripes(path, stripes)?),
@@ -246,14 +253,22 @@ impl StudyTables {
 
     fn check_keys(&self, path: &Path, kind: Kind) -> Result<(), InputError> {
         let drawn = kind.is_drawn();
+        let after_another = kind == Kind::Sequence;
+        // Of sequences the façades are those of one table or of the other.
+        if after_another && self.sweep.is_some() == self.sampling.is_some() {
+            let found = "neither or both of [sweep] and [sampling] in a study of kind \"sequence\"";
+            return Err(InputError::key(path, "sampling", found, "one of the two, which says what façades"));
+        }
+        let may_draw = drawn || after_another && self.sampling.is_some();
         // Key, whether it is there, whether the kind needs it, whether the kind may have it.
         let keys = [
-            ("sweep", self.sweep.is_some(), !drawn, !drawn),
-            ("sampling", self.sampling.is_some(), drawn, drawn),
-            ("configurations", self.configurations.is_some(), false, drawn),
+            ("sweep", self.sweep.is_some(), kind == Kind::Sweep, !drawn),
+            ("sampling", self.sampling.is_some(), drawn, may_draw),
+            ("configurations", self.configurations.is_some(), false, may_draw),
             ("cloud", self.cloud.is_some(), kind == Kind::Cloud, kind == Kind::Cloud),
             ("stripes", self.stripes.is_some(), kind == Kind::Stripes, kind == Kind::Stripes),
             ("incremental", self.incremental.is_some(), kind == Kind::Incremental, kind == Kind::Incremental),
+            ("sequence", !self.sequence.is_empty(), after_another, after_another),
         ];
         for (key, there, needed, allowed) in keys {
             if needed && !there {

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `sweep` | medians, the paper's conclusions, the reference façades record by record |
 //! | `drawn` | distributions over drawn façades |
+//! | `sequences` | what records do after others |
 //! | `fragility` | the probability of reaching each limit |
 //! | `samples` | the façades drawn, and the survey's distributions |
 //! | `spectra` | response spectra of the records |
@@ -15,6 +16,7 @@ mod drawn;
 mod file;
 mod fragility;
 mod samples;
+mod sequences;
 mod spectra;
 mod sweep;
 
@@ -23,6 +25,7 @@ pub use drawn::Drawn;
 pub use file::{Note, read_json};
 pub use fragility::{DEFAULT_INTENSITY, LEVEL, LimitFragility};
 pub use samples::{FloorSamples, Samples};
+pub use sequences::AfterOthers;
 pub use spectra::{CodeSpectrum, Spectra};
 pub use sweep::Sweep;
 
@@ -30,8 +33,10 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
+use crate::aggregate::SEQUENCES_TABLE;
 use crate::error::{Error, InputError, Result};
 use crate::results;
+use crate::study;
 use crate::study::runs::{Completeness, Manifest};
 use mrbd_records::Site;
 
@@ -42,6 +47,8 @@ pub enum Summary {
     Sweep(Box<Sweep>),
     /// Drawn façades.
     Drawn(Box<Drawn>),
+    /// Records one after another.
+    Sequences(Box<AfterOthers>),
     /// A calibration.
     Calibration(Box<Calibrated>),
     /// The folder of a diagnosis, drawn as it is stored.
@@ -104,6 +111,7 @@ impl Summary {
         match self {
             Self::Sweep(sweep) => sweep.medians.completeness,
             Self::Drawn(drawn) => drawn.distributions.completeness,
+            Self::Sequences(after) => after.sequences.completeness,
             _ => None,
         }
     }
@@ -117,6 +125,7 @@ impl Summary {
         match self {
             Self::Sweep(sweep) => sweep.write_medians(&medians),
             Self::Drawn(drawn) => drawn.distributions.write(&medians),
+            Self::Sequences(after) => after.sequences.write(&folder.join(SEQUENCES_TABLE)),
             _ => Ok(()),
         }
     }
@@ -134,14 +143,17 @@ fn of_folder(folder: &Path, manifest: &Path, site: Option<&Site>) -> Result<Summ
         Some(crate::portfolio::KIND) => Ok(Summary::Portfolio(folder.to_path_buf())),
         Some(crate::push::KIND) => Ok(Summary::Push(folder.to_path_buf())),
         Some(crate::classics::comparison::KIND) => Ok(Summary::Comparison(folder.to_path_buf())),
-        _ => study(folder, manifest, site),
+        _ => of_study(folder, manifest, site),
     }
 }
 
-fn study(folder: &Path, path: &Path, site: Option<&Site>) -> Result<Summary> {
+fn of_study(folder: &Path, path: &Path, site: Option<&Site>) -> Result<Summary> {
     match Manifest::read(path)? {
         Some(manifest) if manifest.kind.is_drawn() => {
             Ok(Summary::Drawn(Box::new(Drawn::read(folder, manifest, site)?)))
+        }
+        Some(manifest) if manifest.kind == study::pipeline::Kind::Sequence => {
+            Ok(Summary::Sequences(Box::new(AfterOthers::read(folder, manifest, site)?)))
         }
         Some(manifest) => Ok(Summary::Sweep(Box::new(Sweep::read(folder, manifest, site)?))),
         None => Err(InputError::file(path, "nothing there", RESULTS).into()),

@@ -6,7 +6,9 @@
 use std::path::Path;
 
 use crate::error::{InputError, Result};
-use mrbd_kernel::model::{ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
+use mrbd_kernel::model::{
+    Effect, EffectError, G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m,
+};
 use mrbd_kernel::simulate::Accuracy;
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +31,12 @@ pub struct Assumptions {
     pub tail_s: f64,
     /// Whether the records' vertical components act too.
     pub vertical: bool,
+    /// Displacement of the top at which the floor's spring yields and keeps what it has yielded, m; none: it never does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub floor_yield_m: Option<f64>,
+    /// Whether a record of a sequence leaves corners crushed as deep as the largest compression in it asks for.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub crushing_stays: bool,
 }
 
 /// Assumptions that differ from those they build on.
@@ -43,6 +51,8 @@ pub(crate) struct Changes {
     tolerance: Option<f64>,
     tail_s: Option<f64>,
     vertical: Option<bool>,
+    floor_yield_m: Option<f64>,
+    crushing_stays: Option<bool>,
 }
 
 impl Default for Assumptions {
@@ -57,6 +67,8 @@ impl Default for Assumptions {
             tolerance: Accuracy::default().tolerance,
             tail_s: 5.0,
             vertical: false,
+            floor_yield_m: None,
+            crushing_stays: false,
         }
     }
 }
@@ -72,6 +84,8 @@ impl Changes {
             tolerance: self.tolerance.unwrap_or(base.tolerance),
             tail_s: self.tail_s.unwrap_or(base.tail_s),
             vertical: self.vertical.unwrap_or(base.vertical),
+            floor_yield_m: self.floor_yield_m.or(base.floor_yield_m),
+            crushing_stays: self.crushing_stays.unwrap_or(base.crushing_stays),
         }
     }
 }
@@ -94,6 +108,9 @@ impl Assumptions {
         let within = Accuracy::TOLERANCES.contains(&self.tolerance);
         rule("tolerance", self.tolerance, within, Accuracy::ALLOWED)?;
         rule("tail_s", self.tail_s, self.tail_s >= 0.0, not_below_0)?;
+        if let Some(yield_m) = self.floor_yield_m {
+            rule("floor_yield_m", yield_m, yield_m > 0.0, above_0)?;
+        }
         Ok(())
     }
 }
@@ -130,6 +147,9 @@ pub enum ImpossibleFacade {
     /// A parameter is out of its bounds.
     #[error(transparent)]
     Wall(#[from] ImpossibleWall),
+    /// A floor that yields is out of its bounds.
+    #[error(transparent)]
+    Floor(#[from] EffectError),
 }
 
 impl Facade {
@@ -168,6 +188,39 @@ impl Facade {
             effects: Vec::new(),
             formulas: Vec::new(),
         })?)
+    }
+
+    /// The wall as a study assumes it: its floor yields, where it may.
+    ///
+    /// # Errors
+    /// As [`Facade::wall`], and for a floor that yields at a force out of its bounds.
+    pub fn wall_under(
+        &self,
+        restitution: Restitution,
+        assumptions: &Assumptions,
+    ) -> Result<Wall, ImpossibleFacade> {
+        let wall = self.wall(restitution, assumptions.collapse_rotation_ratio)?;
+        let Some(yield_m) = assumptions.floor_yield_m else { return Ok(wall) };
+        let k_d = self.stiffness_n_per_m;
+        // The spring that yields takes the place of k_d: the same up to F_y = k_d x_y.
+        let floor = Effect::with_parameters("yielding_spring", &[k_d, k_d * yield_m])?;
+        let elastic = wall.parameters().clone();
+        Ok(Wall::new(WallParameters { stiffness_n_per_m: 0.0, effects: vec![floor], ..elastic })?)
+    }
+
+    /// The wall with corners crushed as deep as these compressions at the ground and at the crack ask for, N. A corner
+    /// that was crushed deeper before stays so.
+    ///
+    /// # Errors
+    /// [`ImpossibleFacade`] where a corner crushes away.
+    pub fn crushed(&self, wall: &Wall, compression_n: [f64; 2]) -> Result<Wall, ImpossibleFacade> {
+        let pressing_kg = compression_n.map(|force_n| force_n / G_M_S2);
+        let strength_pa = self.compressive_strength_pa;
+        let [ground_m, crack_m] = crushed_widths_m(self.thickness_m, self.length_m, pressing_kg, strength_pa)?;
+        let before = wall.parameters().clone();
+        let lower_width_m = before.lower_width_m.min(ground_m);
+        let upper_width_m = before.upper_width_m.min(crack_m);
+        Ok(Wall::new(WallParameters { lower_width_m, upper_width_m, ..before })?)
     }
 
     fn masses(&self) -> Result<Masses, ImpossibleFacade> {

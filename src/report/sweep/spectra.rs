@@ -95,6 +95,7 @@ fn caption(spectra: &Spectra, kind: Kind) -> String {
             "at the suite’s own scales; the runs scaled them further"
         }
         Kind::Sweep | Kind::MonteCarlo => "as they were run, scaled",
+        Kind::Sequence => "at the suite’s own scales",
     };
     let records = format!(
         "Records of suite “{}” {scales}. Shaded: {from} to {to} s, where the paper compares with the code.",

@@ -16,7 +16,7 @@ pub const BLOCK_RUNS: u64 = 512;
 pub struct Block {
     /// Position among the blocks of the plan, from 0.
     pub index: u64,
-    /// Position of the record in the suite.
+    /// Position of the record in the suite, or of the sequence in the study.
     pub record: usize,
     /// Positions of the runs in the plan.
     pub runs: Range<u64>,
@@ -33,12 +33,12 @@ pub struct Layout {
 impl Layout {
     /// The blocks of the plan a manifest tells of.
     pub fn of(manifest: &Manifest) -> Self {
-        let records: Vec<String> = manifest.suite.records.iter().map(|record| record.name.clone()).collect();
+        let records: Vec<String> = manifest.motions().into_iter().map(str::to_owned).collect();
         let runs_per_record = manifest.runs / (records.len() as u64).max(1);
         Self { records, runs_per_record, block_runs: manifest.block_runs.max(1) }
     }
 
-    /// Names of the records.
+    /// Names of the records, or of their sequences: what the runs are stored by.
     pub fn records(&self) -> &[String] {
         &self.records
     }

@@ -11,6 +11,7 @@ use super::run::Motions;
 use super::run::Run;
 use crate::error::{InputError, Result};
 use crate::study::pipeline::{Drawn, Kind, Pipeline, Study, Variant};
+use crate::study::sequence::{Sequence, sequences};
 use crate::survey::sampling::Variable;
 use crate::survey::{Configuration, Survey};
 use mrbd_files::coefficients::CoefficientSets;
@@ -31,6 +32,8 @@ pub struct Plan {
     motions: Arc<Motions>,
     variants: Vec<Arc<Variant>>,
     settings: Settings,
+    /// Empty where every record is run by itself.
+    sequences: Vec<Arc<Sequence>>,
 }
 
 /// What varies under one record and one set of assumptions.
@@ -68,6 +71,7 @@ impl Plan {
     /// scaled, façades of a sweep that cannot exist, and distributions that cannot.
     pub fn new(pipeline: &Pipeline, survey: Survey, sets: CoefficientSets, suite: Suite) -> Result<Self> {
         check_suite(pipeline, &suite)?;
+        let sequences = sequences(&pipeline.path, &pipeline.sequence, &suite)?;
         let settings = match &pipeline.study {
             Study::Sweep(table) => Settings::Sweep(Box::new(Sweep::new(table, survey, sets))),
             Study::Drawn(drawn) => {
@@ -81,6 +85,7 @@ impl Plan {
             motions: Arc::new(Motions::new(suite)),
             variants: pipeline.variants.iter().cloned().map(Arc::new).collect(),
             settings,
+            sequences: sequences.into_iter().map(Arc::new).collect(),
         };
         plan.check_length(pipeline)?;
         plan.check_sweep(pipeline)?;
@@ -123,14 +128,29 @@ impl Plan {
         }
     }
 
-    /// Runs under one record: a record's runs are `runs_per_record` neighbours, in the order of the suite.
+    /// The sequences, in their order; none where every record is run by itself.
+    pub fn sequences(&self) -> impl ExactSizeIterator<Item = &Sequence> {
+        self.sequences.iter().map(AsRef::as_ref)
+    }
+
+    /// Rows of one wall under a motion: one under a record, and of a sequence as many as it has.
+    pub fn rows(&self) -> u64 {
+        self.sequences.first().map_or(1, |sequence| sequence.rows()) as u64
+    }
+
+    /// Records, or sequences of them.
+    fn motions_run(&self) -> usize {
+        if self.sequences.is_empty() { self.motions.suite.records.len() } else { self.sequences.len() }
+    }
+
+    /// Runs under one record, or one sequence of them: neighbours, in the order of the suite or of the sequences.
     pub fn runs_per_record(&self) -> u64 {
         self.variants.len() as u64 * self.runs_per_variant()
     }
 
     /// Number of runs.
     pub fn len(&self) -> u64 {
-        self.runs_per_record() * self.motions.suite.records.len() as u64
+        self.runs_per_record() * self.motions_run() as u64
     }
 
     /// Whether there is nothing to run; a plan that was made has runs.
@@ -145,27 +165,33 @@ impl Plan {
     pub fn run(&self, position: u64) -> Run {
         assert!(position < self.len(), "run {position} of {}", self.len());
         let (setting, rest) = (position % self.runs_per_variant(), position / self.runs_per_variant());
+        let (row, setting) = ((setting % self.rows()) as usize, setting / self.rows());
         let variants = self.variants.len() as u64;
-        let (variant, record_index) = ((rest % variants) as usize, (rest / variants) as usize);
+        let (variant, motion) = ((rest % variants) as usize, (rest / variants) as usize);
         let variant = Arc::clone(&self.variants[variant]);
+        let sequence = self.sequences.get(motion).map(|sequence| (Arc::clone(sequence), sequence.place(row)));
+        let part = sequence.as_ref().map(|(sequence, place)| sequence.parts[place.part]);
+        let record_index = part.map_or(motion, |part| part.record_index);
         let assumptions = &variant.assumptions;
         let setting = match &self.settings {
             Settings::Sweep(sweep) => sweep.at(setting, assumptions),
             Settings::Drawn(facades) => facades.at(setting, record_index, assumptions),
         };
-        let factor = setting.factor(&self.motions.suite.records[record_index]);
+        let factor = part.map_or(1.0, |part| part.scale)
+            * setting.factor(&self.motions.suite.records[record_index]);
         let Setting { configuration, origin, facade, coefficients, scaling } = setting;
         let restitution = Restitution {
             coefficients,
             law: assumptions.law,
             capture_velocity_rad_s: assumptions.capture_velocity_rad_s,
         };
-        let wall = facade.wall(restitution, assumptions.collapse_rotation_ratio);
+        let wall = facade.wall_under(restitution, assumptions);
         let run = Run {
             position,
             id: String::new(),
             motions: Arc::clone(&self.motions),
             record_index,
+            sequence,
             variant,
             configuration,
             origin,
@@ -192,6 +218,10 @@ impl Plan {
                 facades.hashed(hash.text("kind", self.kind.name()), (0..first).map(|i| self.run(i).id))
             }
         };
+        let hash = self.sequences.iter().fold(hash, |hash, sequence| {
+            // Names and numbers always serialise.
+            hash.text("sequence", &serde_json::to_string(&**sequence).unwrap_or_default())
+        });
         let suite = &self.motions.suite;
         let records = suite.records.iter().zip(&self.motions.hashes);
         let hash = records.fold(hash, |hash, (record, motion)| {
@@ -203,15 +233,17 @@ impl Plan {
     }
 
     fn runs_per_variant(&self) -> u64 {
-        match &self.settings {
+        let facades = match &self.settings {
             Settings::Sweep(sweep) => sweep.len(),
             Settings::Drawn(facades) => facades.len(),
-        }
+        };
+        facades * self.rows()
     }
 
     fn check_length(&self, pipeline: &Pipeline) -> Result<()> {
         let Some(drawn) = self.drawn() else { return Ok(()) };
-        let beside = self.variants.len() * self.motions.suite.records.len() * drawn.runs_per_draw();
+        let beside =
+            self.variants.len() * self.motions_run() * drawn.runs_per_draw() * self.rows() as usize;
         let allowed = MOST_RUNS / beside as u64;
         if drawn.sampling.count <= allowed {
             return Ok(());
@@ -221,13 +253,14 @@ impl Plan {
             .into())
     }
 
-    /// Façades of a sweep do not depend on the record: one record's runs tell of all.
+    /// Façades of a sweep do not depend on the record or sequence: the runs of one tell of all.
     fn check_sweep(&self, pipeline: &Pipeline) -> Result<()> {
         let Settings::Sweep(sweep) = &self.settings else { return Ok(()) };
         for position in 0..self.runs_per_record() {
             let run = self.run(position);
             if let Err(impossible) = &run.wall {
-                let place = Sweep::place(&sweep.at(position % sweep.len(), &run.variant.assumptions));
+                let setting = position / self.rows() % sweep.len();
+                let place = Sweep::place(&sweep.at(setting, &run.variant.assumptions));
                 let found = format!("variant {:?}, {place}: {impossible}", run.variant.name);
                 return Err(InputError::key(&pipeline.path, "sweep", found, "façades that can stand").into());
             }

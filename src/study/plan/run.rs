@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::level::Level;
 use crate::study::ladder::Ladder;
 use crate::study::pipeline::{Limit, Member, Parameter, Variant};
+use crate::study::sequence::{Place, Sequence};
 use crate::survey::{Configuration, Facade, ImpossibleFacade};
 use mrbd_formula::Formula;
 use mrbd_kernel::model::{Effect, Restitution, Wall, WallParameters};
@@ -67,6 +68,8 @@ pub struct Run {
     pub motions: Arc<Motions>,
     /// Position of the record in the suite, from 0.
     pub record_index: usize,
+    /// The sequence that the record is a part of, and the row of it; none of a record by itself.
+    pub sequence: Option<(Arc<Sequence>, Place)>,
     /// Assumptions of the run.
     pub variant: Arc<Variant>,
     /// How the floor runs.
@@ -155,8 +158,41 @@ impl Run {
         Shaking {
             horizontal: Some(scaled(&record.horizontal)),
             vertical: record.vertical.as_ref().filter(|_| assumptions.vertical).map(scaled),
-            tail_s: assumptions.tail_s,
+            tail_s: self.tail_s(),
         }
+    }
+
+    /// Free motion after the record: the rest of a sequence, or what the study assumes, s.
+    pub fn tail_s(&self) -> f64 {
+        let after_last_s = self.variant.assumptions.tail_s;
+        match &self.sequence {
+            Some((sequence, place)) => sequence.tail_s(place.part, after_last_s),
+            None => after_last_s,
+        }
+    }
+
+    /// The parts that go before the run; none of a wall as it was built.
+    pub fn parts_before(&self) -> usize {
+        match &self.sequence {
+            Some((_, Place { part, alone: false })) => *part,
+            _ => 0,
+        }
+    }
+
+    /// The run of a part that goes before it, or itself.
+    #[must_use]
+    pub fn part_before(&self, part: usize) -> Self {
+        let Some((sequence, place)) = &self.sequence else { return self.clone() };
+        let sequence = Arc::clone(sequence);
+        let of = sequence.parts[part];
+        let before = Self {
+            position: self.position - (place.part - part) as u64,
+            record_index: of.record_index,
+            factor: of.scale,
+            sequence: Some((sequence, Place { part, alone: false })),
+            ..self.clone()
+        };
+        before.with_id()
     }
 
     /// How accurately to run.
@@ -187,10 +223,11 @@ impl Run {
             Err(impossible) => asked.text("impossible", &impossible.to_string()),
         };
         self.id = asked
+            .sequence(self.sequence.as_ref(), assumptions.crushing_stays, &self.motions.hashes)
             .text("record", &self.record().name)
             .text("horizontal", &hash.horizontal)
             .text("vertical", vertical.unwrap_or("none"))
-            .numbers("time", &[assumptions.tail_s, assumptions.tolerance])
+            .numbers("time", &[self.tail_s(), assumptions.tolerance])
             .member(self.variant.member.as_ref())
             .id();
         self
@@ -311,6 +348,27 @@ impl Fingerprint {
     fn formulas(self, formulas: &[Formula]) -> Self {
         let texts = formulas.iter().map(|formula| serde_json::to_string(formula).unwrap_or_default());
         texts.fold(self, |hash, formula| hash.text("formula", &formula))
+    }
+
+    /// Adds the place in a sequence, and every motion of it; nothing of a record by itself.
+    fn sequence(
+        self,
+        of: Option<&(Arc<Sequence>, Place)>,
+        crushing_stays: bool,
+        hashes: &[RecordHash],
+    ) -> Self {
+        let Some((sequence, Place { part, alone })) = of else { return self };
+        let hash = self
+            .text("sequence", &sequence.name)
+            .text("part", &part.to_string())
+            .text("alone", &alone.to_string())
+            .text("crushing stays", &crushing_stays.to_string())
+            .number("rest", sequence.rest_s);
+        sequence.parts.iter().fold(hash, |hash, part| {
+            let RecordHash { horizontal, vertical } = &hashes[part.record_index];
+            let vertical = vertical.as_deref().unwrap_or("none");
+            hash.text("horizontal", horizontal).text("vertical", vertical).number("scale", part.scale)
+        })
     }
 
     /// Adds the place in an ensemble, of which the factors on motion and tolerance follow; nothing of a run as planned.

@@ -23,6 +23,9 @@ pub struct Completeness {
     pub records: u64,
     /// Records of the suite.
     pub planned_records: u64,
+    /// Whether sequences of records are counted in their place.
+    #[serde(skip)]
+    pub of_sequences: bool,
 }
 
 impl Completeness {
@@ -39,7 +42,8 @@ impl Completeness {
             // A file lies in the folder of its record, finished or not.
             records: files.iter().filter_map(|file| file.parent()?.file_name()).collect::<BTreeSet<_>>().len()
                 as u64,
-            planned_records: manifest.suite.records.len() as u64,
+            planned_records: manifest.motions().len() as u64,
+            of_sequences: !manifest.sequences.is_empty(),
         }))
     }
 
@@ -56,8 +60,9 @@ impl Completeness {
 
 impl fmt::Display for Completeness {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { runs, planned_runs, records, planned_records } = self;
-        write!(f, "{runs} of {planned_runs} runs, under {records} of {planned_records} records")
+        let Self { runs, planned_runs, records, planned_records, of_sequences } = self;
+        let motions = if *of_sequences { "sequences" } else { "records" };
+        write!(f, "{runs} of {planned_runs} runs, under {records} of {planned_records} {motions}")
     }
 }
 

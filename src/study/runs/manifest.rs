@@ -5,11 +5,12 @@
 use std::path::Path;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use super::schema::SCHEMA_VERSION;
+use super::schema::{OLDEST_READ, SCHEMA_VERSION};
 use crate::error::{Error, InputError, Result};
 use crate::store::durable::{folder_of, write_durably, write_durably_if_absent};
 use crate::study::pipeline::{Kind, Pipeline, Variant};
 use crate::study::plan::{Plan, RecordHash};
+use crate::study::sequence::{Part, Sequence};
 use mrbd_files::FileNote;
 use mrbd_kernel::model::G_M_S2;
 use mrbd_records::SuiteRecord;
@@ -22,7 +23,8 @@ use serde_json::Value;
 /// of façades drawn from the survey, with a `draw` for each run and neither `parameter` nor `level`: `monte_carlo` under
 /// the records as the suite has them, `cloud` each run at a `factor` of its own, `stripes` at intensities that were chosen
 /// (columns `intensity_measure`, `intensity`), `incremental` at the intensity that first exceeds a `limit`
-/// (`limit_exceeded`, `stood_intensity`). What was asked for stands in `study`.
+/// (`limit_exceeded`, `stood_intensity`). `sequence`: façades of either sort under records one after another, a row a
+/// `part`. What was asked for stands in `study`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Version of the program.
@@ -45,6 +47,9 @@ pub struct Manifest {
     pub study: serde_json::Value,
     /// The records.
     pub suite: SuiteNote,
+    /// Records one after another, in the order of the plan; empty where each is run by itself.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sequences: Vec<SequenceNote>,
     /// Files that were read, with their hashes.
     pub inputs: Vec<FileNote>,
     /// Acceleration of gravity, m/s².
@@ -53,6 +58,19 @@ pub struct Manifest {
     pub variants: serde_json::Value,
     /// When the run began, seconds since 1970.
     pub started_unix_s: u64,
+}
+
+/// A sequence of records.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SequenceNote {
+    /// Its name.
+    pub name: String,
+    /// Names of its records in order.
+    pub records: Vec<String>,
+    /// Factor on each.
+    pub scale: Vec<f64>,
+    /// Rest between them, s.
+    pub rest_s: f64,
 }
 
 /// A suite of records.
@@ -105,6 +123,7 @@ impl Manifest {
             seed: plan.drawn().map(|drawn| drawn.sampling.seed),
             study: study_note(plan),
             suite: SuiteNote::of(plan),
+            sequences: plan.sequences().map(|sequence| SequenceNote::of(sequence, plan)).collect(),
             inputs: files
                 .into_iter()
                 .map(|(role, path)| FileNote::of(role, path))
@@ -154,11 +173,13 @@ impl Manifest {
             return Err(refuse(format!("the results of a {kind}"), allowed.to_owned()));
         }
         match value["schema_version"].as_u64() {
-            Some(version) if version != u64::from(SCHEMA_VERSION) => {
+            Some(version) if !(u64::from(OLDEST_READ)..=u64::from(SCHEMA_VERSION)).contains(&version) => {
                 let by = value["tool_version"].as_str().unwrap_or("another version");
                 let found = format!("results with columns of version {version}, written by mrbd {by}");
                 let allowed =
-                    format!("columns of version {SCHEMA_VERSION}: run the study again with --force");
+                    format!(
+                    "columns of versions {OLDEST_READ} to {SCHEMA_VERSION}: run the study again with --force"
+                );
                 Err(refuse(found, allowed))
             }
             _ => serde_json::from_value(value).map_err(broken),
@@ -185,6 +206,19 @@ impl Manifest {
         let folder = folder_of(path);
         let inputs = self.inputs.iter().map(|note| note.clone().seen_from(folder)).collect();
         format!("{:#}\n", serde_json::json!(Manifest { inputs, ..self.clone() }))
+    }
+
+    /// Names of what the runs are stored by, in the order of the plan: sequences, or records.
+    pub fn motions(&self) -> Vec<&str> {
+        match self.sequences.is_empty() {
+            true => self.suite.records.iter().map(|record| record.name.as_str()).collect(),
+            false => self.sequences.iter().map(|sequence| sequence.name.as_str()).collect(),
+        }
+    }
+
+    /// What these are: the key in the names of the folders of runs.
+    pub fn motion_key(&self) -> &'static str {
+        if self.sequences.is_empty() { "record" } else { "sequence" }
     }
 
     /// What every Parquet file of the study says about itself: no times, so that equal studies give equal bytes.
@@ -214,6 +248,18 @@ fn study_note(plan: &Plan) -> serde_json::Value {
         note["truncated_probability"][configuration.name()][variable.name()] = probability.into();
     }
     note
+}
+
+impl SequenceNote {
+    fn of(sequence: &Sequence, plan: &Plan) -> Self {
+        let name = |part: &Part| plan.motions().suite.records[part.record_index].name.clone();
+        Self {
+            name: sequence.name.clone(),
+            records: sequence.parts.iter().map(name).collect(),
+            scale: sequence.parts.iter().map(|part| part.scale).collect(),
+            rest_s: sequence.rest_s,
+        }
+    }
 }
 
 impl SuiteNote {

@@ -8,6 +8,6 @@ mod schema;
 
 pub use completeness::Completeness;
 pub use folder::{Earlier, OutputFolder};
-pub use manifest::{Manifest, RecordNote, SuiteNote};
+pub use manifest::{Manifest, RecordNote, SequenceNote, SuiteNote};
 pub use parts::{RunFile, listed_run_files, run_files};
-pub use schema::{COLUMNS, RESULTS, SCHEMA_VERSION};
+pub use schema::{COLUMNS, OLDEST_READ, RESULTS, SCHEMA_VERSION};

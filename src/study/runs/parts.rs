@@ -6,6 +6,8 @@
 //! checksums.json                                           SHA-256 of the latter
 //! ```
 //!
+//! Of a study of sequences a folder is one of a sequence, `sequence=<name>`.
+//!
 //! A record's part counts only once its checksum is on the disk; until then its blocks do. A part without both is not
 //! trusted: nobody knows whether it is what was written.
 
@@ -98,7 +100,7 @@ impl OutputFolder {
     /// As [`OutputFolder::blocks`]; an input error for a `checksums.json` that is none.
     pub fn part(&self, record: &str) -> Result<Option<RunFile>> {
         let path = self.part_path(record);
-        Ok(match read_checksums(self.path())?.remove(&hive(record)) {
+        Ok(match read_checksums(self.path())?.remove(&self.hive(record)) {
             Some(checksum) => Some(RunFile { path, checksum }),
             None if self.blocks_folder(record).is_dir() => None,
             None => path.is_file().then(|| RunFile { path, checksum: UNKNOWN.to_owned() }),
@@ -110,14 +112,14 @@ impl OutputFolder {
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses; the blocks stay.
     pub fn write_part<'a>(&self, record: &str, blocks: impl Iterator<Item = &'a PathBuf>) -> Result<()> {
-        let folder = make(&self.path().join("runs").join(hive(record)))?;
+        let folder = make(&self.path().join("runs").join(self.hive(record)))?;
         let mut part = self.begin(&folder, Pages::Small)?;
         for block in blocks {
             append(&mut part, block)?;
         }
         let sha256 = part.finish_as(|_| self.part_path(record))?;
         let mut checksums = read_checksums(self.path())?;
-        checksums.insert(hive(record), sha256);
+        checksums.insert(self.hive(record), sha256);
         write_checksums(self.path(), &checksums)
     }
 
@@ -127,7 +129,7 @@ impl OutputFolder {
     /// [`mrbd_files::Error::Io`] if the disk refuses.
     pub fn discard_part(&self, record: &str) -> Result<()> {
         let mut checksums = read_checksums(self.path())?;
-        checksums.remove(&hive(record));
+        checksums.remove(&self.hive(record));
         write_checksums(self.path(), &checksums)?;
         match fs::remove_file(self.part_path(record)) {
             Err(e) if e.kind() != ErrorKind::NotFound => Err(Error::io("remove", &self.part_path(record), e)),
@@ -159,6 +161,11 @@ impl OutputFolder {
         Ok(())
     }
 
+    /// Name of the folder of a record, or of a sequence of them.
+    fn hive(&self, record: &str) -> String {
+        format!("{}={}", self.manifest().motion_key(), as_folder_name(record))
+    }
+
     fn begin(&self, folder: &Path, pages: Pages) -> Result<ParquetFile<Finished>> {
         let columns: &'static [Column<Finished>] = COLUMNS;
         let manifest = self.manifest();
@@ -167,11 +174,11 @@ impl OutputFolder {
     }
 
     fn blocks_folder(&self, record: &str) -> PathBuf {
-        self.path().join("blocks").join(hive(record))
+        self.path().join("blocks").join(self.hive(record))
     }
 
     fn part_path(&self, record: &str) -> PathBuf {
-        self.path().join("runs").join(hive(record)).join("part-1.parquet")
+        self.path().join("runs").join(self.hive(record)).join("part-1.parquet")
     }
 }
 
@@ -267,10 +274,6 @@ fn read_checksums(path: &Path) -> Result<Checksums> {
 fn write_checksums(path: &Path, checksums: &Checksums) -> Result<()> {
     let text = format!("{:#}\n", serde_json::json!(checksums));
     write_durably(&checksums_path(path), text.as_bytes())
-}
-
-fn hive(record: &str) -> String {
-    format!("record={}", as_folder_name(record))
 }
 
 fn name_of(path: &Path) -> String {

@@ -10,11 +10,14 @@ use crate::store::column::{Column, Read};
 use crate::study::batch::Finished;
 use crate::survey::Assumptions;
 use mrbd_kernel::model::{Restitution, Wall, WallParameters};
-use mrbd_kernel::simulate::Outcome;
+use mrbd_kernel::simulate::{Outcome, following};
 use mrbd_records::SuiteRecord;
 
 /// Version of the columns; it changes whenever one is added, removed or changes its meaning.
-pub const SCHEMA_VERSION: u32 = 3;
+pub const SCHEMA_VERSION: u32 = 4;
+
+/// The oldest version whose files are read as they are: columns were added since, and none changed.
+pub const OLDEST_READ: u32 = 3;
 
 /// The wall; none of a drawn façade that is none.
 fn wall(f: &Finished) -> Option<&WallParameters> {
@@ -75,13 +78,23 @@ macro_rules! outcome_count {
     };
 }
 
+/// A number of where a wall that stood was left.
+macro_rules! left {
+    (|$left:ident| $value:expr) => {
+        Read::Number(|f| {
+            let $left = following(f.usable()?)?;
+            Some($value)
+        })
+    };
+}
+
 /// Columns of what a run told, after others; of any rows that tell it.
 #[rustfmt::skip] // One column a line, so that the table reads as a table.
 macro_rules! with_results {
     ($($before:expr,)*) => { &[
         $($before,)*
         // How the run ended.
-        Column::result("outcome", "", "stood, collapsed or failed", text!(|f| f.outcome())),
+        Column::result("outcome", "", "stood, collapsed or failed; collapsed before: a part of a sequence that found the wall fallen", text!(|f| f.outcome())),
         Column::result("reason", "", "why the run failed; null where it did not", Read::Text(|f| f.failure.as_deref().map(Cow::Borrowed))),
         Column::result("collapsed", "", "whether a body passed its collapse rotation; null for a failed run", Read::Flag(|f| f.usable().map(|r| r.collapsed()))),
         Column::result("collapse_time_s", "s", "when it did; null where it did not", Read::Number(|f| f.usable().and_then(|r| time_of(&r.outcome)))),
@@ -104,6 +117,10 @@ macro_rules! with_results {
         Column::result("top_displacement_time_s", "s", "when it was reached", outcome_number!(|r| r.top_displacement_m.time_s)),
         Column::result("crack_displacement_m", "m", "largest horizontal displacement of the middle of the crack relative to the ground, with its sign", outcome_number!(|r| r.crack_displacement_m.value)),
         Column::result("crack_displacement_time_s", "s", "when it was reached", outcome_number!(|r| r.crack_displacement_m.time_s)),
+        // Where a wall that stood was left.
+        Column::result("left_theta1_rad", "rad", "rotation of the lower body at the end, with its sign; null for a wall that did not stand", left!(|left| left.state.theta[0])),
+        Column::result("left_theta2_rad", "rad", "the same of the upper body", left!(|left| left.state.theta[1])),
+        Column::result("left_plastic_m", "m", "what the floor's spring has yielded at the end, with its sign; 0 of one that does not yield", left!(|left| left.plastic_displacement_m)),
         // Patterns, by the names of Fig. 4.
         Column::result("pattern_rest_s", "s", "time spent in rest", outcome_number!(|r| r.pattern_time_s[0])),
         Column::result("pattern_1a_s", "s", "time spent in pattern 1a", outcome_number!(|r| r.pattern_time_s[1])),
@@ -174,6 +191,9 @@ pub const COLUMNS: &[Column<Finished>] = with_results![
     Column::input("parameter", "", "parameter taken through its levels, the others at their means; null for a drawn façade, which has a draw", Read::Text(|f| f.run.parameter().map(|parameter| Cow::Borrowed(parameter.name())))),
     Column::input("level", "", "level of that parameter: mu_minus_sigma, mu, mu_plus_sigma; lower_bound, best_fit, upper_bound", Read::Text(|f| f.run.level().zip(f.run.parameter()).map(|(level, parameter)| Cow::Borrowed(level.name(parameter))))),
     Column::input("parameter_value", "SI unit of the parameter", "value of that parameter; null for the eight coefficients", Read::Number(|f| f.run.parameter().and_then(|parameter| parameter.value(&f.run.facade)))),
+    Column::input("sequence", "", "sequence of records that the run is a row of; null for a record by itself", Read::Text(|f| f.run.sequence.as_ref().map(|(sequence, _)| Cow::Borrowed(sequence.name.as_str())))),
+    Column::input("part", "", "which record of it the row tells of, from 1", Read::Count(|f| f.run.sequence.as_ref().map(|(_, place)| place.part as u64 + 1))),
+    Column::input("alone", "", "whether the wall is as it was built though other parts go before this one: what the record does by itself", Read::Flag(|f| f.run.sequence.as_ref().map(|(_, place)| place.alone))),
     Column::input("draw", "", "number of the façade among those drawn, from 0, the same in both configurations, under all records and at all intensities; null where none is drawn", Read::Count(|f| f.run.draw())),
     // The record.
     Column::input("suite", "", "suite of records", text!(|f| &f.run.motions.suite.name)),
@@ -208,7 +228,7 @@ pub const COLUMNS: &[Column<Finished>] = with_results![
     Column::drawn("sa_average_m_s2", "m/s²", "geometric mean of the pseudo-accelerations at 0.2, 0.3, …, 2.0 s, 5 % damping", number!(|f| f.run.intensity().sa_average_m_s2)),
     // How it acts.
     Column::input("vertical", "", "whether the vertical component of the record acts too", Read::Flag(|f| Some(assumed(f).vertical))),
-    Column::input("tail_s", "s", "free motion after the record", number!(|f| assumed(f).tail_s)),
+    Column::input("tail_s", "s", "free motion after the record: of a part of a sequence the rest before the next", number!(|f| f.run.tail_s())),
     Column::input("tolerance", "", "error allowed in rotations relative to α_i", number!(|f| f.run.accuracy().tolerance)),
     // The façade.
     Column::drawn("slenderness", "", "h_tot / b", number!(|f| f.run.facade.slenderness)),
