@@ -145,7 +145,8 @@ mod tests {
     #[test]
     fn analytic_falls_rank_above_all_numbers() {
         let fell = Compared::Both { fell_after: true, fell_alone: false, ratio: Some(3.0) };
-        let pairs: Vec<Pair> = (0..10).map(|draw| pair("a", draw, if draw < 9 { fell } else { both(1.0) })).collect();
+        let pairs: Vec<Pair> =
+            (0..10).map(|draw| pair("a", draw, if draw < 9 { fell } else { both(1.0) })).collect();
         let Resampled { ratio, share } = of(&pairs);
         assert_eq!(ratio, Some([None; 2]));
         assert!(share.is_some_and(|[low, high]| low < Some(0.9) && high == Some(1.0)), "{share:?}");

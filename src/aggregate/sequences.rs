@@ -245,11 +245,10 @@ fn compared(after: Row, alone: Row) -> PolarsResult<Compared> {
 }
 
 fn after(place: Place, of_one: bool, pairs: &[&Pair]) -> After {
-    let count = |holds: fn(&Compared) -> bool| pairs.iter().filter(|pair| holds(&pair.compared)).count() as u64;
+    let count =
+        |holds: fn(&Compared) -> bool| pairs.iter().filter(|pair| holds(&pair.compared)).count() as u64;
     let both = |fell: [bool; 2]| {
-        let is = |pair: &&&Pair| {
-            matches!(pair.compared, Compared::Both { fell_after, fell_alone, .. } if [fell_after, fell_alone] == fell)
-        };
+        let is = |pair: &&&Pair| matches!(pair.compared, Compared::Both { fell_after, fell_alone, .. } if [fell_after, fell_alone] == fell);
         pairs.iter().filter(is).count() as u64
     };
     let (mut standing, mut fallen) = (Vec::new(), 0);

@@ -6,7 +6,8 @@ use clap::Args;
 
 use super::output;
 use crate::aggregate::{
-    Distributions, Medians, SEQUENCES_TABLE, Sequences, aggregate, distributions, print_medians, sequences, write_medians,
+    Distributions, Medians, SEQUENCES_TABLE, Sequences, aggregate, distributions, print_medians, sequences,
+    write_medians,
 };
 use crate::error::Result;
 use crate::findings::{

@@ -43,7 +43,9 @@ impl CheckCommand {
             }
             Kind::Sequence => {
                 let allowed = "a sweep or a study of drawn façades; `mrbd aggregate` tells what sequences do";
-                return Err(InputError::file(&self.folder, "a study of sequences, without medians", allowed).into());
+                return Err(
+                    InputError::file(&self.folder, "a study of sequences, without medians", allowed).into()
+                );
             }
             kind => {
                 let study = distributions(&self.folder, kind)?;

@@ -1,4 +1,6 @@
-//! `mrbd simulate`: one wall under one record.
+//! `mrbd simulate`: one wall under one record, or one after another.
+
+mod then;
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -8,7 +10,7 @@ use super::table_args::TableArgs;
 use crate::error::{Error, InputError, Result};
 use crate::report::{PlotFile, RunPicture, Watch};
 use crate::results::RunResults;
-use crate::store::write_history;
+use crate::store::{HistoryWriter, write_history};
 use clap::Args;
 use mrbd_files::load_wall;
 use mrbd_kernel::model::Wall;
@@ -17,8 +19,9 @@ use mrbd_kernel::simulate::{
     simulate_observed,
 };
 use mrbd_records::{Accelerogram, ReadOptions, read};
+use then::{Sequence, ThenArgs, WatchedParts};
 
-/// Simulate one wall under one record, or its free release.
+/// Simulate one wall under one record, records one after another, or its free release.
 ///
 /// Without --record the wall is released from the rotations of [initial] and
 /// moves freely for --tail seconds.
@@ -34,6 +37,7 @@ use mrbd_records::{Accelerogram, ReadOptions, read};
 ///   mrbd simulate wall.toml --record record.txt --dt 0.005 --history run.parquet
 ///   mrbd simulate wall.toml --record logger.csv --columns Time,Acc --unit g --decimal-comma
 ///   mrbd simulate wall.toml --record record.AT2 --plot run.html
+///   mrbd simulate wall.toml --record 20_may.csv --then 29_may.csv --rest 60
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment, allow_negative_numbers = true)]
 pub struct SimulateArgs {
@@ -62,6 +66,8 @@ pub struct SimulateArgs {
         allow_negative_numbers = true
     )]
     vertical_scale: f64,
+    #[command(flatten)]
+    then: ThenArgs,
     /// Free motion after the record.
     #[arg(long, value_name = "SECONDS", default_value_t = 5.0)]
     tail: f64,
@@ -85,31 +91,39 @@ pub struct SimulateArgs {
     alone: bool,
 }
 
+impl SimulateArgs {
+    fn read_options(&self) -> ReadOptions {
+        ReadOptions { step_s: self.dt, ..self.table.options() }
+    }
+}
+
 /// Runs the command.
 ///
 /// # Errors
 /// Bad input; a result that cannot be written; a run that could not be finished.
 pub fn execute(args: &SimulateArgs) -> Result<()> {
     let wall = wall(args)?;
-    let shaking = shaking(args)?;
+    let mut shaking = shaking(args)?;
+    let record_name = args.record.as_deref().map(|path| record_name(path, args.scale));
+    let mut sequence = args.then.follow(&mut shaking, record_name.as_deref(), &args.read_options())?;
     let accuracy = accuracy(args.tolerance)?;
     check_moves(&wall, args)?;
     super::describe::print_questions(&args.wall, &wall);
-    let read = [Some(&args.wall), args.record.as_ref(), args.vertical.as_ref()];
-    let read = read.into_iter().flatten().map(PathBuf::as_path).collect::<Vec<_>>();
-    output::check_apart("--history", args.history.as_deref(), &read)?;
-    output::check_apart("--plot", args.plot.as_deref(), &read)?;
-    let history = args.history.as_deref().map(write_history).transpose()?;
-    let plot = args.plot.as_deref().map(PlotFile::new).transpose()?;
+    let (history, plot) = outputs(args)?;
     let mut watch = Watch::new(history_step_s(args, &shaking)?);
-    let watched = (history.is_some() || plot.is_some()).then_some(&mut watch);
+    let watched = WatchedParts {
+        watch: (history.is_some() || plot.is_some()).then_some(&mut watch),
+        peaks: sequence.as_mut().map(Sequence::peaks),
+    };
     let ensemble = ensemble(&wall, &shaking, accuracy, (watched, args.alone));
-    let results = RunResults::new(&wall, &shaking, &ensemble);
+    let of_parts = |sequence: &Sequence| sequence.results(&wall, accuracy, &ensemble.run, shaking.tail_s);
+    let parts = sequence.as_ref().map_or(Vec::new(), of_parts);
+    let results = RunResults::new(&wall, &shaking, &ensemble).with_parts(&parts);
     if let Some(writer) = history {
         writer.finish(&watch.history, &wall.reading())?;
     }
     if let Some(plot) = plot {
-        let record_name = args.record.as_deref().map(|path| record_name(path, args.scale));
+        let record_name = sequence.as_ref().map(Sequence::name).or(record_name);
         plot.write(&RunPicture {
             wall: &wall,
             wall_name: &file_name(&args.wall),
@@ -120,10 +134,21 @@ pub fn execute(args: &SimulateArgs) -> Result<()> {
             response: &ensemble.run,
             ensemble: &ensemble,
             remarks: &results.remarks(),
+            parts: &parts,
         })?;
     }
     output::print(&if args.json { format!("{:#}", results.json()) } else { results.text() })?;
     finished(ensemble)
+}
+
+/// The history and the picture that are asked for, checked before the run.
+fn outputs(args: &SimulateArgs) -> Result<(Option<HistoryWriter>, Option<PlotFile>)> {
+    let read = [Some(&args.wall), args.record.as_ref(), args.vertical.as_ref()];
+    let read = read.into_iter().flatten().chain(&args.then.then).map(PathBuf::as_path).collect::<Vec<_>>();
+    output::check_apart("--history", args.history.as_deref(), &read)?;
+    output::check_apart("--plot", args.plot.as_deref(), &read)?;
+    let history = args.history.as_deref().map(write_history).transpose()?;
+    Ok((history, args.plot.as_deref().map(PlotFile::new).transpose()?))
 }
 
 /// The run and those beside it, each half on a thread; more of them where these part.
@@ -131,16 +156,16 @@ fn ensemble(
     wall: &Wall,
     shaking: &Shaking,
     accuracy: Accuracy,
-    (watch, alone): (Option<&mut Watch>, bool),
+    (mut watched, alone): (WatchedParts, bool),
 ) -> Ensemble {
     let members = |of: Range<usize>| simulate_members(wall, shaking, accuracy, of);
     let beside = |of: Range<usize>| if alone { Vec::new() } else { members(of) };
-    let (mut first, rest) = match watch {
-        Some(watch) => {
-            rayon::join(|| vec![simulate_observed(wall, shaking, accuracy, watch)], || beside(1..MEMBERS))
-        }
-        None if alone => (vec![simulate(wall, shaking, accuracy)], Vec::new()),
-        None => rayon::join(|| members(0..MEMBERS / 2), || members(MEMBERS / 2..MEMBERS)),
+    let is_watched = watched.watch.is_some() || watched.peaks.is_some();
+    let observed = || vec![simulate_observed(wall, shaking, accuracy, &mut watched)];
+    let (mut first, rest) = match is_watched {
+        true => rayon::join(observed, || beside(1..MEMBERS)),
+        false if alone => (vec![simulate(wall, shaking, accuracy)], Vec::new()),
+        false => rayon::join(|| members(0..MEMBERS / 2), || members(MEMBERS / 2..MEMBERS)),
     };
     let run = first.remove(0);
     let ensemble = Ensemble { run, others: first }.with(rest);
@@ -182,7 +207,7 @@ fn shaking(args: &SimulateArgs) -> Result<Shaking> {
     let any = "a finite number";
     let scale = number("--scale", args.scale, true, any)?;
     let vertical_scale = number("--vertical-scale", args.vertical_scale, true, any)?;
-    let options = ReadOptions { step_s: args.dt, ..args.table.options() };
+    let options = args.read_options();
     let horizontal = load(args.record.as_deref(), &options, scale)?;
     let vertical = load(args.vertical.as_deref(), &options, vertical_scale)?;
     if let (Some(h), Some(v), Some(path)) = (&horizontal, &vertical, &args.vertical)

@@ -24,7 +24,8 @@ pub fn report_sequences(out: &mut dyn Write, study: &Sequences) -> io::Result<()
     unfinished(out, study.completeness)?;
     heading(out, "What a record does after others, beside what it does alone")?;
     writeln!(out, "{}", wrapped(AFTER_RULES, 0, TERMINAL))?;
-    let (all, by_sequence): (Vec<&After>, Vec<&After>) = study.rows.iter().partition(|row| row.sequence.is_none());
+    let (all, by_sequence): (Vec<&After>, Vec<&After>) =
+        study.rows.iter().partition(|row| row.sequence.is_none());
     writeln!(out, "\n{}", table(&all))?;
     match by_sequence.len() {
         0..=MOST_ROWS => {
@@ -67,7 +68,8 @@ pub fn after_cells(row: &After) -> Vec<String> {
         Some(ends) => format!("{} [{}]", ratio(row.ratio[1]), ends.map(ratio).join(", ")),
         None => ratio(row.ratio[1]),
     };
-    let percent = |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.1} %", 100.0 * share));
+    let percent =
+        |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.1} %", 100.0 * share));
     let share = match row.share_interval {
         Some(ends) => format!("{} [{}]", percent(row.share_only_after()), ends.map(percent).join(", ")),
         None => percent(row.share_only_after()),

@@ -10,6 +10,7 @@ pub use watch::{ImpactMark, Watch};
 
 use super::page::{Cell, Figure, Motion, Number, Page, Section, Table, script_safe};
 use crate::error::Result;
+use crate::results::PartResults;
 use histories::Window;
 use mrbd_kernel::model::{FurtherLaw, PATTERN_NAMES, Wall};
 use mrbd_kernel::simulate::{Accuracy, Ensemble, Outcome, Response, Shaking, Verdict};
@@ -35,6 +36,8 @@ pub struct RunPicture<'a> {
     pub ensemble: &'a Ensemble,
     /// How sure the outcome is, and whether the model applies, each a sentence.
     pub remarks: &'a [String],
+    /// What each record of a sequence did; empty for a record by itself.
+    pub parts: &'a [PartResults],
 }
 
 /// Histories shorter than this are not shown a second time from nearby, s.
@@ -66,11 +69,39 @@ impl RunPicture<'_> {
             lead: self.outcome(),
             numbers: self.numbers(),
             notes: self.notes(),
-            sections: vec![self.motion_section(), self.history_section(), self.number_section()],
+            sections: self.sections(),
             provenance: self.provenance(),
             ..Page::default()
         };
         page.html()
+    }
+
+    fn sections(&self) -> Vec<Section> {
+        let parts = (!self.parts.is_empty()).then(|| self.part_section());
+        let whole = [self.motion_section(), self.history_section()].into_iter();
+        whole.chain(parts).chain([self.number_section()]).collect()
+    }
+
+    fn part_section(&self) -> Section {
+        let row = |(part, number): (&PartResults, usize)| {
+            let alone = part.told_alone().unwrap_or_else(|| "as it is".to_owned());
+            vec![
+                number.to_string(),
+                part.record.clone(),
+                format!("{:.2} s", part.start_s),
+                part.told(),
+                alone,
+            ]
+        };
+        let head =
+            ["part", "record", "begins at", "|θ₁|/α₁ and |θ₂|/α₂", "the record on the wall as it was built"];
+        Section {
+            id: "parts".into(),
+            title: "Part by part".into(),
+            text: vec!["Carried from one record to the next: rotations, velocities, the contact state and what a yielding spring has yielded. Corners keep their widths.".into()],
+            tables: vec![Table::of("Largest rotations of each part of this run", &head, self.parts.iter().zip(1..).map(row))],
+            ..Section::default()
+        }
     }
 
     fn title(&self) -> String {

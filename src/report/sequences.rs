@@ -44,7 +44,9 @@ fn lead(manifest: &Manifest) -> String {
         _ => "no time".to_owned(),
     };
     let sequences = manifest.sequences.len();
-    format!("Façades under {sequences} sequences of records with {rest} of rest between, and under each later record alone.")
+    format!(
+        "Façades under {sequences} sequences of records with {rest} of rest between, and under each later record alone."
+    )
 }
 
 fn numbers(study: &Sequences) -> Vec<Number> {
@@ -74,7 +76,10 @@ fn notes(manifest: &Manifest, variants: &[VariantNote]) -> Vec<String> {
     };
     notes.push("Carried from one record to the next: rotations, velocities, the contact state, and what the variant says below. A wall that has come to rest and keeps nothing is as new.".into());
     notes.push(said(assumed("floor_yield_m"), "has a floor that yields and keeps what it has yielded"));
-    notes.push(said(assumed("crushing_stays"), "leaves corners crushed by the largest compression of a record"));
+    notes.push(said(
+        assumed("crushing_stays"),
+        "leaves corners crushed by the largest compression of a record",
+    ));
     notes
 }
 
@@ -103,7 +108,9 @@ fn ratios(all: &[&After], floor: Configuration) -> Option<String> {
     let rows: Vec<&After> = all.iter().filter(|row| row.configuration == floor.name()).copied().collect();
     let place = |index: usize| (rows.len() - 1 - index) as f64;
     let several = rows.iter().any(|row| row.part > 2);
-    let name = |row: &&After| if several { format!("{}, part {}", row.variant, row.part) } else { row.variant.clone() };
+    let name = |row: &&After| {
+        if several { format!("{}, part {}", row.variant, row.part) } else { row.variant.clone() }
+    };
     let span = |ends: [Option<f64>; 2], y: f64| Some([(ends[0]?, y), (ends[1]?, y)]);
     let spans = |width: u32, of: fn(&After) -> [Option<f64>; 2]| Layer::Spans {
         colour: PALETTE[0],
@@ -148,7 +155,10 @@ fn by_sequence(study: &Sequences) -> Section {
         id: "sequences".into(),
         title: "Sequence by sequence".into(),
         figures: vec![figure],
-        tables: vec![table(&format!("By sequence, variant “{base}”; the others are in {SEQUENCES_TABLE}"), shown)],
+        tables: vec![table(
+            &format!("By sequence, variant “{base}”; the others are in {SEQUENCES_TABLE}"),
+            shown,
+        )],
         ..Section::default()
     }
 }

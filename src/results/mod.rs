@@ -3,6 +3,8 @@
 pub mod calibration;
 pub mod diagnosis;
 mod folder;
+mod parts;
 mod run;
 
+pub use parts::{PartPeaks, PartResults, joined, part_results};
 pub use run::RunResults;

@@ -2,6 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
+use super::parts::PartResults;
+
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{FurtherLaw, PATTERN_NAMES, Wall};
 use mrbd_kernel::simulate::{BeyondModel, Ensemble, Outcome, Response, Shaking, Verdict, beyond_model};
@@ -23,13 +25,20 @@ pub struct RunResults<'a> {
     wall: &'a Wall,
     ensemble: &'a Ensemble,
     beyond_model: Vec<BeyondModel>,
+    parts: &'a [PartResults],
 }
 
 impl<'a> RunResults<'a> {
     /// The results of a wall under a shaking; an ensemble of one member is the run alone.
     pub fn new(wall: &'a Wall, shaking: &Shaking, ensemble: &'a Ensemble) -> Self {
         let step_s = shaking.horizontal.as_ref().map(Accelerogram::step_s);
-        Self { wall, ensemble, beyond_model: beyond_model(wall, step_s, &ensemble.run) }
+        Self { wall, ensemble, beyond_model: beyond_model(wall, step_s, &ensemble.run), parts: &[] }
+    }
+
+    /// The same of a sequence of records, which is told part by part too.
+    #[must_use]
+    pub fn with_parts(self, parts: &'a [PartResults]) -> Self {
+        Self { parts, ..self }
     }
 
     fn is_alone(&self) -> bool {
@@ -42,6 +51,9 @@ impl<'a> RunResults<'a> {
         let reasons: Vec<String> = self.beyond_model.iter().map(BeyondModel::to_string).collect();
         results["model_applies"] = reasons.is_empty().into();
         results["beyond_model"] = reasons.into();
+        if !self.parts.is_empty() {
+            results["parts"] = self.parts.iter().map(PartResults::json).collect();
+        }
         if !self.is_alone() {
             results["ensemble"] = self.spread();
         }
@@ -122,6 +134,7 @@ impl<'a> RunResults<'a> {
         let top_m = self.shown(|r| r.top_displacement_m.value, |value| format!("{value:+.5}"));
         let time_s = self.held(|r| r.top_displacement_m.time_s);
         lines.push(format!("top         largest displacement {top_m} m at {time_s} s"));
+        lines.extend(self.parts.iter().zip(1..).map(|(part, number)| part.text(number)));
         lines.extend(self.event_lines());
         lines.extend(self.assumption_lines());
         lines.join("\n")

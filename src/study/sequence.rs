@@ -100,8 +100,9 @@ pub(super) fn sequences(path: &Path, tables: &[SequenceTable], suite: &Suite) ->
     for (index, table) in tables.iter().enumerate() {
         sequences.extend(table.sequences(path, &format!("sequence[{index}]"), suite)?);
     }
-    let refuse =
-        |found: String, allowed: &str| Err(InputError::key(path, "sequence", found, allowed.to_owned()).into());
+    let refuse = |found: String, allowed: &str| {
+        Err(InputError::key(path, "sequence", found, allowed.to_owned()).into())
+    };
     let mut names = BTreeSet::new();
     if let Some(twice) = sequences.iter().find(|sequence| !names.insert(sequence.name.as_str())) {
         return refuse(format!("two sequences named {:?}", twice.name), "a name for each sequence");

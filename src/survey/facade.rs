@@ -7,7 +7,8 @@ use std::path::Path;
 
 use crate::error::{InputError, Result};
 use mrbd_kernel::model::{
-    Effect, EffectError, G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m,
+    Effect, EffectError, G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters,
+    crushed_widths_m,
 };
 use mrbd_kernel::simulate::Accuracy;
 use serde::{Deserialize, Serialize};
@@ -216,7 +217,8 @@ impl Facade {
     pub fn crushed(&self, wall: &Wall, compression_n: [f64; 2]) -> Result<Wall, ImpossibleFacade> {
         let pressing_kg = compression_n.map(|force_n| force_n / G_M_S2);
         let strength_pa = self.compressive_strength_pa;
-        let [ground_m, crack_m] = crushed_widths_m(self.thickness_m, self.length_m, pressing_kg, strength_pa)?;
+        let [ground_m, crack_m] =
+            crushed_widths_m(self.thickness_m, self.length_m, pressing_kg, strength_pa)?;
         let before = wall.parameters().clone();
         let lower_width_m = before.lower_width_m.min(ground_m);
         let upper_width_m = before.upper_width_m.min(crack_m);

@@ -277,6 +277,7 @@ impl Run {
             response: self.response(),
             ensemble: &self.ensemble,
             remarks: &self.results().remarks(),
+            parts: &[],
         };
         Ok(py.detach(|| draw(&picture)))
     }

@@ -75,6 +75,8 @@ fn rotations(picture: &RunPicture, window: &Window) -> (Axis, Vec<Layer>) {
     if let Outcome::Collapsed { time_s } = picture.response.outcome {
         layers.push(Layer::Moment { x: time_s, name: "collapse", colour: COLLAPSE });
     }
+    let later = picture.parts.iter().skip(1).filter(|part| window.holds(part.start_s));
+    layers.extend(later.map(|part| Layer::Moment { x: part.start_s, name: "next record", colour: INK }));
     (y, layers)
 }
 

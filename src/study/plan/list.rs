@@ -177,8 +177,8 @@ impl Plan {
             Settings::Sweep(sweep) => sweep.at(setting, assumptions),
             Settings::Drawn(facades) => facades.at(setting, record_index, assumptions),
         };
-        let factor = part.map_or(1.0, |part| part.scale)
-            * setting.factor(&self.motions.suite.records[record_index]);
+        let factor =
+            part.map_or(1.0, |part| part.scale) * setting.factor(&self.motions.suite.records[record_index]);
         let Setting { configuration, origin, facade, coefficients, scaling } = setting;
         let restitution = Restitution {
             coefficients,
@@ -242,8 +242,7 @@ impl Plan {
 
     fn check_length(&self, pipeline: &Pipeline) -> Result<()> {
         let Some(drawn) = self.drawn() else { return Ok(()) };
-        let beside =
-            self.variants.len() * self.motions_run() * drawn.runs_per_draw() * self.rows() as usize;
+        let beside = self.variants.len() * self.motions_run() * drawn.runs_per_draw() * self.rows() as usize;
         let allowed = MOST_RUNS / beside as u64;
         if drawn.sampling.count <= allowed {
             return Ok(());

@@ -176,8 +176,7 @@ impl Manifest {
             Some(version) if !(u64::from(OLDEST_READ)..=u64::from(SCHEMA_VERSION)).contains(&version) => {
                 let by = value["tool_version"].as_str().unwrap_or("another version");
                 let found = format!("results with columns of version {version}, written by mrbd {by}");
-                let allowed =
-                    format!(
+                let allowed = format!(
                     "columns of versions {OLDEST_READ} to {SCHEMA_VERSION}: run the study again with --force"
                 );
                 Err(refuse(found, allowed))
