@@ -11,6 +11,7 @@ use super::{output, progress, replay};
 use crate::aggregate::{Compared, MOVED_SHARE, stored_answers};
 use crate::check::{Conditioning, conditioning, run_again, sampled};
 use crate::error::{InputError, Result};
+use crate::study::pipeline::Kind;
 use crate::study::plan::Plan;
 use crate::study::runs::{Completeness, OutputFolder};
 use crate::text::aligned;
@@ -44,6 +45,10 @@ impl CheckToleranceCommand {
     /// Input errors for a folder without runs, inputs that changed since, or a tolerance that is not tighter.
     pub fn execute(self) -> Result<()> {
         let folder = OutputFolder::look(&self.folder)?;
+        if folder.manifest().kind == Kind::Sequence {
+            let allowed = "a sweep or a study of drawn façades, whose runs are apart";
+            return Err(InputError::file(&self.folder, "a study of sequences", allowed).into());
+        }
         let plan = replay::plan_of(&folder)?;
         self.check_tolerance(&plan)?;
         let compared = Compared::of(plan.kind());

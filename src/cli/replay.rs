@@ -9,12 +9,12 @@ use crate::aggregate::stored_numbers;
 use crate::error::{Error, InputError, Result};
 use crate::results::RunResults;
 use crate::store::{Read, write_history};
-use crate::study::batch::{Finished, run_one};
+use crate::study::batch::{Finished, SideBySide, run_one};
 use crate::study::pipeline::Pipeline;
 use crate::study::plan::{Plan, Run};
 use crate::study::runs::{COLUMNS, Manifest, OutputFolder};
 use mrbd_files::file_sha256;
-use mrbd_kernel::simulate::{Ensemble, FREE_RELEASE_STEP_S, History, simulate_observed};
+use mrbd_kernel::simulate::{Ensemble, FREE_RELEASE_STEP_S, History, Simulator, Start, following};
 
 /// Results that are compared with what is stored, bit by bit: each depends on the whole run.
 const COMPARED: [&str; 4] = ["theta1_max_rad", "theta2_max_rad", "end_time_s", "energy_residual"];
@@ -83,17 +83,30 @@ impl ReplayCommand {
 
     /// The run again, and its history; that of an incremental analysis is the one of the run it ended with.
     fn rerun(&self, run: Run) -> Result<Finished> {
-        let finished = run_one(run, &mrbd_kernel::simulate::simulate);
+        let planned = run.clone();
+        let finished = run_one(run, &SideBySide);
+        if let Some(part) = finished.fell_in {
+            eprintln!("mrbd: the wall had fallen in part {}; there is nothing to run", part + 1);
+            return Ok(finished);
+        }
         if let (Some(path), Ok(wall)) = (&self.history, &finished.run.wall) {
             let (run, writer) = (&finished.run, write_history(path)?);
             let shaking = run.shaking();
             let step_s = shaking.horizontal.as_ref().map_or(FREE_RELEASE_STEP_S, |motion| motion.step_s());
             let mut history = History::new(step_s);
-            simulate_observed(wall, &shaking, run.accuracy(), &mut history);
+            let simulator = Simulator::new(wall, &shaking, run.accuracy());
+            let start = start_after(&planned).unwrap_or_else(|| simulator.release());
+            simulator.run_from(&start, simulator.end_s(), &mut history);
             writer.finish(&history, &wall.reading())?;
         }
         Ok(finished)
     }
+}
+
+/// Where the part before left the wall; none of a run that none goes before.
+fn start_after(planned: &Run) -> Option<Start> {
+    let before = planned.parts_before().checked_sub(1)?;
+    run_one(planned.part_before(before), &SideBySide).usable().and_then(following)
 }
 
 /// The plan of a study, from the copy of its pipeline and the inputs that the manifest names.

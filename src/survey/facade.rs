@@ -299,6 +299,35 @@ mod tests {
     }
 
     #[test]
+    fn analytic_corners_stay_crushed_as_deep_as_the_largest_compression() {
+        let built = wall(MEAN).expect("a façade that stands");
+        let (m, m_d) = (8100.0, 8100.0 / 0.91 * 0.09);
+        let weight_n = [m + m_d, 0.38 * m + m_d].map(|kg: f64| kg * G_M_S2);
+        // The stress block of a force half as much again is half as deep again: b - 1.5 a.
+        let crushed = MEAN.crushed(&built, weight_n.map(|n| 1.5 * n)).expect("it stands");
+        let depth_m = 0.5 - built.parameters().lower_width_m;
+        // Rounding of lengths near 0.5 m.
+        assert!((crushed.parameters().lower_width_m - (0.5 - 1.5 * depth_m)).abs() < 1e-15);
+        // A wall that did not move bears no less than its weight, and corners do not grow again.
+        let still = MEAN.crushed(&crushed, [0.0; 2]).expect("it stands");
+        assert_eq!(still.parameters(), crushed.parameters());
+        let through = MEAN.crushed(&built, weight_n.map(|n| 100.0 * n)).expect_err("nothing is left");
+        assert!(through.to_string().contains("crushes through"), "{through}");
+    }
+
+    #[test]
+    fn regress_a_floor_that_yields_takes_the_place_of_its_spring() {
+        let assumed = |floor_yield_m| Assumptions { floor_yield_m, ..Assumptions::default() };
+        let of = |yield_m| MEAN.wall_under(Restitution::default(), &assumed(yield_m)).expect("it stands");
+        assert_eq!(of(None).parameters(), wall(MEAN).expect("it stands").parameters());
+        let yields = of(Some(5e-3));
+        assert_eq!(yields.parameters().stiffness_n_per_m, 0.0);
+        let effects = serde_json::to_value(&yields.parameters().effects).expect("effects");
+        assert_eq!(effects[0]["kind"], "yielding_spring");
+        assert_eq!(effects[0]["yield_force_n"], 1.4e6 * 5e-3);
+    }
+
+    #[test]
     fn rejects_facades_that_cannot_stand() {
         let crushed = wall(Facade { compressive_strength_pa: 2e5, ..MEAN }).expect_err("crushes");
         assert!(crushed.to_string().contains("crushes through"), "{crushed}");

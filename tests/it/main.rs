@@ -67,6 +67,7 @@ mod replay;
 mod report_browser;
 mod report_kinds;
 mod report_pages;
+mod sequence;
 mod shared;
 mod side_by_side;
 mod slurm;
