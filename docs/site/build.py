@@ -16,7 +16,7 @@ from api import python_api
 SITE = Path(__file__).resolve().parent
 ROOT = SITE.parents[1]
 NOTEBOOKS = ["first_wall", "facade_class", "laboratory", "figures_12_and_16", "million_walls", "dask_workers"]
-THEORY = ["model", "typical-values", "measured-walls", "how-sure"]
+THEORY = ["model", "typical-values", "measured-walls", "how-sure", "sequences"]
 FILES = ["files", "columns"]
 GUIDE = ["python", "commands", "calibration", "diagnosis", "assessment"]
 # Smaller than for people: the site is made whenever anything changes.

@@ -169,7 +169,7 @@ impl OutputFolder {
     fn begin(&self, folder: &Path, pages: Pages) -> Result<ParquetFile<Finished>> {
         let columns: &'static [Column<Finished>] = COLUMNS;
         let manifest = self.manifest();
-        let drawn = manifest.kind.is_drawn();
+        let drawn = manifest.seed.is_some();
         ParquetFile::create_in(folder, columns, &manifest.file_metadata(), drawn, pages)
     }
 
