@@ -15,6 +15,10 @@ pub const AFTER_RULES: &str = "Each wall that stood what came before is compared
     above all numbers. Only after: of walls that stand alone, those that fall after. In brackets 90 % intervals over \
     records and walls drawn anew.";
 
+/// What the heads of the table mean.
+const HEADS: &str =
+    "walls: those compared; before: fell before; alone, after: of those compared, fell alone, and after.";
+
 /// Prints everything.
 ///
 /// # Errors
@@ -24,6 +28,7 @@ pub fn report_sequences(out: &mut dyn Write, study: &Sequences) -> io::Result<()
     unfinished(out, study.completeness)?;
     heading(out, "What a record does after others, beside what it does alone")?;
     writeln!(out, "{}", wrapped(AFTER_RULES, 0, TERMINAL))?;
+    writeln!(out, "{}", wrapped(HEADS, 0, TERMINAL))?;
     let (all, by_sequence): (Vec<&After>, Vec<&After>) =
         study.rows.iter().partition(|row| row.sequence.is_none());
     writeln!(out, "\n{}", table(&all))?;
@@ -36,24 +41,30 @@ pub fn report_sequences(out: &mut dyn Write, study: &Sequences) -> io::Result<()
     }
 }
 
+/// Heads of [`after_cells`], and which of them a terminal has room for.
+const HEAD: [&str; 13] = [
+    "variant",
+    "floor",
+    "sequence",
+    "part",
+    "all",
+    "before",
+    "walls",
+    "alone",
+    "after",
+    "only after",
+    "16 %",
+    "ratio 50 %",
+    "84 %",
+];
+
 fn table(rows: &[&After]) -> String {
-    let head = [
-        "variant",
-        "floor",
-        "sequence",
-        "part",
-        "walls",
-        "fell before",
-        "compared",
-        "fell alone",
-        "fell after",
-        "only after",
-        "ratio 16 %",
-        "50 %",
-        "84 %",
-    ];
-    let mut lines = vec![head.map(str::to_owned).to_vec()];
-    lines.extend(rows.iter().map(|row| after_cells(row)));
+    let by_sequence = rows.iter().any(|row| row.sequence.is_some());
+    let shown =
+        |(column, cell): (usize, String)| (column != 4 && (by_sequence || column != 2)).then_some(cell);
+    let line = |cells: Vec<String>| cells.into_iter().enumerate().filter_map(shown).collect();
+    let mut lines: Vec<Vec<String>> = vec![line(HEAD.map(str::to_owned).to_vec())];
+    lines.extend(rows.iter().map(|row| line(after_cells(row))));
     aligned(&lines)
 }
 
@@ -68,11 +79,10 @@ pub fn after_cells(row: &After) -> Vec<String> {
         Some(ends) => format!("{} [{}]", ratio(row.ratio[1]), ends.map(ratio).join(", ")),
         None => ratio(row.ratio[1]),
     };
-    let percent =
-        |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.1} %", 100.0 * share));
+    let percent = |share: Option<f64>| share.map_or("-".to_owned(), |share| format!("{:.1}", 100.0 * share));
     let share = match row.share_interval {
-        Some(ends) => format!("{} [{}]", percent(row.share_only_after()), ends.map(percent).join(", ")),
-        None => percent(row.share_only_after()),
+        Some(ends) => format!("{} % [{}]", percent(row.share_only_after()), ends.map(percent).join(", ")),
+        None => format!("{} %", percent(row.share_only_after())),
     };
     vec![
         row.variant.clone(),

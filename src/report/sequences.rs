@@ -70,15 +70,15 @@ fn notes(manifest: &Manifest, variants: &[VariantNote]) -> Vec<String> {
         let all = manifest.variants.as_array().into_iter().flatten();
         all.filter(holds).filter_map(|variant| Some(format!("“{}”", variant["name"].as_str()?))).collect()
     };
-    let said = |names: Vec<String>, what: &str| match names[..] {
-        [] => format!("No variant {what}."),
-        _ => format!("{} {what}.", names.join(", ")),
+    let said = |what: &str, names: Vec<String>| match names[..] {
+        [] => format!("No variant has {what}."),
+        _ => format!("With {what}: {}.", names.join(", ")),
     };
     notes.push("Carried from one record to the next: rotations, velocities, the contact state, and what the variant says below. A wall that has come to rest and keeps nothing is as new.".into());
-    notes.push(said(assumed("floor_yield_m"), "has a floor that yields and keeps what it has yielded"));
+    notes.push(said("a floor that yields and keeps what it has yielded", assumed("floor_yield_m")));
     notes.push(said(
+        "corners that stay crushed by the largest compression of a record",
         assumed("crushing_stays"),
-        "leaves corners crushed by the largest compression of a record",
     ));
     notes
 }

@@ -177,6 +177,10 @@ fn regress_a_study_of_sequences_runs_from_pipeline_to_page() {
     let told =
         stdout(&mrbd(at, &["run", "study.toml", "--out", "out", "--block-runs", "2", "--threads", "1"]));
     assert!(told.contains("What a record does after others"), "{told}");
+    let by_sequence = told.split("The same by sequence").nth(1).expect("a table by sequence");
+    assert!(by_sequence.contains("pulse_1-then-pulse_2"), "{told}");
+    let whole = told.lines().take_while(|line| !line.contains("by sequence"));
+    assert!(whole.into_iter().all(|line| line.chars().count() <= 120), "tables fit a terminal\n{told}");
     assert_eq!(stdout(&mrbd(at, &["aggregate", "out"])), told, "the same from the files");
     let table = rows(&stdout(&mrbd(at, &["aggregate", "out", "--csv"])));
     // Over all, and 4 pairs; 2 variants; 2 floors.
@@ -211,8 +215,11 @@ fn regress_a_study_of_sequences_runs_from_pipeline_to_page() {
     assert!(status.contains("96 of 96 runs"), "{status}");
     let page = stdout(&mrbd(at, &["report", "out"]));
     let page = fs::read_to_string(at.join(page.trim())).expect("a page");
-    for part in ["What a record does after others", "“keeps” has a floor that yields", "sequences.parquet"]
-    {
+    for part in [
+        "What a record does after others",
+        "With a floor that yields and keeps what it has yielded: “keeps”.",
+        "sequences.parquet",
+    ] {
         assert!(page.contains(part), "{part}");
     }
     for run in ["0", "1", "2", "25"] {
