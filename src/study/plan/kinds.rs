@@ -9,8 +9,8 @@
 
 use std::path::Path;
 
+use super::fingerprint::Fingerprint;
 use super::level::{Level, coefficients, facade};
-use super::run::Fingerprint;
 use super::run::{Growth, Origin, Scaling};
 use crate::error::{InputError, Result};
 use crate::study::pipeline::{Drawn, Loading, Parameter, Pipeline, SweepTable};

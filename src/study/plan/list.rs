@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::fingerprint::Fingerprint;
 use super::kinds::DrawnFacades;
 use super::kinds::Setting;
 use super::kinds::Sweep;
-use super::run::Fingerprint;
 use super::run::Motions;
 use super::run::Run;
 use crate::error::{InputError, Result};
@@ -180,11 +180,8 @@ impl Plan {
         let factor =
             part.map_or(1.0, |part| part.scale) * setting.factor(&self.motions.suite.records[record_index]);
         let Setting { configuration, origin, facade, coefficients, scaling } = setting;
-        let restitution = Restitution {
-            coefficients,
-            law: assumptions.law,
-            capture_velocity_rad_s: assumptions.capture_velocity_rad_s,
-        };
+        let capture_velocity_rad_s = assumptions.capture_velocity_rad_s;
+        let restitution = Restitution { coefficients, law: assumptions.law, capture_velocity_rad_s };
         let wall = facade.wall_under(restitution, assumptions);
         let run = Run {
             position,

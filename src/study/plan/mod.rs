@@ -4,6 +4,7 @@
 //! and any run can be repeated alone. The record varies slowest, so that the runs of a record stand together and end in
 //! one file; then the variant; then what the kind of study has, see `kinds.rs`.
 
+mod fingerprint;
 mod kinds;
 mod level;
 mod list;
