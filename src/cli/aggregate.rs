@@ -10,8 +10,9 @@ use crate::error::Result;
 use crate::findings::{Conclusions, conclusions, report, report_distributions, write_findings};
 use crate::study::pipeline::Kind;
 use crate::study::runs::{Completeness, Manifest};
+use crate::variance::{self, Shares};
 
-/// Read the runs of a study, write medians.parquet (and findings.csv of a sweep) beside them, print tables and findings.
+/// Read the runs of a study, write medians.parquet (and findings.csv of a sweep; indices.parquet of a study of variance) beside them, print tables and findings.
 #[derive(Debug, Args)]
 pub struct AggregateCommand {
     /// Output folder of `mrbd run`.
@@ -35,6 +36,9 @@ impl AggregateCommand {
             (Aggregated::Drawn(study), true) => {
                 output::to_stdout(|out| study.print_csv(out).map_err(output::failed))?;
             }
+            (Aggregated::Variance(shares), true) => {
+                output::to_stdout(|out| variance::print_csv(out, shares).map_err(output::failed))?;
+            }
             (_, false) => print(&aggregated)?,
         }
         if let Err(e) = keep(&self.folder, &aggregated) {
@@ -48,6 +52,7 @@ impl AggregateCommand {
 enum Aggregated {
     Sweep(Medians, Vec<Conclusions>),
     Drawn(Distributions),
+    Variance(Shares),
 }
 
 /// Aggregates the study in a folder, prints its medians with what they decide and writes them there.
@@ -65,6 +70,7 @@ fn print(aggregated: &Aggregated) -> Result<()> {
         let printed = match aggregated {
             Aggregated::Sweep(medians, conclusions) => report(out, medians, conclusions),
             Aggregated::Drawn(study) => report_distributions(out, study),
+            Aggregated::Variance(shares) => variance::print_tables(out, shares),
         };
         printed.map_err(output::failed)
     })
@@ -77,11 +83,14 @@ fn read(folder: &Path) -> Result<Aggregated> {
             let conclusions = conclusions(&medians);
             Aggregated::Sweep(medians, conclusions)
         }
+        Kind::Variance => Aggregated::Variance(variance::of_folder(folder)?),
         kind => Aggregated::Drawn(distributions(folder, kind)?),
     };
     let completeness = match &aggregated {
         Aggregated::Sweep(medians, _) => medians.completeness,
         Aggregated::Drawn(study) => study.completeness,
+        // It is told of whole studies alone.
+        Aggregated::Variance(_) => None,
     };
     tell_unfinished(completeness);
     Ok(aggregated)
@@ -103,6 +112,7 @@ fn keep(folder: &Path, aggregated: &Aggregated) -> Result<()> {
             write_findings(&folder.join("findings.csv"), medians, conclusions)
         }
         Aggregated::Drawn(study) => study.write(&file),
+        Aggregated::Variance(shares) => variance::write_table(&folder.join("indices.parquet"), shares),
     }
 }
 

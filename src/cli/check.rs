@@ -41,6 +41,10 @@ impl CheckCommand {
                 let medians = aggregate(&self.folder)?;
                 (medians.variants.clone(), figures_of_sweep(&medians), medians.completeness)
             }
+            Kind::Variance => {
+                let allowed = "a study with medians; shares of a variance have intervals instead";
+                return Err(InputError::file(&self.folder, "a study of variance", allowed).into());
+            }
             kind => {
                 let study = distributions(&self.folder, kind)?;
                 (study.variants.clone(), figures_of_drawn(&study), study.completeness)

@@ -45,6 +45,7 @@ fn kind(kind: Kind) -> &'static str {
         Kind::Cloud => "Cloud of runs",
         Kind::Stripes => "Stripes of runs",
         Kind::Incremental => "Incremental analyses",
+        Kind::Variance => "Study of variance",
     }
 }
 

@@ -18,3 +18,4 @@ pub mod pipeline;
 pub mod plan;
 pub mod runs;
 mod study_table;
+mod variance_table;

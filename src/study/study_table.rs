@@ -7,6 +7,8 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::pipeline::SweepTable;
 use super::pipeline::Variant;
+use super::plan::Matrix;
+use super::variance_table::{Variance, check_variance};
 use crate::error::{InputError, Result};
 use crate::survey::Configuration;
 use crate::survey::sampling::Sampling;
@@ -28,11 +30,14 @@ pub enum Kind {
     Stripes,
     /// The same, every record scaled up until the wall reaches a limit.
     Incremental,
+    /// Points in which all that could be otherwise is drawn, laid out so that shares of the variance can be told.
+    Variance,
 }
 
 impl Kind {
-    /// All five.
-    pub const ALL: [Self; 5] = [Self::Sweep, Self::MonteCarlo, Self::Cloud, Self::Stripes, Self::Incremental];
+    /// All six.
+    pub const ALL: [Self; 6] =
+        [Self::Sweep, Self::MonteCarlo, Self::Cloud, Self::Stripes, Self::Incremental, Self::Variance];
 
     /// Name in pipeline files and manifests.
     pub fn name(self) -> &'static str {
@@ -42,6 +47,7 @@ impl Kind {
             Kind::Cloud => "cloud",
             Kind::Stripes => "stripes",
             Kind::Incremental => "incremental",
+            Kind::Variance => "variance",
         }
     }
 
@@ -83,6 +89,8 @@ pub enum Loading {
     Stripes(Stripes),
     /// At growing intensities until a limit is exceeded.
     Incremental(Incremental),
+    /// As the suite has them, each draw once in every matrix of a pick-freeze design.
+    Variance(Variance),
 }
 
 impl Drawn {
@@ -93,12 +101,13 @@ impl Drawn {
 }
 
 impl Loading {
-    /// Intensities or limits of one draw.
+    /// Intensities, limits or matrices of one draw.
     pub fn strata(&self) -> usize {
         match self {
             Loading::OwnScale | Loading::Cloud(_) => 1,
             Loading::Stripes(stripes) => stripes.levels.len(),
             Loading::Incremental(incremental) => incremental.limits.len(),
+            Loading::Variance(_) => Matrix::COUNT,
         }
     }
 }
@@ -217,18 +226,20 @@ pub(super) struct StudyTables {
     pub cloud: Option<Cloud>,
     pub stripes: Option<Stripes>,
     pub incremental: Option<Incremental>,
+    pub variance: Option<Variance>,
 }
 
 impl StudyTables {
     /// The study of a kind, its tables checked: those it needs, and no others.
     pub fn study(self, path: &Path, kind: Kind, variants: &[Variant]) -> Result<Study> {
         self.check_keys(path, kind)?;
-        let loading = match (kind, self.cloud, self.stripes, self.incremental) {
+        let loading = match (kind, self.cloud, self.stripes, self.incremental, self.variance) {
             (Kind::Cloud, Some(cloud), ..) => Loading::Cloud(checked_cloud(path, cloud)?),
-            (Kind::Stripes, _, Some(stripes), _) => Loading::Stripes(checked_stripes(path, stripes)?),
-            (Kind::Incremental, .., Some(incremental)) => {
+            (Kind::Stripes, _, Some(stripes), ..) => Loading::Stripes(checked_stripes(path, stripes)?),
+            (Kind::Incremental, .., Some(incremental), _) => {
                 Loading::Incremental(checked_incremental(path, incremental, variants)?)
             }
+            (Kind::Variance, .., Some(variance)) => Loading::Variance(variance.checked(path)?),
             _ => Loading::OwnScale,
         };
         match (self.sweep, self.sampling) {
@@ -237,6 +248,9 @@ impl StudyTables {
                 Ok(Study::Sweep(sweep))
             }
             (None, Some(sampling)) => {
+                if kind == Kind::Variance {
+                    check_variance(path, &sampling, variants)?;
+                }
                 let configurations = checked_configurations(path, self.configurations)?;
                 Ok(Study::Drawn(Drawn { configurations, sampling, loading }))
             }
@@ -254,6 +268,7 @@ impl StudyTables {
             ("cloud", self.cloud.is_some(), kind == Kind::Cloud, kind == Kind::Cloud),
             ("stripes", self.stripes.is_some(), kind == Kind::Stripes, kind == Kind::Stripes),
             ("incremental", self.incremental.is_some(), kind == Kind::Incremental, kind == Kind::Incremental),
+            ("variance", self.variance.is_some(), kind == Kind::Variance, kind == Kind::Variance),
         ];
         for (key, there, needed, allowed) in keys {
             if needed && !there {

@@ -6,7 +6,9 @@
 use std::path::Path;
 
 use crate::error::{InputError, Result};
-use mrbd_kernel::model::{ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
+use mrbd_kernel::model::{
+    Effect, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m,
+};
 use mrbd_kernel::simulate::Accuracy;
 use serde::{Deserialize, Serialize};
 
@@ -142,6 +144,19 @@ impl Facade {
         restitution: Restitution,
         collapse_rotation_ratio: f64,
     ) -> Result<Wall, ImpossibleFacade> {
+        self.wall_with(restitution, collapse_rotation_ratio, None)
+    }
+
+    /// The same with a further effect.
+    ///
+    /// # Errors
+    /// As [`Facade::wall`], and for a wall that cannot have the effect.
+    pub fn wall_with(
+        &self,
+        restitution: Restitution,
+        collapse_rotation_ratio: f64,
+        effect: Option<Effect>,
+    ) -> Result<Wall, ImpossibleFacade> {
         let masses = self.masses()?;
         let height_m = self.slenderness * self.thickness_m;
         let [lower_width_m, upper_width_m] = crushed_widths_m(
@@ -165,7 +180,7 @@ impl Facade {
             restitution,
             collapse_rotation_ratio,
             initial_rotation_rad: [0.0; 2],
-            effects: Vec::new(),
+            effects: effect.into_iter().collect(),
             formulas: Vec::new(),
         })?)
     }

@@ -180,9 +180,8 @@ mod tests {
     /// All combinations of places, each with the product of its weights.
     fn product(axes: &[Vec<(f64, f64)>]) -> Vec<(Vec<f64>, f64)> {
         axes.iter().fold(vec![(Vec::new(), 1.0)], |all, axis| {
-            let longer = |(at, w): &(Vec<f64>, f64), &(x, v): &(f64, f64)| {
-                ([at.as_slice(), &[x]].concat(), w * v)
-            };
+            let longer =
+                |(at, w): &(Vec<f64>, f64), &(x, v): &(f64, f64)| ([at.as_slice(), &[x]].concat(), w * v);
             all.iter().flat_map(|one| axis.iter().map(move |place| longer(one, place))).collect()
         })
     }
@@ -194,7 +193,8 @@ mod tests {
         let v2 = a * a / 8.0;
         let v13 = 8.0 * b * b * PI.powi(8) / 225.0;
         let v = v1 + v2 + v13;
-        [(v1, v1 + v13), (v2, v2), (0.0, v13)].map(|(first, total)| Index { first: first / v, total: total / v })
+        [(v1, v1 + v13), (v2, v2), (0.0, v13)]
+            .map(|(first, total)| Index { first: first / v, total: total / v })
     }
 
     fn assert_near(found: Index, expected: Index) {

@@ -71,7 +71,7 @@ impl Plan {
         let settings = match &pipeline.study {
             Study::Sweep(table) => Settings::Sweep(Box::new(Sweep::new(table, survey, sets))),
             Study::Drawn(drawn) => {
-                let facades = DrawnFacades::new(pipeline, drawn, &survey, sets.best_fit, &suite)?;
+                let facades = DrawnFacades::new(pipeline, drawn, &survey, &sets, &suite)?;
                 Settings::Drawn(Box::new(facades))
             }
         };
@@ -125,7 +125,12 @@ impl Plan {
 
     /// Runs under one record: a record's runs are `runs_per_record` neighbours, in the order of the suite.
     pub fn runs_per_record(&self) -> u64 {
-        self.variants.len() as u64 * self.runs_per_variant()
+        self.layers() as u64 * self.runs_per_variant()
+    }
+
+    /// Variants of which each is run in full: all of them, but those of a study of variance, which draws a member for each run.
+    fn layers(&self) -> usize {
+        if self.kind == Kind::Variance { 1 } else { self.variants.len() }
     }
 
     /// Number of runs.
@@ -145,22 +150,23 @@ impl Plan {
     pub fn run(&self, position: u64) -> Run {
         assert!(position < self.len(), "run {position} of {}", self.len());
         let (setting, rest) = (position % self.runs_per_variant(), position / self.runs_per_variant());
-        let variants = self.variants.len() as u64;
-        let (variant, record_index) = ((rest % variants) as usize, (rest / variants) as usize);
-        let variant = Arc::clone(&self.variants[variant]);
-        let assumptions = &variant.assumptions;
+        let layers = self.layers() as u64;
+        let (variant, record_index) = ((rest % layers) as usize, (rest / layers) as usize);
+        let assumptions = &self.variants[variant].assumptions;
         let setting = match &self.settings {
             Settings::Sweep(sweep) => sweep.at(setting, assumptions),
             Settings::Drawn(facades) => facades.at(setting, record_index, assumptions),
         };
         let factor = setting.factor(&self.motions.suite.records[record_index]);
-        let Setting { configuration, origin, facade, coefficients, scaling } = setting;
+        let Setting { configuration, origin, facade, coefficients, scaling, assumed } = setting;
+        // The members of an ensemble follow their variant.
+        let variant = Arc::clone(&self.variants[variant + assumed.member]);
         let restitution = Restitution {
             coefficients,
-            law: assumptions.law,
+            law: assumed.law,
             capture_velocity_rad_s: assumptions.capture_velocity_rad_s,
         };
-        let wall = facade.wall(restitution, assumptions.collapse_rotation_ratio);
+        let wall = facade.wall_with(restitution, assumptions.collapse_rotation_ratio, assumed.bed);
         let run = Run {
             position,
             id: String::new(),
@@ -211,7 +217,7 @@ impl Plan {
 
     fn check_length(&self, pipeline: &Pipeline) -> Result<()> {
         let Some(drawn) = self.drawn() else { return Ok(()) };
-        let beside = self.variants.len() * self.motions.suite.records.len() * drawn.runs_per_draw();
+        let beside = self.layers() * self.motions.suite.records.len() * drawn.runs_per_draw();
         let allowed = MOST_RUNS / beside as u64;
         if drawn.sampling.count <= allowed {
             return Ok(());

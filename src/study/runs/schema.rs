@@ -14,7 +14,7 @@ use mrbd_kernel::simulate::Outcome;
 use mrbd_records::SuiteRecord;
 
 /// Version of the columns; it changes whenever one is added, removed or changes its meaning.
-pub const SCHEMA_VERSION: u32 = 3;
+pub const SCHEMA_VERSION: u32 = 4;
 
 /// The wall; none of a drawn façade that is none.
 fn wall(f: &Finished) -> Option<&WallParameters> {
@@ -175,6 +175,7 @@ pub const COLUMNS: &[Column<Finished>] = with_results![
     Column::input("level", "", "level of that parameter: mu_minus_sigma, mu, mu_plus_sigma; lower_bound, best_fit, upper_bound", Read::Text(|f| f.run.level().zip(f.run.parameter()).map(|(level, parameter)| Cow::Borrowed(level.name(parameter))))),
     Column::input("parameter_value", "SI unit of the parameter", "value of that parameter; null for the eight coefficients", Read::Number(|f| f.run.parameter().and_then(|parameter| parameter.value(&f.run.facade)))),
     Column::input("draw", "", "number of the façade among those drawn, from 0, the same in both configurations, under all records and at all intensities; null where none is drawn", Read::Count(|f| f.run.draw())),
+    Column::input("matrix", "", "matrix of a study of variance: a, b, or the inputs that a takes from b; null for other studies", Read::Text(|f| f.run.matrix().map(|matrix| Cow::Borrowed(matrix.name())))),
     // The record.
     Column::input("suite", "", "suite of records", text!(|f| &f.run.motions.suite.name)),
     Column::input("suite_generated", "", "whether the suite is generated rather than recorded", Read::Flag(|f| Some(f.run.motions.suite.generated))),

@@ -41,7 +41,7 @@ impl Design {
 
 /// A design of a number of points in a number of variables.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Points {
+pub struct Points {
     seed: u64,
     count: u64,
     kind: Kind,
