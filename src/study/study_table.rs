@@ -89,7 +89,7 @@ pub enum Loading {
     Stripes(Stripes),
     /// At growing intensities until a limit is exceeded.
     Incremental(Incremental),
-    /// As the suite has them, each draw once in every matrix of a pick-freeze design.
+    /// At one factor, each draw once in every matrix of a pick-freeze design.
     Variance(Variance),
 }
 
@@ -107,7 +107,7 @@ impl Loading {
             Loading::OwnScale | Loading::Cloud(_) => 1,
             Loading::Stripes(stripes) => stripes.levels.len(),
             Loading::Incremental(incremental) => incremental.limits.len(),
-            Loading::Variance(_) => Matrix::COUNT,
+            Loading::Variance(variance) => Matrix::of(variance).len(),
         }
     }
 }

@@ -21,6 +21,13 @@ pub struct Variance {
     pub density_kg_m3: [f64; 2],
     /// What lies in both joints.
     pub beds: Vec<BedLevel>,
+    /// Factor on all records; 1 for the suite as it is.
+    #[serde(default = "own_scale")]
+    pub factor: f64,
+}
+
+fn own_scale() -> f64 {
+    1.0
 }
 
 /// A bed of springs without tension in both joints, as the effect `compliant_joint` has it.
@@ -68,6 +75,10 @@ impl Variance {
                 let (key, found) = (format!("variance.{key}"), format!("{from} to {to}"));
                 return Err(InputError::key(path, key, found, "finite numbers, 0 < from ≤ to").into());
             }
+        }
+        if !(self.factor > 0.0 && self.factor.is_finite()) {
+            let found = self.factor.to_string();
+            return Err(InputError::key(path, "variance.factor", found, "a finite number above 0").into());
         }
         Ok(self)
     }

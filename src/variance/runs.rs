@@ -1,6 +1,6 @@
 //! The runs of a study of variance, by point, matrix and record.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use polars::prelude::{PolarsResult, polars_err};
@@ -19,6 +19,8 @@ pub struct Runs {
     pub configuration: Configuration,
     /// Points of which every run ended: first by point, then by matrix, then by record.
     pub ended: Vec<Ended>,
+    /// The matrices, A and B first.
+    pub matrices: Vec<Matrix>,
     /// Records.
     pub records: usize,
     /// Points left out.
@@ -54,26 +56,30 @@ impl Runs {
             let next = names.len();
             names.entry(records.get(row)).or_insert(next);
         }
+        let there: BTreeSet<_> = (0..frame.height()).map(|row| matrices.get(row)).collect();
+        let asked: Vec<Matrix> =
+            Matrix::all().filter(|matrix| there.contains(&Some(matrix.name()))).collect();
         let mut points: BTreeMap<u64, OfPoint> = BTreeMap::new();
         for row in 0..frame.height() {
-            let matrix = matrices.get(row).and_then(Matrix::place);
+            let matrix = asked.iter().position(|matrix| matrices.get(row) == Some(matrix.name()));
             let (Some(matrix), Some(draw)) = (matrix, draws.get(row)) else {
                 return Err(polars_err!(ComputeError: "a run without a matrix that this version knows"));
             };
-            let point = points.entry(draw).or_insert_with(|| vec![None; Matrix::COUNT * names.len()]);
+            let point = points.entry(draw).or_insert_with(|| vec![None; asked.len() * names.len()]);
             point[matrix * names.len() + names[&records.get(row)]] = ended(&frame, row)?;
         }
         let all = points.len();
         let whole: Vec<Vec<Ended>> =
             points.into_values().filter_map(|point| point.into_iter().collect()).collect();
         let left_out = all - whole.len();
-        let runs = Self { configuration, ended: whole.concat(), records: names.len(), left_out };
+        let (ended, records) = (whole.concat(), names.len());
+        let runs = Self { configuration, ended, matrices: asked, records, left_out };
         Ok((all > 0).then_some(runs))
     }
 
     /// Runs of a point.
     pub fn per_point(&self) -> usize {
-        Matrix::COUNT * self.records
+        self.matrices.len() * self.records
     }
 
     /// Points of which every run ended.

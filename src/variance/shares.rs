@@ -8,7 +8,7 @@ use super::outputs::Output;
 use super::runs::Runs;
 use super::{MAIN, OfFloor, OfOutput, RECORD, Share};
 use crate::aggregate::DRAWS;
-use crate::study::plan::FACTORS;
+use crate::study::plan::Matrix;
 use mrbd_statistics::{Index, Indices, PickFreeze, quantile};
 
 /// Seed of the draws.
@@ -36,7 +36,8 @@ impl Runs {
             return OfOutput { output, mean, variance: 0.0, shares: Vec::new() };
         };
         let drawn = drawn(&design);
-        let mut shares: Vec<Share> = names()
+        let mut shares: Vec<Share> = self
+            .names()
             .enumerate()
             .map(|(place, (input, is_group))| {
                 let Index { first, total } = *of(&indices, place);
@@ -65,14 +66,18 @@ impl Runs {
         }
         design
     }
+
+    /// The record, and the inputs of the matrices in their order; whether each is a group.
+    fn names(&self) -> impl Iterator<Item = (&'static str, bool)> {
+        let factor = |matrix: &Matrix| match matrix {
+            Matrix::Swapped(factor) => Some((factor.name, factor.is_group)),
+            Matrix::A | Matrix::B => None,
+        };
+        std::iter::once((RECORD, false)).chain(self.matrices.iter().filter_map(factor))
+    }
 }
 
-/// The record, and the factors in their order; whether each is a group.
-fn names() -> impl Iterator<Item = (&'static str, bool)> {
-    std::iter::once((RECORD, false)).chain(FACTORS.iter().map(|factor| (factor.name, factor.is_group)))
-}
-
-/// The index at a place among [`names`].
+/// The index at a place among [`Runs::names`].
 fn of(indices: &Indices, place: usize) -> &Index {
     match place.checked_sub(1) {
         None => &indices.category,
@@ -95,7 +100,9 @@ fn drawn(design: &PickFreeze) -> Vec<Indices> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::survey::Configuration;
     use crate::survey::sampling::{Design, Points};
+    use crate::variance::outputs::Ended;
 
     /// Y = Σ c_i x_i of three uniform numbers and a record of four values −3, −1, 1, 3 with the factor 0.1.
     const C: [f64; 3] = [3.0, 2.0, 1.0];
@@ -161,9 +168,34 @@ mod tests {
     }
 
     #[test]
-    fn regress_names_stand_beside_their_indices() {
-        assert_eq!(names().next(), Some((RECORD, false)));
-        assert_eq!(names().count(), FACTORS.len() + 1);
-        assert!(MAIN.iter().all(|name| names().any(|(known, _)| known == *name)));
+    fn regress_shares_stand_beside_their_names_whatever_was_left_out() {
+        // Rotations grow with the record and the slenderness alone, which are other ones in B in every second point.
+        let matrices: Vec<Matrix> = Matrix::all().filter(|matrix| matrix.name() != "bed").collect();
+        let run = |point: usize, matrix: &Matrix, record: usize| {
+            let from_b = matches!(matrix.name(), "b" | "facade" | "wall" | "slenderness");
+            let slenderness = if from_b { point / 2 % 2 } else { point % 2 };
+            Ended::Stood([0.1 + 0.05 * record as f64 + 0.1 * slenderness as f64; 2])
+        };
+        let all = |point: usize| {
+            matrices.iter().flat_map(move |matrix| (0..2).map(move |record| run(point, matrix, record)))
+        };
+        let ended: Vec<Ended> = (0..64).flat_map(all).collect();
+        let floor = Configuration::Parallel;
+        let runs = Runs { configuration: floor, ended, matrices: matrices.clone(), records: 2, left_out: 1 };
+        let floor = runs.shares();
+        assert_eq!((floor.points, floor.left_out), (64, 1));
+        let of = |output: Output| floor.outputs.iter().find(|of| of.output == output).expect("told");
+        assert_eq!((of(Output::Collapse).variance, of(Output::Collapse).shares.len()), (0.0, 0));
+        let clipped = of(Output::Theta1Clipped);
+        assert_eq!(clipped.shares.iter().take(5).map(|share| share.input.as_str()).collect::<Vec<_>>(), MAIN);
+        let share = |input: &str| clipped.share(input).expect("an input");
+        // Variances of the record, 0.025², and of the slenderness, 0.05², which act one beside the other.
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-12;
+        assert!(near(share(RECORD).first, 0.2) && near(share(RECORD).total, 0.2), "{clipped:?}");
+        assert_eq!((share("chaos").first, share("chaos").total), (0.0, 0.0));
+        for input in ["facade", "wall", "slenderness"] {
+            assert!(near(share(input).first, 0.8) && near(share(input).total, 0.8), "{:?}", share(input));
+        }
+        assert!(clipped.share("bed").is_none());
     }
 }

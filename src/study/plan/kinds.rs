@@ -11,7 +11,7 @@
 use std::path::Path;
 
 use super::level::{Level, coefficients, facade};
-use super::pick_freeze::{Matrix, PickFreeze};
+use super::pick_freeze::PickFreeze;
 use super::run::Fingerprint;
 use super::run::{Growth, Origin, Scaling};
 use crate::error::{InputError, Result};
@@ -171,7 +171,7 @@ impl DrawnFacades {
         let (configuration, sampler) = &self.samplers[rest / self.drawn.loading.strata()];
         let stratum = rest % self.drawn.loading.strata();
         if let Some(points) = &self.pick_freeze {
-            return points.at((draw, Matrix::at(stratum)), (*configuration, sampler), assumptions);
+            return points.at((draw, stratum), (*configuration, sampler), assumptions);
         }
         Setting {
             configuration: *configuration,

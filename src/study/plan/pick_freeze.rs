@@ -4,6 +4,8 @@
 //! run takes from its point by matrix decides the Sobol' indices ([`mrbd_statistics::PickFreeze`]). The record is no number
 //! of a point: each point is run under all of them.
 
+use std::ops::Range;
+
 use super::kinds::{Assumed, Setting};
 use super::run::{Origin, Scaling};
 use crate::study::pipeline::{BedLevel, Variance};
@@ -81,16 +83,21 @@ pub enum Matrix {
 }
 
 impl Matrix {
-    /// How many there are.
-    pub const COUNT: usize = FACTORS.len() + 2;
+    /// All that there can be, A and B first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        [Matrix::A, Matrix::B].into_iter().chain(FACTORS.map(Matrix::Swapped))
+    }
 
-    /// The matrix at a place below [`Matrix::COUNT`].
-    pub fn at(place: usize) -> Self {
-        match place {
-            0 => Matrix::A,
-            1 => Matrix::B,
-            later => Matrix::Swapped(FACTORS[later - 2]),
-        }
+    /// Those of a study: of what is assumed, of levels and ranges alone that are several.
+    pub fn of(variance: &Variance) -> Vec<Self> {
+        let varies = |number: usize| match number {
+            place::LAW => variance.laws.len() > 1,
+            place::LENGTH => variance.length_m[0] < variance.length_m[1],
+            place::DENSITY => variance.density_kg_m3[0] < variance.density_kg_m3[1],
+            place::BED => variance.beds.len() > 1,
+            _ => true,
+        };
+        Self::all().filter(|matrix| matrix.numbers().any(varies)).collect()
     }
 
     /// Name in result files.
@@ -102,17 +109,16 @@ impl Matrix {
         }
     }
 
-    /// Its place; `None` for a name that no matrix has.
-    pub fn place(name: &str) -> Option<usize> {
-        (0..Self::COUNT).find(|&place| Self::at(place).name() == name)
+    /// The numbers that it is made for.
+    fn numbers(self) -> Range<usize> {
+        match self {
+            Matrix::A | Matrix::B => 0..NUMBERS,
+            Matrix::Swapped(Factor { numbers: (from, to), .. }) => from..to,
+        }
     }
 
     fn takes_from_b(self, number: usize) -> bool {
-        match self {
-            Matrix::A => false,
-            Matrix::B => true,
-            Matrix::Swapped(Factor { numbers: (from, to), .. }) => (from..to).contains(&number),
-        }
+        self != Matrix::A && self.numbers().contains(&number)
     }
 }
 
@@ -123,6 +129,7 @@ pub(super) struct PickFreeze {
     variance: Variance,
     bounds: [[f64; 2]; 8],
     beds: Vec<Option<Effect>>,
+    matrices: Vec<Matrix>,
     /// Members of the ensemble beside the run itself.
     members: usize,
 }
@@ -146,17 +153,19 @@ impl PickFreeze {
             variance: variance.clone(),
             bounds: std::array::from_fn(|l| [sets.lower[l], sets.upper[l]]),
             beds: variance.beds.iter().map(BedLevel::effect).collect::<Result<_, _>>()?,
+            matrices: Matrix::of(variance),
             members,
         })
     }
 
-    /// The setting of a draw in a matrix.
+    /// The setting of a draw in the matrix at a place.
     pub fn at(
         &self,
-        (draw, matrix): (u64, Matrix),
+        (draw, stratum): (u64, usize),
         (configuration, sampler): (Configuration, &FacadeSampler),
         assumptions: &Assumptions,
     ) -> Setting {
+        let matrix = self.matrices[stratum];
         let number = |i: usize| self.points.at(draw, if matrix.takes_from_b(i) { NUMBERS + i } else { i });
         let between = |[from, to]: [f64; 2], u: f64| from + (to - from) * u;
         let assumptions = Assumptions {
@@ -172,7 +181,7 @@ impl PickFreeze {
             coefficients: std::array::from_fn(|l| {
                 between(self.bounds[l], number(place::COEFFICIENTS.start + l))
             }),
-            scaling: Scaling::Factor(1.0),
+            scaling: Scaling::Factor(self.variance.factor),
             assumed: Assumed {
                 law: *chosen(&self.variance.laws, number(place::LAW)),
                 bed: *chosen(&self.beds, number(place::BED)),
@@ -196,6 +205,7 @@ fn chosen<T>(of: &[T], u: f64) -> &T {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use mrbd_kernel::model::ImpactLaw;
 
     #[test]
     fn regress_factors_have_names_of_their_own_and_groups_are_made_of_them() {
@@ -203,10 +213,6 @@ mod tests {
             let factor = FACTORS.iter().find(|factor| factor.name == name).expect("a factor");
             (0..NUMBERS).filter(|&i| Matrix::Swapped(*factor).takes_from_b(i)).collect::<Vec<_>>()
         };
-        for place in 0..Matrix::COUNT {
-            assert_eq!(Matrix::place(Matrix::at(place).name()), Some(place));
-        }
-        assert_eq!(Matrix::place("phase_of_the_moon"), None);
         assert_eq!([numbers("wall"), numbers("floor")].concat(), numbers("facade"));
         // The five together are all numbers, each once.
         let all = ["facade", "coefficients", "assumptions", "chaos"].map(numbers).concat();
@@ -220,5 +226,30 @@ mod tests {
         }
         let takes = |matrix: Matrix| (0..NUMBERS).filter(|&i| matrix.takes_from_b(i)).count();
         assert_eq!((takes(Matrix::A), takes(Matrix::B)), (0, NUMBERS));
+    }
+
+    #[test]
+    fn regress_nothing_is_run_for_what_does_not_vary() {
+        let bed = |stiffness_pa_per_m| BedLevel { stiffness_pa_per_m, damping_s: 0.0 };
+        let all = Variance {
+            laws: vec![ImpactLaw::Whole, ImpactLaw::Contact],
+            length_m: [1.0, 4.0],
+            density_kg_m3: [1600.0, 2000.0],
+            beds: vec![bed(1e13), bed(1e9)],
+            factor: 1.0,
+        };
+        let names = |variance: &Variance| {
+            Matrix::of(variance).into_iter().map(Matrix::name).collect::<std::collections::BTreeSet<_>>()
+        };
+        assert_eq!(names(&all).len(), FACTORS.len() + 2, "names are unique");
+        let sharp = Variance { beds: vec![bed(1e13)], ..all.clone() };
+        assert_eq!(names(&all).difference(&names(&sharp)).collect::<Vec<_>>(), [&"bed"]);
+        let known = Variance {
+            laws: vec![ImpactLaw::Whole],
+            length_m: [1.0; 2],
+            density_kg_m3: [1800.0; 2],
+            ..sharp
+        };
+        assert!(!names(&known).contains("assumptions") && names(&known).contains("chaos"));
     }
 }

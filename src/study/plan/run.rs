@@ -190,7 +190,8 @@ impl Run {
             }
             Origin::Draw(index) => self.scaling_into(asked.text("draw", &index.to_string())),
             Origin::Matrix(index, matrix) => {
-                asked.text("draw", &index.to_string()).text("matrix", matrix.name())
+                let asked = asked.text("draw", &index.to_string()).text("matrix", matrix.name());
+                self.scaling_into(asked)
             }
         };
         let asked = asked
