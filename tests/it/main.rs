@@ -78,6 +78,7 @@ mod suites;
 mod symmetry;
 mod traps;
 mod unfinished;
+mod variance;
 mod verification;
 mod walls;
 mod windows;
