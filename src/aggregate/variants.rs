@@ -50,8 +50,8 @@ pub(super) fn variant_notes(files: &[PathBuf]) -> PolarsResult<Vec<VariantNote>>
             let first = Row { frame: &frame, row };
             let name = first.text("variant")?;
             if untold.remove(&name) {
-                let told = notes.iter_mut().filter(|note| note.name == name);
-                told.map(|note| tell_shared(note, first)).collect::<PolarsResult<()>>()?;
+                let mut told = notes.iter_mut().filter(|note| note.name == name);
+                told.try_for_each(|note| tell_shared(note, first))?;
             }
         }
     }
