@@ -14,6 +14,7 @@ mod row;
 mod stored;
 mod sweep;
 mod table;
+mod two_way;
 mod variants;
 
 pub use answer::{Answer, Compared};
@@ -28,3 +29,4 @@ pub use quantile::{LEVELS, median, quantiles};
 pub use stored::{stored_answers, stored_numbers};
 pub use sweep::aggregate;
 pub use table::{print_medians, write_medians};
+pub use two_way::Interval;
