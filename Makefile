@@ -1,5 +1,8 @@
 # The main jobs. Everything they need beside the Rust toolchain and Debian's build tools is built here.
 
+# Where cargo builds.
+CARGO_TARGET := $(or $(CARGO_TARGET_DIR),target)
+
 # The suite of accelerograms the sweep runs on; any other by SUITE=FILE.
 SUITE ?= inputs/records/emilia7/suite.toml
 
@@ -14,7 +17,7 @@ include make/python.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep suites measures monte-carlo fragility measured assess-table check readme test stranger test-browser bench blind lint docs clean
+.PHONY: help sweep suites measures variance variance-beds million monte-carlo fragility measured assess-table check readme test stranger test-browser bench blind lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -57,6 +60,22 @@ measures: ## which intensity measure foretells the response: drawn façades unde
 	@$(MAKE) --no-print-directory $(P695_SCALED)
 	cargo run --release --locked --bin mrbd -- run pipelines/cloud.toml --suite $(P695_SCALED) --out outputs/cloud_p695 --force > /dev/null
 	cargo run --release --locked --quiet --bin mrbd -- measures outputs/cloud_p695 --out outputs/measures --force
+
+VARIANCE_OF = cargo run --release --locked --quiet --bin mrbd
+
+variance: ## which share of the variance record, façade, coefficients, assumptions and chaos have; the records as they are, and twice
+	$(VARIANCE_OF) -- run pipelines/variance.toml --suite $(SUITE) --out outputs/variance --force
+	$(VARIANCE_OF) -- variance outputs/variance --out outputs/variance_shares --force > /dev/null
+	$(VARIANCE_OF) -- run pipelines/variance_strong.toml --suite $(SUITE) --out outputs/variance_strong --force
+	$(VARIANCE_OF) -- variance outputs/variance_strong --out outputs/variance_strong_shares --force > /dev/null
+
+variance-beds: ## the same with the stiffness of the joints among the assumptions, which takes longer
+	$(VARIANCE_OF) -- run pipelines/variance_beds.toml --suite $(SUITE) --out outputs/variance_beds --force
+	$(VARIANCE_OF) -- variance outputs/variance_beds --out outputs/variance_beds_shares --force > /dev/null
+
+million: ## a million runs of drawn façades in one command: time, memory and disk
+	cargo build --release --locked --bin mrbd
+	python3 make/million.py outputs/million 1000006 $(CARGO_TARGET)/release/mrbd run pipelines/million.toml --out outputs/million --force
 
 check: ## run a smaller sweep and compare its medians with the accepted ones
 	cargo run --release --locked --bin mrbd -- run pipelines/check.toml --out outputs/check --force > /dev/null

@@ -33,6 +33,7 @@
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
 //! | [`suites`] | sweeps | conclusions under several suites, and how many records decide them |
 //! | [`measures`] | drawn façades | which intensity measure foretells their response |
+//! | [`variance`] | points of a pick-freeze design | which share of the variance each input has |
 //! | [`margin`] | a wall, a suite | the factor on each record that overturns it, and its fragility |
 //! | [`classics`] | a wall, and what others published | their studies again: the models of Fig. 9, overturning spectra |
 //! | [`assessment`] | a wall, a site, a suite | the code's check and the dynamics, as a folder keeps them |
@@ -81,5 +82,6 @@ pub mod suites;
 pub mod summary;
 pub mod survey;
 pub mod text;
+pub mod variance;
 
 pub use error::{Error, InputError, Result};

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::medians::{Moved, VariantNote};
 use super::quantile::MEDIAN;
+use super::resampled::Interval;
 use super::table::OfStudy;
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
@@ -35,12 +36,19 @@ pub struct Distribution {
     pub beyond: u64,
     /// Quantiles at [`super::LEVELS`]; none where they land among those above all numbers.
     pub quantiles: [Option<f64>; 7],
+    /// Their 90 % intervals over draws of façades and records; of one record over draws of façades.
+    pub intervals: [Option<Interval>; 7],
 }
 
 impl Distribution {
     /// The median; none where it lies beyond all numbers, and where nothing was finished.
     pub fn median(&self) -> Option<f64> {
         self.quantiles[MEDIAN]
+    }
+
+    /// The interval of the median; `None` of too few façades or records.
+    pub fn median_interval(&self) -> Option<Interval> {
+        self.intervals[MEDIAN]
     }
 
     /// Share of the finished runs that lie beyond all numbers; none if none was finished.
@@ -77,6 +85,13 @@ pub struct Distributions {
     pub rows: Vec<Distribution>,
 }
 
+/// An end of the interval of a quantile.
+macro_rules! end {
+    ($quantile:expr, $end:expr) => {
+        Read::Number(|d| d.intervals[$quantile].and_then(|interval| interval[$end]))
+    };
+}
+
 macro_rules! text {
     (|$d:ident| $value:expr) => {
         Read::Text(|$d| Some(Cow::Borrowed($value)))
@@ -103,6 +118,20 @@ const COLUMNS: &[Column<OfStudy<Distribution>>] = &[
     Column::result("q75", "", "75 % quantile", Read::Number(|d| d.quantiles[4])),
     Column::result("q84", "", "84 % quantile", Read::Number(|d| d.quantiles[5])),
     Column::result("q95", "", "95 % quantile", Read::Number(|d| d.quantiles[6])),
+    Column::result("q05_low", "", "5 % quantile of q05 over draws of façades and records; null where it lies above all numbers, and of fewer than five of them", end!(0, 0)),
+    Column::result("q05_high", "", "95 % quantile of q05 over these draws", end!(0, 1)),
+    Column::result("q16_low", "", "the same of q16", end!(1, 0)),
+    Column::result("q16_high", "", "95 % quantile of q16 over these draws", end!(1, 1)),
+    Column::result("q25_low", "", "the same of q25", end!(2, 0)),
+    Column::result("q25_high", "", "95 % quantile of q25 over these draws", end!(2, 1)),
+    Column::result("median_low", "", "the same of median", end!(3, 0)),
+    Column::result("median_high", "", "95 % quantile of median over these draws", end!(3, 1)),
+    Column::result("q75_low", "", "the same of q75", end!(4, 0)),
+    Column::result("q75_high", "", "95 % quantile of q75 over these draws", end!(4, 1)),
+    Column::result("q84_low", "", "the same of q84", end!(5, 0)),
+    Column::result("q84_high", "", "95 % quantile of q84 over these draws", end!(5, 1)),
+    Column::result("q95_low", "", "the same of q95", end!(6, 0)),
+    Column::result("q95_high", "", "95 % quantile of q95 over these draws", end!(6, 1)),
     Column::result("study_runs", "", "runs of the study that are stored; fewer than planned_runs: it is unfinished", Read::Count(|d| Some(d.study?.runs))),
     Column::result("planned_runs", "", "runs of its plan", Read::Count(|d| Some(d.study?.planned_runs))),
 ];

@@ -1,6 +1,7 @@
 //! Quantiles over drawn façades and over records.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::{Float64Chunked, PolarsResult};
@@ -9,6 +10,8 @@ use super::distributions::{Distribution, Distributions};
 use super::group::{Group, in_plan_order};
 use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
+use super::resampled::Interval;
+use super::two_way::{Drawn, intervals};
 use super::variants::variant_notes;
 use crate::error::{Error, Result};
 use crate::store::frame::{self, Frame};
@@ -75,10 +78,11 @@ fn rows(files: &[PathBuf], kind: Kind) -> PolarsResult<Vec<Distribution>> {
     let frame = frame::read(files, &told.columns())?;
     let quantities: Vec<Quantity> =
         told.quantities.iter().map(|&name| Quantity::of(&frame, name)).collect::<PolarsResult<_>>()?;
+    let places = Places::of(&frame)?;
     let mut rows = Vec::new();
     for by_record in [false, true] {
         for group in in_plan_order(&frame, &told.keys(by_record))? {
-            rows.extend(told.distributions((&frame, &quantities), &group, by_record)?);
+            rows.extend(told.distributions((&frame, &quantities, &places), &group, by_record)?);
         }
     }
     Ok(rows)
@@ -97,6 +101,43 @@ impl<'a> Quantity<'a> {
             _ => Cow::Borrowed(frame.numbers(name)?),
         };
         Ok(Self { name, numbers })
+    }
+}
+
+/// Of which record and façade each run is, by number.
+struct Places {
+    records: Vec<u32>,
+    facades: Vec<u32>,
+}
+
+impl Places {
+    fn of(frame: &Frame) -> PolarsResult<Self> {
+        let (records, draws) = (frame.texts("record")?, frame.counts("draw")?);
+        let (mut names, mut numbers) = (HashMap::new(), HashMap::new());
+        let mut places = Self { records: Vec::new(), facades: Vec::new() };
+        for row in 0..frame.height() {
+            let next = names.len() as u32;
+            places.records.push(*names.entry(records.get(row)).or_insert(next));
+            let next = numbers.len() as u32;
+            places.facades.push(*numbers.entry(draws.get(row)).or_insert(next));
+        }
+        Ok(places)
+    }
+
+    /// The intervals of the quantiles of a group: over façades and records, of one record over façades.
+    fn intervals(
+        &self,
+        group: &Group,
+        by_record: bool,
+        value: impl Fn(usize) -> Option<Option<f64>>,
+    ) -> [Option<Interval>; 7] {
+        let run = |&row: &usize| {
+            let record = if by_record { 0 } else { self.records[row] };
+            Some(Drawn { value: value(row)?, record, facade: self.facades[row] })
+        };
+        let all = group.rows.iter().map(|&row| self.records[row] as usize + 1);
+        let records = if by_record { 1 } else { all.max().unwrap_or(1) };
+        intervals(group.rows.iter().filter_map(run).collect(), records)
     }
 }
 
@@ -139,7 +180,7 @@ impl Told {
 
     fn columns(&self) -> Vec<&'static str> {
         let mut columns = self.keys(true);
-        columns.extend(["run", "outcome"]);
+        columns.extend(["run", "draw", "outcome"]);
         columns.extend(self.quantities.iter().filter(|name| **name != CAPACITY));
         if self.quantities.contains(&CAPACITY) {
             columns.extend(BRACKET);
@@ -153,16 +194,22 @@ impl Told {
     /// One row a quantity.
     fn distributions(
         &self,
-        (frame, quantities): (&Frame, &[Quantity]),
+        (frame, quantities, places): (&Frame, &[Quantity], &Places),
         group: &Group,
         by_record: bool,
     ) -> PolarsResult<Vec<Distribution>> {
         let first = group.first(frame);
-        let [ended, numbered, beyond] = self.ended;
+        let [ended, numbered, beyond_text] = self.ended;
         let ended = frame.texts(ended)?;
-        let beyond = group.how_many(ended, beyond);
+        let beyond = group.how_many(ended, beyond_text);
         let one = |quantity: &Quantity| {
             let numbers = group.sorted(&quantity.numbers, ended, numbered);
+            let value = |row: usize| match ended.get(row) {
+                Some(text) if text == numbered => quantity.numbers.get(row).map(Some),
+                // Above all numbers.
+                Some(text) if text == beyond_text => Some(None),
+                _ => None,
+            };
             Ok(Distribution {
                 variant: first.text("variant")?,
                 configuration: first.text("configuration")?,
@@ -180,6 +227,7 @@ impl Told {
                 failed: group.how_many(frame.texts("outcome")?, "failed"),
                 beyond,
                 quantiles: quantiles(&numbers, beyond as usize),
+                intervals: places.intervals(group, by_record, value),
             })
         };
         quantities.iter().map(one).collect()

@@ -26,10 +26,10 @@ pub const DRAWS: u64 = 1000;
 pub const FEWEST_RECORDS: usize = 5;
 
 /// Seed of all draws.
-const SEED: u64 = 2012;
+pub(super) const SEED: u64 = 2012;
 
 /// Ends of the interval of a median.
-const INTERVAL: [f64; 2] = [0.05, 0.95];
+pub(super) const INTERVAL: [f64; 2] = [0.05, 0.95];
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -130,7 +130,7 @@ impl Median {
 }
 
 /// The assumptions of a variant, as its runs tell them.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct VariantNote {
     /// Name.
     pub name: String,

@@ -17,6 +17,7 @@ mod sequences_table;
 mod stored;
 mod sweep;
 mod table;
+mod two_way;
 mod variants;
 
 pub use answer::{Answer, Compared};

@@ -11,16 +11,10 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::draws::{DRAWS, FEWEST_RECORDS};
+use super::draws::{DRAWS, FEWEST_RECORDS, INTERVAL, SEED};
 use super::sequences::{Compared, Pair};
 
-/// Seed of all draws.
-const SEED: u64 = 2012;
-
-/// Ends of the intervals.
-const INTERVAL: [f64; 2] = [0.05, 0.95];
-
-/// The ends of an interval; none of an end that lies above all numbers.
+/// The ends of an interval; none of an end that lies above all numbers, as collapses do.
 pub type Interval = [Option<f64>; 2];
 
 /// Intervals of the median ratio, and of the share that falls only after the parts before.

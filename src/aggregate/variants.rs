@@ -1,18 +1,22 @@
 //! The variants of a study, as their runs tell them.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use polars::prelude::PolarsResult;
 
 use super::group::{Group, in_plan_order};
 use super::medians::VariantNote;
-use crate::store::frame::{Frame, read};
+use super::row::Row;
+use crate::store::frame::read;
 
-const COLUMNS: [&str; 15] = [
-    "run",
+/// What is counted over all runs.
+const COUNTED: [&str; 5] = ["run", MEMBER_OF, "variant", "outcome", "energy_residual"];
+
+/// What all runs of a variant share.
+const SHARED: [&str; 12] = [
     MEMBER_OF,
     "variant",
-    "outcome",
     "length_m",
     "density_kg_m3",
     "law",
@@ -20,7 +24,6 @@ const COLUMNS: [&str; 15] = [
     "tolerance",
     "suite",
     "suite_generated",
-    "energy_residual",
     "tail_s",
     "collapse_rotation_ratio",
     "vertical",
@@ -34,29 +37,55 @@ pub(super) const MEMBER_OF: &str = "member_of";
 /// # Errors
 /// Files that cannot be read, and runs without a value that every run has.
 pub(super) fn variant_notes(files: &[PathBuf]) -> PolarsResult<Vec<VariantNote>> {
-    let frame = read(files, &COLUMNS)?.with_null(MEMBER_OF)?;
-    in_plan_order(&frame, &["variant"])?.iter().map(|group| note(&frame, group)).collect()
+    let mut notes = counted(files)?;
+    // File by file until all are told of: as a rule the first is enough, and a million runs need not stand in memory.
+    let mut untold: BTreeSet<String> = notes.iter().map(|note| note.name.clone()).collect();
+    for file in files {
+        if untold.is_empty() {
+            break;
+        }
+        let frame = read(std::slice::from_ref(file), &SHARED)?.with_null(MEMBER_OF)?;
+        for group in frame.groups(&["variant"])?.iter() {
+            let Some(&row) = group.first() else { continue };
+            let first = Row { frame: &frame, row };
+            let name = first.text("variant")?;
+            if untold.remove(&name) {
+                let mut told = notes.iter_mut().filter(|note| note.name == name);
+                told.try_for_each(|note| tell_shared(note, first))?;
+            }
+        }
+    }
+    Ok(notes)
 }
 
-fn note(frame: &Frame, group: &Group) -> PolarsResult<VariantNote> {
-    let first = group.first(frame);
-    let outcomes = frame.texts("outcome")?;
-    let residuals = frame.numbers("energy_residual")?;
-    Ok(VariantNote {
-        name: first.text("variant")?,
-        length_m: first.number("length_m")?,
-        density_kg_m3: first.number("density_kg_m3")?,
-        law: first.text("law")?,
-        capture_velocity_rad_s: first.number("capture_velocity_rad_s")?,
-        tolerance: first.number("tolerance")?,
-        suite: first.text("suite")?,
-        suite_generated: frame.flags("suite_generated")?.get(first.row).unwrap_or(false),
-        runs: group.len(),
-        collapsed: group.how_many(outcomes, "collapsed"),
-        failed: group.how_many(outcomes, "failed"),
-        energy_residual: group.rows.iter().filter_map(|&row| residuals.get(row)).reduce(f64::max),
-        tail_s: first.number("tail_s")?,
-        collapse_rotation_ratio: first.number("collapse_rotation_ratio")?,
-        vertical: frame.flags("vertical")?.get(first.row).unwrap_or(false),
-    })
+/// How many runs of each variant ended how, without what they share.
+fn counted(files: &[PathBuf]) -> PolarsResult<Vec<VariantNote>> {
+    let frame = read(files, &COUNTED)?.with_null(MEMBER_OF)?;
+    let (outcomes, residuals) = (frame.texts("outcome")?, frame.numbers("energy_residual")?);
+    let note = |group: &Group| {
+        Ok(VariantNote {
+            name: group.first(&frame).text("variant")?,
+            runs: group.len(),
+            collapsed: group.how_many(outcomes, "collapsed"),
+            failed: group.how_many(outcomes, "failed"),
+            energy_residual: group.rows.iter().filter_map(|&row| residuals.get(row)).reduce(f64::max),
+            ..VariantNote::default()
+        })
+    };
+    in_plan_order(&frame, &["variant"])?.iter().map(note).collect()
+}
+
+/// What the first run of a variant says of all.
+fn tell_shared(note: &mut VariantNote, first: Row) -> PolarsResult<()> {
+    note.length_m = first.number("length_m")?;
+    note.density_kg_m3 = first.number("density_kg_m3")?;
+    note.law = first.text("law")?;
+    note.capture_velocity_rad_s = first.number("capture_velocity_rad_s")?;
+    note.tolerance = first.number("tolerance")?;
+    note.suite = first.text("suite")?;
+    note.suite_generated = first.frame.flags("suite_generated")?.get(first.row).unwrap_or(false);
+    note.tail_s = first.number("tail_s")?;
+    note.collapse_rotation_ratio = first.number("collapse_rotation_ratio")?;
+    note.vertical = first.frame.flags("vertical")?.get(first.row).unwrap_or(false);
+    Ok(())
 }

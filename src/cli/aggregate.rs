@@ -15,9 +15,10 @@ use crate::findings::{
 };
 use crate::study::pipeline::Kind;
 use crate::study::runs::{Completeness, Manifest};
+use crate::variance::{self, Shares};
 
-/// Read the runs of a study, write medians.parquet (and findings.csv of a sweep, sequences.parquet of sequences) beside
-/// them, print tables and findings.
+/// Read the runs of a study, write medians.parquet (and findings.csv of a sweep, sequences.parquet of sequences,
+/// indices.parquet of a study of variance) beside them, print tables and findings.
 #[derive(Debug, Args)]
 pub struct AggregateCommand {
     /// Output folder of `mrbd run`.
@@ -44,6 +45,9 @@ impl AggregateCommand {
             (Aggregated::Drawn(study), true) => {
                 output::to_stdout(|out| study.print_csv(out).map_err(output::failed))?;
             }
+            (Aggregated::Variance(shares), true) => {
+                output::to_stdout(|out| variance::print_csv(out, shares).map_err(output::failed))?;
+            }
             (_, false) => print(&aggregated)?,
         }
         if let Err(e) = keep(&self.folder, &aggregated) {
@@ -58,6 +62,7 @@ enum Aggregated {
     Sweep(Medians, Vec<Conclusions>),
     Drawn(Distributions),
     Sequences(Sequences),
+    Variance(Shares),
 }
 
 /// Aggregates the study in a folder, prints its medians with what they decide and writes them there.
@@ -76,6 +81,7 @@ fn print(aggregated: &Aggregated) -> Result<()> {
             Aggregated::Sweep(medians, conclusions) => report(out, medians, conclusions),
             Aggregated::Drawn(study) => report_distributions(out, study),
             Aggregated::Sequences(study) => report_sequences(out, study),
+            Aggregated::Variance(shares) => variance::print_tables(out, shares),
         };
         printed.map_err(output::failed)
     })
@@ -89,12 +95,15 @@ fn read(folder: &Path) -> Result<Aggregated> {
             Aggregated::Sweep(medians, conclusions)
         }
         Kind::Sequence => Aggregated::Sequences(sequences(folder)?),
+        Kind::Variance => Aggregated::Variance(variance::of_folder(folder)?),
         kind => Aggregated::Drawn(distributions(folder, kind)?),
     };
     let completeness = match &aggregated {
         Aggregated::Sweep(medians, _) => medians.completeness,
         Aggregated::Drawn(study) => study.completeness,
         Aggregated::Sequences(study) => study.completeness,
+        // It is told of whole studies alone.
+        Aggregated::Variance(_) => None,
     };
     tell_unfinished(completeness);
     Ok(aggregated)
@@ -117,6 +126,7 @@ fn keep(folder: &Path, aggregated: &Aggregated) -> Result<()> {
         }
         Aggregated::Drawn(study) => study.write(&file),
         Aggregated::Sequences(study) => study.write(&folder.join(SEQUENCES_TABLE)),
+        Aggregated::Variance(shares) => variance::write_table(&folder.join("indices.parquet"), shares),
     }
 }
 

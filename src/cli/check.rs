@@ -47,6 +47,10 @@ impl CheckCommand {
                     InputError::file(&self.folder, "a study of sequences, without medians", allowed).into()
                 );
             }
+            Kind::Variance => {
+                let allowed = "a study with medians; shares of a variance have intervals instead";
+                return Err(InputError::file(&self.folder, "a study of variance", allowed).into());
+            }
             kind => {
                 let study = distributions(&self.folder, kind)?;
                 (study.variants.clone(), figures_of_drawn(&study), study.completeness)

@@ -36,6 +36,7 @@ mod stop;
 mod suites;
 mod table_args;
 mod threads;
+mod variance;
 
 pub use aggregate::keep_medians;
 pub use answer::Answer;
@@ -92,6 +93,7 @@ enum Command {
     Report(report::ReportCommand),
     Suites(suites::SuitesCommand),
     Measures(measures::MeasuresCommand),
+    Variance(variance::VarianceCommand),
     Margin(margin::MarginCommand),
     Push(push::PushCommand),
     Assess(assess::AssessCommand),
@@ -135,6 +137,7 @@ impl Cli {
             Command::Records(args) => records::execute(&args),
             Command::Report(command) => command.execute(),
             Command::Measures(command) => command.execute(),
+            Command::Variance(command) => command.execute(),
             Command::Suites(command) => command.execute(),
             Command::Margin(command) => command.execute(),
             Command::Push(command) => command.execute(),

@@ -69,12 +69,27 @@ pub fn write_manifest(
     inputs: Vec<FileNote>,
     suite: Option<&Suite>,
 ) -> Result<()> {
+    let suite = suite.map(|suite| (suite.name.as_str(), suite.generated));
+    write_manifest_of(path, kind, name, inputs, suite)
+}
+
+/// The same for a suite that is told by name, and whether it is generated.
+///
+/// # Errors
+/// What the disk says.
+pub fn write_manifest_of(
+    path: &Path,
+    kind: &str,
+    name: &str,
+    inputs: Vec<FileNote>,
+    suite: Option<(&str, bool)>,
+) -> Result<()> {
     let manifest = serde_json::json!({
         "kind": kind,
         "name": name,
         "tool_version": env!("CARGO_PKG_VERSION"),
-        "suite": suite.map(|suite| &suite.name),
-        "generated": suite.is_some_and(|suite| suite.generated),
+        "suite": suite.map(|(name, _)| name),
+        "generated": suite.is_some_and(|(_, generated)| generated),
         "inputs": inputs,
         "started_unix_s": SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
     });

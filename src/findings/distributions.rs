@@ -23,7 +23,9 @@ pub fn report_distributions(out: &mut dyn Write, study: &Distributions) -> io::R
         _ => "Largest rotations over slenderness angles".to_owned(),
     };
     heading(out, &format!("{what}: quantiles over façades and records, variant {:?}", base.name))?;
-    writeln!(out, "{}", wrapped(&legend(study.kind), 0, TERMINAL))?;
+    let sure =
+        "its 90 %: interval of the median over draws of façades and records, of one record over façades";
+    writeln!(out, "{}", wrapped(&format!("{}; {sure}", legend(study.kind)), 0, TERMINAL))?;
     let rows = |by_record: bool| {
         let rows = study.rows.iter().filter(|row| row.variant == base.name);
         rows.filter(|row| row.record.is_some() == by_record).collect::<Vec<_>>()
@@ -66,7 +68,7 @@ fn table(study: &Distributions, rows: &[&Distribution]) -> String {
     };
     let mut head = vec!["floor".to_owned(), String::new(), "runs".into(), "failed".into(), beyond.into()];
     for (_, symbol) in quantities {
-        head.extend(["16 %".to_owned(), format!("{symbol}50 %"), "84 %".to_owned()]);
+        head.extend(["16 %".to_owned(), format!("{symbol}50 %"), "its 90 %".to_owned(), "84 %".to_owned()]);
     }
     let mut lines = vec![head];
     let firsts = rows.iter().filter(|row| row.quantity == quantities[0].0);
@@ -82,12 +84,17 @@ fn table(study: &Distributions, rows: &[&Distribution]) -> String {
                     && (&row.configuration, &row.record, row.intensity, &row.limit)
                         == (&first.configuration, &first.record, first.intensity, &first.limit)
             };
-            let quantiles = rows.iter().find(same).map_or([None; 7], |row| row.quantiles);
-            line.extend([1, 3, 5].map(|level| match (quantiles[level], first.beyond) {
+            let same = rows.iter().find(same);
+            let quantiles = same.map_or([None; 7], |row| row.quantiles);
+            let told = |value: Option<f64>| match (value, first.beyond) {
                 (Some(value), _) => format!("{value:.4}"),
                 (None, 0) => "-".to_owned(),
                 (None, _) => cell.to_owned(),
-            }));
+            };
+            let interval = same.and_then(|row| row.median_interval());
+            let interval =
+                interval.map_or("-".to_owned(), |[low, high]| format!("{} to {}", told(low), told(high)));
+            line.extend([told(quantiles[1]), told(quantiles[3]), interval, told(quantiles[5])]);
         }
         lines.push(line);
     }

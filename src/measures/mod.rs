@@ -110,7 +110,7 @@ pub fn of_folder(folder: &Path) -> Result<Measures> {
     let path = folder.join("manifest.json");
     let allowed = "the folder of a study of kind monte_carlo, cloud or stripes by `mrbd run`";
     let manifest = Manifest::read(&path)?
-        .filter(|manifest| manifest.kind.is_drawn() && manifest.kind != Kind::Incremental)
+        .filter(|manifest| matches!(manifest.kind, Kind::MonteCarlo | Kind::Cloud | Kind::Stripes))
         .ok_or_else(|| InputError::file(&path, "no manifest of such a study", allowed))?;
     if let Some(note) = Completeness::of(folder)?.and_then(|study| study.note()) {
         let allowed = "a whole study: `mrbd run … --resume` does the rest";

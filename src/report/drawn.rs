@@ -46,6 +46,7 @@ fn kind(kind: Kind) -> &'static str {
         Kind::Stripes => "Stripes of runs",
         Kind::Incremental => "Incremental analyses",
         Kind::Sequence => "Sequences",
+        Kind::Variance => "Study of variance",
     }
 }
 

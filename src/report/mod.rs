@@ -20,6 +20,7 @@
 //! | `overturning` | which pulses overturn a wall |
 //! | `suites` | sweeps under several suites: conclusions, how many records decide them, quartiles |
 //! | `measures` | which intensity measure foretells the response |
+//! | `variance` | which share of the variance each input has |
 //! | `margin` | the factor on each record that takes a wall beyond a limit |
 //!
 //! To make another page: say in `summary` what a folder of its kind holds, and fill a `Page` with sections here.
@@ -52,6 +53,7 @@ mod run;
 mod sequences;
 mod suites;
 mod sweep;
+mod variance;
 mod wall;
 mod words;
 
@@ -78,6 +80,7 @@ pub fn html(summary: &Summary) -> Result<String> {
         Summary::Comparison(folder) => comparison::page(folder),
         Summary::Suites(folder) => suites::page(folder),
         Summary::Measures(folder) => measures::page(folder),
+        Summary::Variance(folder) => variance::page(folder),
         Summary::Margin(folder) => margin::page(folder),
         Summary::Push(folder) => push::page(folder),
         Summary::Portfolio(folder) => portfolio::page(folder),

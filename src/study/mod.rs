@@ -21,3 +21,4 @@ pub mod plan;
 pub mod runs;
 pub mod sequence;
 mod study_table;
+mod variance_table;

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use super::sequence::SequenceTable;
 use super::study_table::StudyTables;
 pub use super::study_table::{Cloud, Drawn, Incremental, Kind, Limit, Loading, Stripes, Study};
+pub use super::variance_table::{BedLevel, Variance};
 use crate::error::{InputError, Result};
 use crate::survey::sampling::Sampling;
 use crate::survey::{Assumptions, Changes, Configuration};
@@ -96,6 +97,7 @@ struct PipelineFile {
     incremental: Option<Incremental>,
     #[serde(default)]
     sequence: Vec<SequenceTable>,
+    variance: Option<Variance>,
 }
 
 #[derive(Deserialize)]
@@ -134,6 +136,7 @@ impl Pipeline {
             stripes: file.stripes,
             incremental: file.incremental,
             sequence: file.sequence.clone(),
+            variance: file.variance,
         };
         let study = tables.study(path, file.kind, &variants)?;
         check_members(path, file.kind, &variants)?;
@@ -197,12 +200,18 @@ fn variants(path: &Path, common: Changes, tables: Vec<VariantTable>) -> Result<V
     }
 }
 
-/// Only what a sweep says is judged by ensembles.
+/// Only what a sweep says is judged by ensembles; a study of variance draws a member for each run.
 fn check_members(path: &Path, kind: Kind, variants: &[Variant]) -> Result<()> {
     match variants.iter().find_map(|variant| variant.member.as_ref()) {
-        Some(Member { member_of, .. }) if kind != Kind::Sweep => {
+        Some(Member { member_of, .. }) if kind != Kind::Sweep && kind != Kind::Variance => {
             let found = format!("those of {member_of:?} in a study of kind {:?}", kind.name());
-            Err(InputError::key(path, "variants.members", found, "members only in a sweep").into())
+            Err(InputError::key(
+                path,
+                "variants.members",
+                found,
+                "members only in a sweep, or in a study of variance",
+            )
+            .into())
         }
         _ => Ok(()),
     }

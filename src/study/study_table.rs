@@ -7,7 +7,9 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::pipeline::SweepTable;
 use super::pipeline::Variant;
+use super::plan::Matrix;
 use super::sequence::{self, SequenceTable};
+use super::variance_table::{Variance, check_variance};
 use crate::error::{InputError, Result};
 use crate::survey::Configuration;
 use crate::survey::sampling::Sampling;
@@ -31,12 +33,21 @@ pub enum Kind {
     Incremental,
     /// Façades of a sweep or drawn ones, under records one after another.
     Sequence,
+    /// Points in which all that could be otherwise is drawn, laid out so that shares of the variance can be told.
+    Variance,
 }
 
 impl Kind {
-    /// All six.
-    pub const ALL: [Self; 6] =
-        [Self::Sweep, Self::MonteCarlo, Self::Cloud, Self::Stripes, Self::Incremental, Self::Sequence];
+    /// All seven.
+    pub const ALL: [Self; 7] = [
+        Self::Sweep,
+        Self::MonteCarlo,
+        Self::Cloud,
+        Self::Stripes,
+        Self::Incremental,
+        Self::Sequence,
+        Self::Variance,
+    ];
 
     /// Name in pipeline files and manifests.
     pub fn name(self) -> &'static str {
@@ -47,6 +58,7 @@ impl Kind {
             Kind::Stripes => "stripes",
             Kind::Incremental => "incremental",
             Kind::Sequence => "sequence",
+            Kind::Variance => "variance",
         }
     }
 
@@ -88,6 +100,8 @@ pub enum Loading {
     Stripes(Stripes),
     /// At growing intensities until a limit is exceeded.
     Incremental(Incremental),
+    /// At one factor, each draw once in every matrix of a pick-freeze design.
+    Variance(Variance),
 }
 
 impl Drawn {
@@ -98,12 +112,13 @@ impl Drawn {
 }
 
 impl Loading {
-    /// Intensities or limits of one draw.
+    /// Intensities, limits or matrices of one draw.
     pub fn strata(&self) -> usize {
         match self {
             Loading::OwnScale | Loading::Cloud(_) => 1,
             Loading::Stripes(stripes) => stripes.levels.len(),
             Loading::Incremental(incremental) => incremental.limits.len(),
+            Loading::Variance(variance) => Matrix::of(variance).len(),
         }
     }
 }
@@ -223,6 +238,7 @@ pub(super) struct StudyTables {
     pub stripes: Option<Stripes>,
     pub incremental: Option<Incremental>,
     pub sequence: Vec<SequenceTable>,
+    pub variance: Option<Variance>,
 }
 
 impl StudyTables {
@@ -230,12 +246,13 @@ impl StudyTables {
     pub fn study(self, path: &Path, kind: Kind, variants: &[Variant]) -> Result<Study> {
         self.check_keys(path, kind)?;
         sequence::check(path, &self.sequence)?;
-        let loading = match (kind, self.cloud, self.stripes, self.incremental) {
+        let loading = match (kind, self.cloud, self.stripes, self.incremental, self.variance) {
             (Kind::Cloud, Some(cloud), ..) => Loading::Cloud(checked_cloud(path, cloud)?),
-            (Kind::Stripes, _, Some(stripes), _) => Loading::Stripes(checked_stripes(path, stripes)?),
-            (Kind::Incremental, .., Some(incremental)) => {
+            (Kind::Stripes, _, Some(stripes), ..) => Loading::Stripes(checked_stripes(path, stripes)?),
+            (Kind::Incremental, .., Some(incremental), _) => {
                 Loading::Incremental(checked_incremental(path, incremental, variants)?)
             }
+            (Kind::Variance, .., Some(variance)) => Loading::Variance(variance.checked(path)?),
             _ => Loading::OwnScale,
         };
         match (self.sweep, self.sampling) {
@@ -244,6 +261,9 @@ impl StudyTables {
                 Ok(Study::Sweep(sweep))
             }
             (None, Some(sampling)) => {
+                if kind == Kind::Variance {
+                    check_variance(path, &sampling, variants)?;
+                }
                 let configurations = checked_configurations(path, self.configurations)?;
                 Ok(Study::Drawn(Drawn { configurations, sampling, loading }))
             }
@@ -269,6 +289,7 @@ impl StudyTables {
             ("stripes", self.stripes.is_some(), kind == Kind::Stripes, kind == Kind::Stripes),
             ("incremental", self.incremental.is_some(), kind == Kind::Incremental, kind == Kind::Incremental),
             ("sequence", !self.sequence.is_empty(), after_another, after_another),
+            ("variance", self.variance.is_some(), kind == Kind::Variance, kind == Kind::Variance),
         ];
         for (key, there, needed, allowed) in keys {
             if needed && !there {

@@ -61,6 +61,8 @@ pub enum Summary {
     Suites(PathBuf),
     /// The folder of intensity measures, drawn as it is stored.
     Measures(PathBuf),
+    /// The folder of shares of a variance, drawn as it is stored.
+    Variance(PathBuf),
     /// The folder of a wall's margin, drawn as it is stored.
     Margin(PathBuf),
     /// The folder of an assessment, drawn as it is stored.
@@ -138,6 +140,7 @@ fn of_folder(folder: &Path, manifest: &Path, site: Option<&Site>) -> Result<Summ
         Some(results::diagnosis::KIND) => Ok(Summary::Diagnosis(folder.to_path_buf())),
         Some(crate::suites::KIND) => Ok(Summary::Suites(folder.to_path_buf())),
         Some(crate::measures::KIND) => Ok(Summary::Measures(folder.to_path_buf())),
+        Some(crate::variance::KIND) => Ok(Summary::Variance(folder.to_path_buf())),
         Some(crate::margin::KIND) => Ok(Summary::Margin(folder.to_path_buf())),
         Some(crate::assessment::KIND) => Ok(Summary::Assessment(folder.to_path_buf())),
         Some(crate::portfolio::KIND) => Ok(Summary::Portfolio(folder.to_path_buf())),
@@ -149,6 +152,10 @@ fn of_folder(folder: &Path, manifest: &Path, site: Option<&Site>) -> Result<Summ
 
 fn of_study(folder: &Path, path: &Path, site: Option<&Site>) -> Result<Summary> {
     match Manifest::read(path)? {
+        Some(manifest) if manifest.kind == crate::study::pipeline::Kind::Variance => {
+            let allowed = "the folder that `mrbd variance DIR --out …` makes of it, with its page";
+            Err(InputError::file(path, "a study of variance", allowed).into())
+        }
         Some(manifest) if manifest.kind.is_drawn() => {
             Ok(Summary::Drawn(Box::new(Drawn::read(folder, manifest, site)?)))
         }

@@ -163,6 +163,19 @@ impl Facade {
         restitution: Restitution,
         collapse_rotation_ratio: f64,
     ) -> Result<Wall, ImpossibleFacade> {
+        self.wall_with(restitution, collapse_rotation_ratio, None)
+    }
+
+    /// The same with a further effect.
+    ///
+    /// # Errors
+    /// As [`Facade::wall`], and for a wall that cannot have the effect.
+    pub fn wall_with(
+        &self,
+        restitution: Restitution,
+        collapse_rotation_ratio: f64,
+        effect: Option<Effect>,
+    ) -> Result<Wall, ImpossibleFacade> {
         let masses = self.masses()?;
         let height_m = self.slenderness * self.thickness_m;
         let [lower_width_m, upper_width_m] = crushed_widths_m(
@@ -186,27 +199,29 @@ impl Facade {
             restitution,
             collapse_rotation_ratio,
             initial_rotation_rad: [0.0; 2],
-            effects: Vec::new(),
+            effects: effect.into_iter().collect(),
             formulas: Vec::new(),
         })?)
     }
 
-    /// The wall as a study assumes it: its floor yields, where it may.
+    /// The wall as a study assumes it: with what lies in its joints, and a floor that yields, where it may.
     ///
     /// # Errors
-    /// As [`Facade::wall`], and for a floor that yields at a force out of its bounds.
+    /// As [`Facade::wall_with`], and for a floor that yields at a force out of its bounds.
     pub fn wall_under(
         &self,
         restitution: Restitution,
         assumptions: &Assumptions,
+        bed: Option<Effect>,
     ) -> Result<Wall, ImpossibleFacade> {
-        let wall = self.wall(restitution, assumptions.collapse_rotation_ratio)?;
+        let wall = self.wall_with(restitution, assumptions.collapse_rotation_ratio, bed)?;
         let Some(yield_m) = assumptions.floor_yield_m else { return Ok(wall) };
         let k_d = self.stiffness_n_per_m;
         // The spring that yields takes the place of k_d: the same up to F_y = k_d x_y.
         let floor = Effect::with_parameters("yielding_spring", &[k_d, k_d * yield_m])?;
         let elastic = wall.parameters().clone();
-        Ok(Wall::new(WallParameters { stiffness_n_per_m: 0.0, effects: vec![floor], ..elastic })?)
+        let effects = bed.into_iter().chain([floor]).collect();
+        Ok(Wall::new(WallParameters { stiffness_n_per_m: 0.0, effects, ..elastic })?)
     }
 
     /// The wall with corners crushed as deep as these compressions at the ground and at the crack ask for, N. A corner
@@ -318,7 +333,8 @@ mod tests {
     #[test]
     fn regress_a_floor_that_yields_takes_the_place_of_its_spring() {
         let assumed = |floor_yield_m| Assumptions { floor_yield_m, ..Assumptions::default() };
-        let of = |yield_m| MEAN.wall_under(Restitution::default(), &assumed(yield_m)).expect("it stands");
+        let of =
+            |yield_m| MEAN.wall_under(Restitution::default(), &assumed(yield_m), None).expect("it stands");
         assert_eq!(of(None).parameters(), wall(MEAN).expect("it stands").parameters());
         let yields = of(Some(5e-3));
         assert_eq!(yields.parameters().stiffness_n_per_m, 0.0);

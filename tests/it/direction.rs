@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The rooms of `src/` in the flow of data, and the rooms that each may use.
-const ALLOWED: [(&str, &[&str]); 21] = [
+const ALLOWED: [(&str, &[&str]); 22] = [
     ("error", &[]),
     ("text", &[]),
     ("store", &["error"]),
@@ -17,6 +17,7 @@ const ALLOWED: [(&str, &[&str]); 21] = [
     ("findings", &["error", "text", "store", "survey", "study", "aggregate"]),
     ("suites", &["error", "text", "store", "survey", "study", "aggregate", "findings"]),
     ("measures", &["error", "store", "survey", "study", "aggregate"]),
+    ("variance", &["error", "text", "store", "survey", "study", "aggregate"]),
     ("check", &["error", "store", "survey", "study", "aggregate"]),
     ("fragility", &["error", "text", "store", "study"]),
     ("margin", &["error", "store", "study", "fragility"]),
@@ -38,6 +39,7 @@ const ALLOWED: [(&str, &[&str]); 21] = [
             "findings",
             "suites",
             "measures",
+            "variance",
             "fragility",
             "margin",
             "classics",
@@ -59,6 +61,7 @@ const ALLOWED: [(&str, &[&str]); 21] = [
             "findings",
             "suites",
             "measures",
+            "variance",
             "fragility",
             "margin",
             "classics",

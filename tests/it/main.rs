@@ -79,6 +79,7 @@ mod suites;
 mod symmetry;
 mod traps;
 mod unfinished;
+mod variance;
 mod verification;
 mod walls;
 mod windows;

@@ -10,6 +10,6 @@ import scipy
 from scipy.stats import qmc
 
 print("scipy", scipy.__version__)
-points = qmc.Sobol(10, scramble=False, bits=32).random_base2(14)
+points = qmc.Sobol(40, scramble=False, bits=32).random_base2(14)
 for n in (5, 10, 9999):
     print(n ^ (n >> 1), [repr(float(x)) for x in points[n]])

@@ -1,5 +1,5 @@
 //! Statistics that more than one part of the project needs: order statistics, the normal distribution where its tails matter,
-//! correlations.
+//! correlations, and which share of a variance each input has.
 //!
 //! ```
 //! use mrbd_statistics::{median, normal, quantile};
@@ -13,5 +13,7 @@
 
 pub mod normal;
 mod order;
+mod pick_freeze;
 
 pub use order::{censored_quantile, correlation, median, quantile};
+pub use pick_freeze::{Index, Indices, PickFreeze};

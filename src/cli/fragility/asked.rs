@@ -76,7 +76,9 @@ impl FragilityCommand {
         if !self.file.is_dir() {
             return Ok(None);
         }
-        Ok(Manifest::read(&self.file.join("manifest.json"))?.filter(|manifest| manifest.kind.is_drawn()))
+        // Points of a study of variance share inputs: they are no sample of façades.
+        let sample = |kind: Kind| kind.is_drawn() && kind != Kind::Variance;
+        Ok(Manifest::read(&self.file.join("manifest.json"))?.filter(|manifest| sample(manifest.kind)))
     }
 
     fn asked_of_table(&self, outcome: &str) -> Result<Asked> {

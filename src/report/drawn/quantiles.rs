@@ -1,7 +1,7 @@
 //! Quantiles of the response over façades, record by record; over records too, along the intensity of stripes.
 
-use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PALETTE};
-use super::super::page::{Figure, Key, Section};
+use super::super::chart::{Axis, Dot, Format, Graph, INK, Layer, Mark, PALETTE};
+use super::super::page::{Figure, Key, Section, Table};
 use super::super::words;
 use super::{along, medians, titled};
 use crate::aggregate::{CAPACITY, Distribution, Distributions};
@@ -64,11 +64,38 @@ pub fn section(study: &Distributions, base: &str) -> Section {
         title: "16, 50 and 84 % of the façades".into(),
         legend: quantities(study.kind).iter().enumerate().map(key).collect(),
         panels: groups.iter().map(panel).collect(),
-        caption: "Bars from the 16 % to the 84 % quantile over the façades, points at the median. A bar to the end of the axis: the quantile lies among walls that collapsed, or never reached the limit.".into(),
+        caption: "Bars from the 16 % to the 84 % quantile over the façades, points at the median, dark its 90 % interval over draws of the façades. A bar to the end of the axis: the quantile lies among walls that collapsed, or never reached the limit.".into(),
         links: medians(),
         ..Figure::default()
     });
+    section.tables.push(table(study, base));
     section
+}
+
+/// The interval of the median, as it stands behind it; empty where nobody knows.
+fn sure_of(row: &Distribution) -> String {
+    let told = |end: Option<f64>| end.map_or("beyond".to_owned(), |value| format!("{value:.4}"));
+    row.median_interval().map_or(String::new(), |[low, high]| format!(", {} to {}", told(low), told(high)))
+}
+
+/// Quantiles over façades and records, with their intervals.
+fn table(study: &Distributions, base: &str) -> Table {
+    let head = ["floor", "", "quantity", "16 %", "median", "84 %"];
+    let told = |value: Option<f64>| value.map_or("beyond".to_owned(), |value| format!("{value:.4}"));
+    let cell = |row: &Distribution, at: usize| match row.intervals[at] {
+        Some([low, high]) => format!("{} ({} to {})", told(row.quantiles[at]), told(low), told(high)),
+        None => told(row.quantiles[at]),
+    };
+    let shown = |name: &str| quantities(study.kind).iter().find(|(known, _)| *known == name);
+    let line = |row: &Distribution| {
+        let (_, label) = shown(row.quantity)?;
+        let place = [row.configuration.clone(), in_words(&row.stratum(study.measure.as_deref()))];
+        let cells = [LOW, MIDDLE, HIGH].map(|at| cell(row, at));
+        Some(place.into_iter().chain([(*label).to_owned()]).chain(cells).collect::<Vec<String>>())
+    };
+    let own = study.rows.iter().filter(|row| row.variant == base && row.record.is_none());
+    let caption = "Over façades and records, with 90 % intervals over draws of both";
+    Table::of(caption, &head, own.filter_map(line))
 }
 
 /// A stripe by the name of its measure, where it begins with that of a column.
@@ -130,13 +157,20 @@ fn panel(kind: Kind, title: &str, own: &[&Distribution], x: &Axis) -> String {
             let [low, middle, high] = [LOW, MIDDLE, HIGH].map(|at| told(row.quantiles[at]));
             let record = row.record.as_deref().unwrap_or("");
             let tip = format!(
-                "{record}: {label}\n16 % {low}\nmedian {middle}\n84 % {high}\n{} of {} beyond",
-                row.beyond, row.runs
+                "{record}: {label}\n16 % {low}\nmedian {middle}{}\n84 % {high}\n{} of {} beyond",
+                sure_of(row),
+                row.beyond,
+                row.runs
             );
             Dot { x: value(row.quantiles[MIDDLE]), y: place(row), tip }
         });
+        let sure = rows.clone().filter_map(|row| {
+            let [low, high] = row.median_interval()?;
+            Some([(value(low), place(row)), (value(high), place(row))])
+        });
         let colour = PALETTE[index];
         layers.push(Layer::Spans { colour, width: 4, spans: spans.collect() });
+        layers.push(Layer::Spans { colour: INK, width: 2, spans: sure.collect() });
         layers.push(Layer::Dots { colour, mark: Mark::Circle, size: 6, hollow: false, dots: dots.collect() });
     }
     let names = records.iter().map(|&record| record.to_owned()).collect();

@@ -94,7 +94,7 @@ fn caption(spectra: &Spectra, kind: Kind) -> String {
         Kind::Cloud | Kind::Stripes | Kind::Incremental => {
             "at the suite’s own scales; the runs scaled them further"
         }
-        Kind::Sweep | Kind::MonteCarlo => "as they were run, scaled",
+        Kind::Sweep | Kind::MonteCarlo | Kind::Variance => "as they were run, scaled",
         Kind::Sequence => "at the suite’s own scales",
     };
     let records = format!(

@@ -119,7 +119,13 @@ impl Frame {
     /// # Errors
     /// As [`Frame::numbers`].
     pub fn with_null(&self, name: &str) -> PolarsResult<Self> {
-        Ok(self.of(self.rows.filter(&self.rows.column(name)?.is_null())?))
+        let column = self.rows.column(name)?;
+        // Often all rows: these need no copy.
+        let rows = match column.null_count() == self.height() {
+            true => self.rows.clone(),
+            false => self.rows.filter(&column.is_null())?,
+        };
+        Ok(self.of(rows))
     }
 
     /// The rows in increasing order of these columns, none of which is one of texts.

@@ -5,18 +5,21 @@
 //!
 //! Of façades drawn from the survey the configuration varies slowest, then the intensity or the limit, and fastest the
 //! draw. Both configurations, all intensities and all variants have the same draws, so that what differs between them is
-//! not chance. A façade that no wall is stays in the list, and fails.
+//! not chance. A façade that no wall is stays in the list, and fails. In a study of variance the matrix stands in the
+//! place of the intensity, see `pick_freeze.rs`.
 
 use std::path::Path;
 
 use super::fingerprint::Fingerprint;
 use super::level::{Level, coefficients, facade};
+use super::pick_freeze::PickFreeze;
 use super::run::{Growth, Origin, Scaling};
 use crate::error::{InputError, Result};
 use crate::study::pipeline::{Drawn, Loading, Parameter, Pipeline, SweepTable};
 use crate::survey::sampling::{FacadeSampler, Refused, Variable};
 use crate::survey::{Assumptions, Configuration, Facade, Survey};
 use mrbd_files::coefficients::CoefficientSets;
+use mrbd_kernel::model::{Effect, ImpactLaw};
 use mrbd_records::{Suite, SuiteRecord};
 
 /// A façade and how it is shaken.
@@ -27,6 +30,24 @@ pub(super) struct Setting {
     /// C_l.
     pub coefficients: [f64; 8],
     pub scaling: Scaling,
+    pub assumed: Assumed,
+}
+
+/// What may be assumed otherwise from run to run.
+pub(super) struct Assumed {
+    /// What the C_l scale.
+    pub law: ImpactLaw,
+    /// What lies in both joints; `None` for sharp edges.
+    pub bed: Option<Effect>,
+    /// Number in the ensemble; 0 is the run as planned.
+    pub member: usize,
+}
+
+impl Assumed {
+    /// As all runs of a variant have it.
+    fn by(assumptions: &Assumptions) -> Self {
+        Self { law: assumptions.law, bed: None, member: 0 }
+    }
 }
 
 impl Setting {
@@ -77,6 +98,7 @@ impl Sweep {
             facade: facade(&self.survey, configuration, (parameter, level), slenderness, assumptions),
             coefficients: coefficients(&self.sets, parameter, level),
             scaling: Scaling::Factor(1.0),
+            assumed: Assumed::by(assumptions),
         }
     }
 
@@ -104,6 +126,8 @@ pub(super) struct DrawnFacades {
     samplers: Vec<(Configuration, FacadeSampler)>,
     coefficients: [f64; 8],
     drawn: Drawn,
+    /// The points of a study of variance.
+    pick_freeze: Option<PickFreeze>,
 }
 
 impl DrawnFacades {
@@ -115,7 +139,7 @@ impl DrawnFacades {
         pipeline: &Pipeline,
         drawn: &Drawn,
         survey: &Survey,
-        coefficients: [f64; 8],
+        sets: &CoefficientSets,
         suite: &Suite,
     ) -> Result<Self> {
         let sampler = |&configuration: &Configuration| {
@@ -124,7 +148,15 @@ impl DrawnFacades {
         };
         let samplers = drawn.configurations.iter().map(sampler).collect::<Result<_>>()?;
         check_scalable(&pipeline.path, &drawn.loading, suite)?;
-        Ok(Self { samplers, coefficients, drawn: drawn.clone() })
+        let pick_freeze = match &drawn.loading {
+            Loading::Variance(variance) => {
+                let members = pipeline.variants.len() - 1;
+                let points = PickFreeze::new(variance, &drawn.sampling, sets, members);
+                Some(points.map_err(|refused| placed(refused, pipeline))?)
+            }
+            _ => None,
+        };
+        Ok(Self { samplers, coefficients: sets.best_fit, drawn: drawn.clone(), pick_freeze })
     }
 
     /// Number of settings.
@@ -137,12 +169,17 @@ impl DrawnFacades {
         let count = self.drawn.sampling.count;
         let (draw, rest) = (position % count, (position / count) as usize);
         let (configuration, sampler) = &self.samplers[rest / self.drawn.loading.strata()];
+        let stratum = rest % self.drawn.loading.strata();
+        if let Some(points) = &self.pick_freeze {
+            return points.at((draw, stratum), (*configuration, sampler), assumptions);
+        }
         Setting {
             configuration: *configuration,
             origin: Origin::Draw(draw),
             facade: sampler.facade(draw, assumptions),
             coefficients: self.coefficients,
-            scaling: self.scaling(rest % self.drawn.loading.strata(), || sampler.further(draw, record_index)),
+            scaling: self.scaling(stratum, || sampler.further(draw, record_index)),
+            assumed: Assumed::by(assumptions),
         }
     }
 
@@ -161,6 +198,10 @@ impl DrawnFacades {
         // Numbers and texts always serialise.
         let asked = serde_json::to_string(&self.drawn).unwrap_or_default();
         let hash = hash.text("drawn", &asked).numbers("coefficients", &self.coefficients);
+        let hash = match &self.pick_freeze {
+            Some(points) => hash.text("points", &points.hashed()),
+            None => hash,
+        };
         let hash = self.samplers.iter().fold(hash, |hash, (configuration, sampler)| {
             let distributions = Variable::ALL.map(|variable| sampler.marginal(variable));
             hash.text(configuration.name(), &format!("{distributions:?}"))
@@ -175,7 +216,7 @@ impl DrawnFacades {
 
     fn scaling(&self, stratum: usize, uniform: impl Fn() -> f64) -> Scaling {
         match &self.drawn.loading {
-            Loading::OwnScale => Scaling::Factor(1.0),
+            Loading::OwnScale | Loading::Variance(_) => Scaling::Factor(1.0),
             Loading::Cloud(cloud) => {
                 let [from, to] = [cloud.from, cloud.to].map(f64::ln);
                 Scaling::Factor((from + (to - from) * uniform()).exp())
@@ -194,7 +235,7 @@ impl DrawnFacades {
 
 /// A fault of the sampling where it stands: in the pipeline or in the survey.
 fn placed(refused: Refused, pipeline: &Pipeline) -> InputError {
-    match refused.key.starts_with("sampling.") {
+    match refused.key.starts_with("sampling.") || refused.key.starts_with("variance.") {
         true => refused.at(&pipeline.path),
         false => refused.at(&pipeline.survey),
     }
@@ -203,7 +244,7 @@ fn placed(refused: Refused, pipeline: &Pipeline) -> InputError {
 /// A record without motion has no factor to an intensity.
 fn check_scalable(path: &Path, loading: &Loading, suite: &Suite) -> Result<()> {
     let (key, measure) = match loading {
-        Loading::OwnScale | Loading::Cloud(_) => return Ok(()),
+        Loading::OwnScale | Loading::Cloud(_) | Loading::Variance(_) => return Ok(()),
         Loading::Stripes(stripes) => ("stripes.measure", stripes.measure),
         Loading::Incremental(incremental) => ("incremental.measure", incremental.measure),
     };

@@ -75,7 +75,7 @@ impl Plan {
         let settings = match &pipeline.study {
             Study::Sweep(table) => Settings::Sweep(Box::new(Sweep::new(table, survey, sets))),
             Study::Drawn(drawn) => {
-                let facades = DrawnFacades::new(pipeline, drawn, &survey, sets.best_fit, &suite)?;
+                let facades = DrawnFacades::new(pipeline, drawn, &survey, &sets, &suite)?;
                 Settings::Drawn(Box::new(facades))
             }
         };
@@ -145,7 +145,12 @@ impl Plan {
 
     /// Runs under one record, or one sequence of them: neighbours, in the order of the suite or of the sequences.
     pub fn runs_per_record(&self) -> u64 {
-        self.variants.len() as u64 * self.runs_per_variant()
+        self.layers() as u64 * self.runs_per_variant()
+    }
+
+    /// Variants of which each is run in full: all of them, but those of a study of variance, which draws a member for each run.
+    fn layers(&self) -> usize {
+        if self.kind == Kind::Variance { 1 } else { self.variants.len() }
     }
 
     /// Number of runs.
@@ -166,23 +171,27 @@ impl Plan {
         assert!(position < self.len(), "run {position} of {}", self.len());
         let (setting, rest) = (position % self.runs_per_variant(), position / self.runs_per_variant());
         let (row, setting) = ((setting % self.rows()) as usize, setting / self.rows());
-        let variants = self.variants.len() as u64;
-        let (variant, motion) = ((rest % variants) as usize, (rest / variants) as usize);
-        let variant = Arc::clone(&self.variants[variant]);
+        let layers = self.layers() as u64;
+        let (variant, motion) = ((rest % layers) as usize, (rest / layers) as usize);
         let sequence = self.sequences.get(motion).map(|sequence| (Arc::clone(sequence), sequence.place(row)));
         let part = sequence.as_ref().map(|(sequence, place)| sequence.parts[place.part]);
         let record_index = part.map_or(motion, |part| part.record_index);
-        let assumptions = &variant.assumptions;
+        let assumptions = &self.variants[variant].assumptions;
         let setting = match &self.settings {
             Settings::Sweep(sweep) => sweep.at(setting, assumptions),
             Settings::Drawn(facades) => facades.at(setting, record_index, assumptions),
         };
         let factor =
             part.map_or(1.0, |part| part.scale) * setting.factor(&self.motions.suite.records[record_index]);
-        let Setting { configuration, origin, facade, coefficients, scaling } = setting;
-        let capture_velocity_rad_s = assumptions.capture_velocity_rad_s;
-        let restitution = Restitution { coefficients, law: assumptions.law, capture_velocity_rad_s };
-        let wall = facade.wall_under(restitution, assumptions);
+        let Setting { configuration, origin, facade, coefficients, scaling, assumed } = setting;
+        // The members of an ensemble follow their variant.
+        let variant = Arc::clone(&self.variants[variant + assumed.member]);
+        let restitution = Restitution {
+            coefficients,
+            law: assumed.law,
+            capture_velocity_rad_s: assumptions.capture_velocity_rad_s,
+        };
+        let wall = facade.wall_under(restitution, assumptions, assumed.bed);
         let run = Run {
             position,
             id: String::new(),
@@ -239,7 +248,7 @@ impl Plan {
 
     fn check_length(&self, pipeline: &Pipeline) -> Result<()> {
         let Some(drawn) = self.drawn() else { return Ok(()) };
-        let beside = self.variants.len() * self.motions_run() * drawn.runs_per_draw() * self.rows() as usize;
+        let beside = self.layers() * self.motions_run() * drawn.runs_per_draw() * self.rows() as usize;
         let allowed = MOST_RUNS / beside as u64;
         if drawn.sampling.count <= allowed {
             return Ok(());

@@ -8,9 +8,11 @@ mod fingerprint;
 mod kinds;
 mod level;
 mod list;
+mod pick_freeze;
 mod run;
 
 pub use level::{Level, coefficients, facade};
 pub use list::Plan;
+pub use pick_freeze::{FACTORS, Factor, Matrix};
 pub use run::{Growth, Origin, Run, Scaling};
 pub use run::{Motions, RecordHash};

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use super::fingerprint::Fingerprint;
 use super::level::Level;
+use super::pick_freeze::Matrix;
 use crate::study::ladder::Ladder;
 use crate::study::pipeline::{Limit, Parameter, Variant};
 use crate::study::sequence::{Place, Sequence};
@@ -21,6 +22,8 @@ pub enum Origin {
     Level(Parameter, Level),
     /// A draw from the survey, by its number.
     Draw(u64),
+    /// A point of a study of variance, by its number, in a matrix.
+    Matrix(u64, Matrix),
 }
 
 /// How strongly the record shakes the wall.
@@ -102,7 +105,7 @@ impl Run {
     pub fn parameter(&self) -> Option<Parameter> {
         match self.origin {
             Origin::Level(parameter, _) => Some(parameter),
-            Origin::Draw(_) => None,
+            Origin::Draw(_) | Origin::Matrix(..) => None,
         }
     }
 
@@ -110,7 +113,7 @@ impl Run {
     pub fn level(&self) -> Option<Level> {
         match self.origin {
             Origin::Level(_, level) => Some(level),
-            Origin::Draw(_) => None,
+            Origin::Draw(_) | Origin::Matrix(..) => None,
         }
     }
 
@@ -118,7 +121,15 @@ impl Run {
     pub fn draw(&self) -> Option<u64> {
         match self.origin {
             Origin::Level(..) => None,
-            Origin::Draw(index) => Some(index),
+            Origin::Draw(index) | Origin::Matrix(index, _) => Some(index),
+        }
+    }
+
+    /// Matrix of a study of variance; none in other studies.
+    pub fn matrix(&self) -> Option<Matrix> {
+        match self.origin {
+            Origin::Matrix(_, matrix) => Some(matrix),
+            _ => None,
         }
     }
 
@@ -213,6 +224,10 @@ impl Run {
                 asked.text("parameter", parameter.name()).text("level", level.name(parameter))
             }
             Origin::Draw(index) => self.scaling_into(asked.text("draw", &index.to_string())),
+            Origin::Matrix(index, matrix) => {
+                let asked = asked.text("draw", &index.to_string()).text("matrix", matrix.name());
+                self.scaling_into(asked)
+            }
         };
         let asked = asked
             .number("slenderness", self.facade.slenderness)

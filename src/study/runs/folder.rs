@@ -175,8 +175,14 @@ fn clear(path: &Path) -> Result<()> {
     };
     let folders = ["runs", "blocks"].map(|name| path.join(name));
     folders.iter().try_for_each(|folder| removed(folder, fs::remove_dir_all(folder)))?;
-    let derived =
-        ["checksums.json", "medians.parquet", "sequences.parquet", "findings.csv", crate::store::PAGE_NAME];
+    let derived = [
+        "checksums.json",
+        "medians.parquet",
+        "sequences.parquet",
+        "indices.parquet",
+        "findings.csv",
+        crate::store::PAGE_NAME,
+    ];
     let derived = derived.map(|name| path.join(name));
     derived.iter().try_for_each(|file| removed(file, fs::remove_file(file)))
 }

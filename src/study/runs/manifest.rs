@@ -23,8 +23,8 @@ use serde_json::Value;
 /// of façades drawn from the survey, with a `draw` for each run and neither `parameter` nor `level`: `monte_carlo` under
 /// the records as the suite has them, `cloud` each run at a `factor` of its own, `stripes` at intensities that were chosen
 /// (columns `intensity_measure`, `intensity`), `incremental` at the intensity that first exceeds a `limit`
-/// (`limit_exceeded`, `stood_intensity`). `sequence`: façades of either sort under records one after another, a row a
-/// `part`. What was asked for stands in `study`.
+/// (`limit_exceeded`, `stood_intensity`), `variance` in matrices of a pick-freeze design (`matrix`). `sequence`: façades of
+/// either sort under records one after another, a row a `part`. What was asked for stands in `study`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Version of the program.

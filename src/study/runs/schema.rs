@@ -195,6 +195,7 @@ pub const COLUMNS: &[Column<Finished>] = with_results![
     Column::input("part", "", "which record of it the row tells of, from 1", Read::Count(|f| f.run.sequence.as_ref().map(|(_, place)| place.part as u64 + 1))),
     Column::input("alone", "", "whether the wall is as it was built though other parts go before this one: what the record does by itself", Read::Flag(|f| f.run.sequence.as_ref().map(|(_, place)| place.alone))),
     Column::input("draw", "", "number of the façade among those drawn, from 0, the same in both configurations, under all records and at all intensities; null where none is drawn", Read::Count(|f| f.run.draw())),
+    Column::input("matrix", "", "matrix of a study of variance: a, b, or the inputs that a takes from b; null for other studies", Read::Text(|f| f.run.matrix().map(|matrix| Cow::Borrowed(matrix.name())))),
     // The record.
     Column::input("suite", "", "suite of records", text!(|f| &f.run.motions.suite.name)),
     Column::input("suite_generated", "", "whether the suite is generated rather than recorded", Read::Flag(|f| Some(f.run.motions.suite.generated))),

@@ -41,7 +41,7 @@ impl Design {
 
 /// A design of a number of points in a number of variables.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Points {
+pub struct Points {
     seed: u64,
     count: u64,
     kind: Kind,
@@ -201,7 +201,7 @@ mod tests {
         assert!(refused(Design::Plain, 0).starts_with("count: found 0; allowed: 1 to"));
         assert!(refused(Design::LatinHypercube, MOST_STRATA + 1).contains("16777216"));
         assert!(refused(Design::Sobol, 1 << 33).contains("4294967296"));
-        assert!(Points::new(Design::Sobol, 8, 0, 11).is_err());
+        assert!(Points::new(Design::Sobol, 8, 0, 41).is_err());
     }
 
     #[test]

@@ -55,7 +55,11 @@ impl FacadeSampler {
     /// # Panics
     /// At or beyond [`FacadeSampler::count`].
     pub fn draw(&self, index: u64) -> [f64; 7] {
-        let point: [f64; 7] = std::array::from_fn(|variable| self.points.at(index, variable));
+        self.at(std::array::from_fn(|variable| self.points.at(index, variable)))
+    }
+
+    /// The same at a point of the unit cube.
+    fn at(&self, point: [f64; 7]) -> [f64; 7] {
         let point = self.mixture.as_ref().map_or(point, |mixture| mixture.apply(point));
         std::array::from_fn(|variable| self.marginals[variable].quantile(point[variable]))
     }
@@ -70,26 +74,35 @@ impl FacadeSampler {
     /// # Panics
     /// As [`FacadeSampler::draw`].
     pub fn facade(&self, index: u64, assumptions: &Assumptions) -> Facade {
-        let [
-            thickness_m,
-            slenderness,
-            crack_height_ratio,
-            compressive_strength_pa,
-            stiffness_n_per_m,
-            diaphragm_mass_ratio,
-            carriage_mass_ratio,
-        ] = self.draw(index);
-        Facade {
-            thickness_m,
-            slenderness,
-            crack_height_ratio,
-            compressive_strength_pa,
-            stiffness_n_per_m,
-            diaphragm_mass_ratio,
-            carriage_mass_ratio,
-            length_m: assumptions.length_m,
-            density_kg_m3: assumptions.density_kg_m3,
-        }
+        facade(self.draw(index), assumptions)
+    }
+
+    /// The façade at a point of the unit cube, in the order of [`Variable::ALL`].
+    pub fn facade_at(&self, point: [f64; 7], assumptions: &Assumptions) -> Facade {
+        facade(self.at(point), assumptions)
+    }
+}
+
+fn facade(values: [f64; 7], assumptions: &Assumptions) -> Facade {
+    let [
+        thickness_m,
+        slenderness,
+        crack_height_ratio,
+        compressive_strength_pa,
+        stiffness_n_per_m,
+        diaphragm_mass_ratio,
+        carriage_mass_ratio,
+    ] = values;
+    Facade {
+        thickness_m,
+        slenderness,
+        crack_height_ratio,
+        compressive_strength_pa,
+        stiffness_n_per_m,
+        diaphragm_mass_ratio,
+        carriage_mass_ratio,
+        length_m: assumptions.length_m,
+        density_kg_m3: assumptions.density_kg_m3,
     }
 }
 

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::error::InputError;
-pub use design::{Design, MOST_STRATA};
+pub use design::{Design, MOST_STRATA, Points};
 pub use facade::FacadeSampler;
 pub use marginal::{Marginal, Truncation};
 use serde::{Deserialize, Serialize};
