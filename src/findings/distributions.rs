@@ -23,14 +23,16 @@ pub fn report_distributions(out: &mut dyn Write, study: &Distributions) -> io::R
         _ => "Largest rotations over slenderness angles".to_owned(),
     };
     heading(out, &format!("{what}: quantiles over façades and records, variant {:?}", base.name))?;
-    let sure =
-        "its 90 %: interval of the median over draws of façades and records, of one record over façades";
-    writeln!(out, "{}", wrapped(&format!("{}; {sure}", legend(study.kind)), 0, TERMINAL))?;
+    writeln!(out, "{}", wrapped(&legend(study.kind), 0, TERMINAL))?;
     let rows = |by_record: bool| {
         let rows = study.rows.iter().filter(|row| row.variant == base.name);
         rows.filter(|row| row.record.is_some() == by_record).collect::<Vec<_>>()
     };
     writeln!(out, "\n{}", table(study, &rows(false)))?;
+    if let Some(sure) = sure(study, &rows(false)) {
+        heading(out, "90 % intervals of the medians, over draws of façades and records")?;
+        writeln!(out, "{sure}")?;
+    }
     let by_record = rows(true);
     match by_record.iter().filter(|row| row.quantity == shown(study.kind)[0].0).count() {
         0..=MOST_ROWS => {
@@ -68,7 +70,7 @@ fn table(study: &Distributions, rows: &[&Distribution]) -> String {
     };
     let mut head = vec!["floor".to_owned(), String::new(), "runs".into(), "failed".into(), beyond.into()];
     for (_, symbol) in quantities {
-        head.extend(["16 %".to_owned(), format!("{symbol}50 %"), "its 90 %".to_owned(), "84 %".to_owned()]);
+        head.extend(["16 %".to_owned(), format!("{symbol}50 %"), "84 %".to_owned()]);
     }
     let mut lines = vec![head];
     let firsts = rows.iter().filter(|row| row.quantity == quantities[0].0);
@@ -84,21 +86,38 @@ fn table(study: &Distributions, rows: &[&Distribution]) -> String {
                     && (&row.configuration, &row.record, row.intensity, &row.limit)
                         == (&first.configuration, &first.record, first.intensity, &first.limit)
             };
-            let same = rows.iter().find(same);
-            let quantiles = same.map_or([None; 7], |row| row.quantiles);
-            let told = |value: Option<f64>| match (value, first.beyond) {
-                (Some(value), _) => format!("{value:.4}"),
-                (None, 0) => "-".to_owned(),
-                (None, _) => cell.to_owned(),
-            };
-            let interval = same.and_then(|row| row.median_interval());
-            let interval =
-                interval.map_or("-".to_owned(), |[low, high]| format!("{} to {}", told(low), told(high)));
-            line.extend([told(quantiles[1]), told(quantiles[3]), interval, told(quantiles[5])]);
+            let quantiles = rows.iter().find(same).map_or([None; 7], |row| row.quantiles);
+            line.extend([1, 3, 5].map(|level| told(quantiles[level], first.beyond, cell)));
         }
         lines.push(line);
     }
     aligned(&lines)
+}
+
+/// A quantile in a table, or what stands for one beyond all numbers.
+fn told(value: Option<f64>, beyond: u64, cell: &str) -> String {
+    match (value, beyond) {
+        (Some(value), _) => format!("{value:.4}"),
+        (None, 0) => "-".to_owned(),
+        (None, _) => cell.to_owned(),
+    }
+}
+
+/// The medians with their intervals; `None` where none is told.
+fn sure(study: &Distributions, rows: &[&Distribution]) -> Option<String> {
+    let cell = if study.kind == Kind::Incremental { ">" } else { "fell" };
+    let line = |row: &&Distribution| {
+        let (_, symbol) = shown(study.kind).iter().find(|(name, _)| *name == row.quantity)?;
+        let [low, high] = row.median_interval()?;
+        let place =
+            [row.configuration.clone(), row.stratum(study.measure.as_deref()), (*symbol).trim().to_owned()];
+        let told = |value: Option<f64>| told(value, row.beyond, cell);
+        let interval = format!("{} to {}", told(low), told(high));
+        Some(place.into_iter().chain([told(row.median()), interval]).collect::<Vec<String>>())
+    };
+    let lines: Vec<Vec<String>> = rows.iter().filter_map(line).collect();
+    let head = ["floor", "", "", "50 %", "90 % interval"].map(str::to_owned).to_vec();
+    (!lines.is_empty()).then(|| aligned(&[vec![head], lines].concat()))
 }
 
 fn moved(out: &mut dyn Write, moved: &[Moved], base: &str) -> io::Result<()> {

@@ -57,9 +57,12 @@ fn notes(shares: &Shares) -> Vec<String> {
             floor.configuration.name()
         )
     });
+    let fallen = shares.floors.iter().map(|floor| {
+        format!("{:.1} % of the walls fall, {} floor.", 100.0 * floor.fallen(), floor.configuration.name())
+    });
     let rules = "Rotations are told by their ranks among all runs, in which walls that fell share the highest: a fallen wall has no largest rotation, and ranks choose nothing in its place. In the tables the same with θ/α cut off at 1.";
     let record = "The record is one of the suite’s, each as likely as another: its share says nothing of records unlike them.";
-    told.chain([rules.to_owned(), record.to_owned()]).collect()
+    fallen.chain(told).chain([rules.to_owned(), record.to_owned()]).collect()
 }
 
 fn section(shares: &Shares, id: &str, title: &str, shown: impl Fn(&Share) -> bool + Copy) -> Section {
@@ -147,12 +150,9 @@ fn table(floor: &OfFloor, shown: impl Fn(&Share) -> bool) -> Table {
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
     let inputs =
         outputs.first().map_or(Vec::new(), |of| of.shares.iter().filter(|share| shown(share)).collect());
-    let cell = |value: f64, [low, high]: [f64; 2]| format!("{value:.2} ({low:.2} to {high:.2})");
     let row = |share: &Share| {
-        let of_output = |of: &&OfOutput| match of.share(&share.input) {
-            Some(s) => [cell(s.first, s.first_interval), cell(s.total, s.total_interval)],
-            None => ["–".to_owned(), "–".to_owned()],
-        };
+        let of_output =
+            |of: &&OfOutput| of.share(&share.input).map_or(["–", "–"].map(str::to_owned), Share::told);
         std::iter::once(input(&share.input))
             .chain(outputs.iter().flat_map(of_output))
             .collect::<Vec<String>>()
@@ -180,7 +180,7 @@ fn input(name: &str) -> String {
         "facade" => "façade, all of it",
         "wall" => "its wall: b, h/b, h₁, f",
         "floor" => "its floor: k_d, m_d, m_dp",
-        "assumptions" => "assumptions: law, L, ρ, beds",
+        "assumptions" => "assumptions",
         "coefficients" => "coefficients C₁ … C₈",
         "chaos" => "chaos: no input",
         "thickness_m" => "thickness b",

@@ -95,6 +95,24 @@ pub struct Share {
     pub total_interval: [f64; 2],
 }
 
+impl OfFloor {
+    /// Share of the runs of A and B in which the wall fell.
+    pub fn fallen(&self) -> f64 {
+        self.outputs.iter().find(|of| of.output == Output::Collapse).map_or(f64::NAN, |of| of.mean)
+    }
+}
+
+impl Share {
+    /// "0.31 (0.28 to 0.34)" of the first-order and of the total index.
+    pub fn told(&self) -> [String; 2] {
+        // A share that rounds to nothing has no sign.
+        let two = |value: f64| format!("{:.2}", if value.abs() < 0.005 { 0.0 } else { value });
+        let told =
+            |value: f64, [low, high]: [f64; 2]| format!("{} ({} to {})", two(value), two(low), two(high));
+        [told(self.first, self.first_interval), told(self.total, self.total_interval)]
+    }
+}
+
 impl OfOutput {
     /// The share of an input.
     pub fn share(&self, input: &str) -> Option<&Share> {

@@ -115,7 +115,12 @@ fn print_floor(out: &mut dyn Write, floor: &OfFloor) -> io::Result<()> {
     let OfFloor { configuration, points, left_out, .. } = floor;
     let left_out =
         if *left_out > 0 { format!(", {left_out} left out for a failed run") } else { String::new() };
-    writeln!(out, "\n{} floor: {points} points{left_out}", configuration.name())?;
+    let fallen = 100.0 * floor.fallen();
+    writeln!(
+        out,
+        "\n{} floor: {points} points{left_out}; {fallen:.1} % of the walls fall",
+        configuration.name()
+    )?;
     let shown: Vec<(&OfOutput, &str)> = SHOWN
         .iter()
         .filter_map(|(output, symbol)| Some((floor.outputs.iter().find(|of| of.output == *output)?, *symbol)))
@@ -138,10 +143,7 @@ fn inputs(floor: &OfFloor) -> Vec<&str> {
     varies.map_or(Vec::new(), |of| of.shares.iter().map(|share| share.input.as_str()).collect())
 }
 
-/// "0.31 (0.28 to 0.34)"; a dash for an output that does not vary.
+/// Both indices; dashes for an output that does not vary.
 fn cells(share: Option<&Share>) -> [String; 2] {
-    let cell = |value: f64, [low, high]: [f64; 2]| format!("{value:.2} ({low:.2} to {high:.2})");
-    share.map_or(["-".to_owned(), "-".to_owned()], |share| {
-        [cell(share.first, share.first_interval), cell(share.total, share.total_interval)]
-    })
+    share.map_or(["-".to_owned(), "-".to_owned()], Share::told)
 }

@@ -109,6 +109,38 @@ fn regress_medians_have_intervals_where_records_tell() {
 }
 
 #[test]
+fn regress_quantiles_of_drawn_facades_have_intervals_where_records_tell() {
+    let folder = study(&monte_carlo());
+    let at = folder.path();
+    let few = stdout(&mrbd(at, &["run", "study.toml", "--out", "two"]));
+    assert!(!few.contains("90 % intervals"), "two records tell nothing\n{few}");
+    with_records(at, "six", 6);
+    let told = stdout(&mrbd(at, &["run", "study.toml", "--out", "six"]));
+    assert!(told.contains("90 % intervals of the medians") && told.contains(" to "), "{told}");
+    let table = stdout(&mrbd(at, &["aggregate", "six", "--csv"]));
+    let mut csv = csv::Reader::from_reader(table.as_bytes());
+    let head = csv.headers().expect("a head").clone();
+    let place = |name: &str| head.iter().position(|column| column == name).expect("a column");
+    let mut rows = 0;
+    for row in csv.records().map(|row| row.expect("a row")) {
+        for name in ["q05", "q16", "q25", "median", "q75", "q84", "q95"] {
+            let ends = [format!("{name}_low"), name.to_owned(), format!("{name}_high")];
+            let [low, value, high] = ends.map(|name| row[place(&name)].parse::<f64>());
+            // An end among falls has no number.
+            if let (Ok(low), Ok(value), Ok(high)) = (low, value, high) {
+                assert!(low <= value && value <= high, "{name} of {row:?}");
+                rows += 1;
+            }
+        }
+    }
+    assert!(rows > 100, "{rows}");
+    let page = stdout(&mrbd(at, &["report", "six"]));
+    assert!(page.contains("report.html"), "{page}");
+    let page = fs::read_to_string(at.join("six/report.html")).expect("a page");
+    assert!(page.contains("Over façades and records, with 90 % intervals over draws of both"));
+}
+
+#[test]
 fn rejects_what_are_no_whole_sweeps_of_different_suites() {
     let folder = study(SMALL);
     let at = folder.path();
