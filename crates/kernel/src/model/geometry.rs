@@ -61,6 +61,7 @@ pub(crate) struct TurnedArms {
 pub(crate) struct Rotations(pub [(f64, f64); 2]);
 
 impl Rotations {
+    #[inline(always)]
     pub fn new(theta: Pair) -> Self {
         Self(theta.map(sin_cos))
     }
@@ -72,6 +73,7 @@ impl Rotations {
 }
 
 impl TurnedArms {
+    #[inline(always)]
     pub fn new(arms: &Arms, Rotations([turn_1, turn_2]): Rotations) -> Self {
         Self {
             o_x: arms.o_x,
@@ -85,6 +87,7 @@ impl TurnedArms {
     }
 
     /// Velocities J θ' of the mass points.
+    #[inline(always)]
     pub fn velocities(&self, omega: Pair) -> PointVelocities {
         let q = self.r_q.perpendicular() * omega[0];
         PointVelocities {
@@ -106,6 +109,7 @@ pub(crate) struct PointVelocities {
 }
 
 impl PointVelocities {
+    #[inline(always)]
     pub fn minus(self, other: Self) -> Self {
         Self {
             g1: self.g1 - other.g1,

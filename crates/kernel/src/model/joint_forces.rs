@@ -71,12 +71,14 @@ impl Masses {
     }
 
     /// Impulses through the joints that make the mass points' velocities jump so.
+    #[inline(always)]
     pub fn impulses(&self, arms: &TurnedArms, jump: &PointVelocities) -> JointForces {
         self.through_joints(arms, jump, 0.0)
     }
 
     /// Forces through the joints at these accelerations of the mass points, gravity's in them, m/s², beside a
     /// horizontal force at the top, N. Or impulses by jumps of their velocities.
+    #[inline(always)]
     pub fn through_joints(&self, arms: &TurnedArms, jump: &PointVelocities, at_top: f64) -> JointForces {
         let p = arms;
         let lower = jump.g1 * self.m[0];
@@ -98,18 +100,21 @@ impl Masses {
     }
 
     /// Power of a uniform acceleration on the masses, W: Σ m v · a, of the carriage in x only.
+    #[inline(always)]
     pub fn power(&self, v: &PointVelocities, a: Vector) -> f64 {
         let momentum = v.g1 * self.m[0] + v.g2 * self.m[1] + v.c * self.m_d;
         momentum.dot(a) + self.m_dp * v.c.x * a.x
     }
 
     /// Sum of the masses times the magnitudes of their velocities, N s.
+    #[inline(always)]
     pub fn momentum_size(&self, v: &PointVelocities) -> f64 {
         let speed = |v: Vector| v.x.abs() + v.y.abs();
         self.m[0] * speed(v.g1) + self.m[1] * speed(v.g2) + (self.m_d + self.m_dp) * speed(v.c)
     }
 
     /// Generalised momenta Jᵀ M v in a contact state, for velocities of the mass points before the impact.
+    #[inline(always)]
     pub fn momenta(&self, arms: &TurnedArms, v: &PointVelocities) -> [f64; 2] {
         let p = arms;
         let lower = v.g1 * self.m[0];

@@ -13,6 +13,8 @@
 //! - γ_A = A'' ω_1²,
 //! - γ_B = γ_A - R(θ_1) q ω_1² + 2 ω_1 φ' (R(θ_1) q')^⊥ + R(θ_1) q'' φ'².
 
+use fearless_simd::{Level, dispatch};
+
 use super::super::contact::{Contact, Joint, Pivot};
 use super::super::formula::FormulaLaws;
 use super::super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
@@ -21,7 +23,7 @@ use super::super::laws::Laws;
 use super::super::mass_matrix::{Freedom, MassMatrix};
 use super::super::vector::{Vector, sin_cos};
 use super::super::wall::{G_M_S2, Wall};
-use super::law::{Bed, Roll, across, roll_about_edge};
+use super::roll::{Roll, RollingBed, across, roll_about_edge};
 
 /// One joint in its state of contact.
 #[derive(Debug, Clone, Copy)]
@@ -29,31 +31,32 @@ enum JointShape {
     /// Closed (0), or turning about a sharp edge at ± half the width, m.
     Edge { half_m: f64 },
     /// On a bed, in whole contact (0) or in part towards a side.
-    Bed { bed: Bed, side: f64 },
+    Bed { bed: RollingBed, side: f64 },
 }
 
 impl JointShape {
     fn of(wall: &Wall, contact: Contact, joint: Joint) -> Self {
         let side = contact.at(joint).sign();
         match wall.beds[joint as usize] {
-            Some(bed) => Self::Bed { bed, side },
+            Some(bed) => Self::Bed { bed: RollingBed::new(bed), side },
             None => Self::Edge { half_m: side * wall.width_m[joint as usize] / 2.0 },
         }
     }
 
+    #[inline(always)]
     fn roll(&self, phi: f64) -> Roll {
         match self {
             Self::Edge { half_m: 0.0 } => Roll::default(),
             Self::Edge { half_m } => roll_about_edge(*half_m, phi),
-            Self::Bed { bed, side: 0.0 } => bed.roll_in_full_contact(phi),
-            Self::Bed { bed, side } => bed.roll_in_part(*side, phi),
+            Self::Bed { bed, side: 0.0 } => bed.in_full_contact(phi),
+            Self::Bed { bed, side } => bed.in_part(*side, phi),
         }
     }
 
     fn stored_j(&self, phi: f64) -> f64 {
         match self {
             Self::Edge { .. } => 0.0,
-            Self::Bed { bed, side } => bed.stored_j(*side, phi),
+            Self::Bed { bed, side } => bed.bed.stored_j(*side, phi),
         }
     }
 }
@@ -69,6 +72,8 @@ pub(crate) struct BeddedMotion {
     g1: Vector,
     g2: Vector,
     c: Vector,
+    /// Instructions that this processor has, which change nothing but the time it takes.
+    level: Level,
 }
 
 /// A wall turned by its rotations: what is where, and how it moves with the rotations.
@@ -110,6 +115,7 @@ pub(crate) struct BeddedRate {
 }
 
 /// The arm to the instantaneous pivot whose turning gives this velocity per rate: (X, Y)^⊥ = (Y, -X).
+#[inline(always)]
 fn arm_of(slope: Vector) -> Vector {
     Vector::new(-slope.y, slope.x)
 }
@@ -128,6 +134,7 @@ impl BeddedMotion {
             g1: Vector::new(0.0, h1 / 2.0),
             g2: Vector::new(0.0, h2 / 2.0),
             c: Vector::new(wall.parameters().eccentricity_m, h2),
+            level: Level::new(),
         }
     }
 
@@ -135,6 +142,7 @@ impl BeddedMotion {
         self.freedom
     }
 
+    #[inline(always)]
     fn pose(&self, theta: Pair) -> Pose {
         let [ground, crack] = across(theta);
         let rolls = [self.joints[0].roll(ground), self.joints[1].roll(crack)];
@@ -164,6 +172,7 @@ impl BeddedMotion {
         self.mass_of(&self.pose(rotations.angles()).arms)
     }
 
+    #[inline(always)]
     fn mass_of(&self, arms: &TurnedArms) -> MassMatrix {
         let Masses { m: [m1, m2], i: [i1, i2], m_d, m_dp } = self.masses;
         let TurnedArms { r_1, r_q, r_2, r_c, .. } = *arms;
@@ -176,6 +185,7 @@ impl BeddedMotion {
     }
 
     /// Accelerations of the mass points without θ'', relative to the ground.
+    #[inline(always)]
     fn drift(&self, pose: &Pose, [w1, w2]: Pair) -> PointVelocities {
         let opening = w2 - w1;
         let foot = pose.rolls[0].bend * (w1 * w1);
@@ -191,6 +201,7 @@ impl BeddedMotion {
     }
 
     /// Moments of the beds on θ_1 and θ_2, those that store and those that lose energy, N m.
+    #[inline(always)]
     fn bed_moments(&self, pose: &Pose, omega: Pair) -> [Pair; 2] {
         let rates = across(omega);
         let [stored, lost] = [
@@ -200,6 +211,7 @@ impl BeddedMotion {
         [stored, lost].map(|[ground, crack]| [crack - ground, -crack])
     }
 
+    #[inline(always)]
     fn balance(
         &self,
         laws: &Laws,
@@ -256,6 +268,7 @@ impl BeddedMotion {
     }
 
     /// As [`super::super::top`]: the force that keeps a_C = 0.
+    #[inline(always)]
     fn with_held_top(&self, mass: &MassMatrix, levers: Pair, drift_x: f64, free: Pair) -> (Pair, f64) {
         let per_force = mass.solve(self.freedom, levers);
         let along = |theta_dd: Pair| levers[0] * theta_dd[0] + levers[1] * theta_dd[1];
@@ -266,6 +279,7 @@ impl BeddedMotion {
         }
     }
 
+    #[inline(always)]
     fn top_of(&self, pose: &Pose) -> f64 {
         (pose.foot + pose.q[0] + pose.c).x - self.c.x
     }
@@ -278,7 +292,7 @@ impl BeddedMotion {
         moving: [Pair; 2],
         ground: Vector,
     ) -> BeddedRate {
-        let balance = self.balance(laws, formulas, held, moving, ground);
+        let balance = dispatch!(self.level, _ => self.balance(laws, formulas, held, moving, ground));
         BeddedRate { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
     }
 
@@ -292,8 +306,15 @@ impl BeddedMotion {
         theta_dd: Option<Pair>,
         ground: Vector,
     ) -> (BeddedRate, Reactions) {
-        let balance = self.balance(laws, formulas, held, moving, ground);
-        let theta_dd = theta_dd.unwrap_or(balance.theta_dd);
+        dispatch!(self.level, _ => {
+            let balance = self.balance(laws, formulas, held, moving, ground);
+            let reactions = self.reactions_by(&balance, theta_dd.unwrap_or(balance.theta_dd));
+            (BeddedRate { theta_dd: balance.theta_dd, powers_w: balance.powers_w }, reactions)
+        })
+    }
+
+    #[inline(always)]
+    fn reactions_by(&self, balance: &Balance, theta_dd: Pair) -> Reactions {
         let turning = balance.pose.arms.velocities(theta_dd);
         let accelerations = PointVelocities {
             g1: balance.drift.g1 + turning.g1,
@@ -302,14 +323,13 @@ impl BeddedMotion {
             theta: theta_dd,
         };
         let at_top = balance.force_n + balance.holding_n;
-        let reactions = Reactions {
+        Reactions {
             forces: self.masses.through_joints(&balance.pose.arms, &accelerations, at_top),
             top_displacement_m: balance.x_c,
             top_velocity_m_s: balance.v_c,
             top_acceleration_m_s2: balance.top_drift_x + turning.c.x,
             holding_n: balance.holding_n,
-        };
-        (BeddedRate { theta_dd: balance.theta_dd, powers_w: balance.powers_w }, reactions)
+        }
     }
 
     /// Displacement (m), velocity (m/s) and acceleration (m/s²) of the top, relative to the ground.
@@ -354,7 +374,7 @@ impl BeddedMotion {
         let of = |number: fn(&Roll) -> f64| {
             let at = |joint: &JointShape| match joint {
                 JointShape::Edge { .. } => 0.0,
-                JointShape::Bed { bed, .. } => number(&bed.roll_in_full_contact(1.0)),
+                JointShape::Bed { bed, .. } => number(&bed.in_full_contact(1.0)),
             };
             let [ground, crack] = [at(&self.joints[0]), at(&self.joints[1])];
             MassMatrix { m11: ground + crack, m12: -crack, m22: crack }
