@@ -11,7 +11,9 @@ use super::history::Observer;
 use super::response::Response;
 use super::run::{Run, StepRequest};
 use crate::fused::fused_lanes;
-use crate::model::{ConfigurationLanes, LANES, Motions, ReactionLanes, Reactions, lanes};
+use crate::model::{
+    ConfigurationLanes, LANES, LaneKind, Motions, RateLanes, ReactionLanes, Reactions, lanes,
+};
 use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
 
 type F<S> = f64x4<S>;
@@ -75,8 +77,8 @@ impl<S: Simd> Values for TwoRotations<S> {
     }
 }
 
-struct ShakenMotion<S: Simd, const AS_ONE: bool> {
-    motions: Motions<S, AS_ONE>,
+struct ShakenMotion<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
+    motions: Motions<S, AS_ONE, FURTHER>,
     from: [F<S>; 2],
     slope: [F<S>; 2],
     from_s: F<S>,
@@ -84,7 +86,7 @@ struct ShakenMotion<S: Simd, const AS_ONE: bool> {
     reactions: Option<ReactionLanes<S>>,
 }
 
-impl<S: Simd, const AS_ONE: bool> ShakenMotion<S, AS_ONE> {
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<S, AS_ONE, FURTHER> {
     #[inline(always)]
     fn new(simd: S, requests: &[StepRequest; LANES]) -> Self {
         let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
@@ -111,10 +113,11 @@ impl<S: Simd, const AS_ONE: bool> ShakenMotion<S, AS_ONE> {
     }
 }
 
-impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true> {
+/// The one rotation and the power of the ground, where nothing is lost.
+impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true, false> {
     #[inline(always)]
     fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
-        let (theta_dd, power) = self.motions.monolithic_rate(theta.0, omega.0, self.ground(after_s));
+        let (theta_dd, [power, _]) = self.motions.monolithic_rate(theta.0, omega.0, self.ground(after_s));
         Rate { acceleration: OneRotation(theta_dd), quadrature: OneRotation(power) }
     }
 
@@ -123,12 +126,14 @@ impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true> {
         let turned = self.motions.configuration([theta.0; 2]);
         let (rate, reactions) = self.motions.rate_and_reactions(&turned, [omega.0; 2], self.ground(after_s));
         self.reactions = Some(reactions);
-        Rate { acceleration: OneRotation(rate.theta_dd[0]), quadrature: OneRotation(rate.ground_power_w) }
+        Rate { acceleration: OneRotation(rate.theta_dd[0]), quadrature: OneRotation(rate.powers_w[0]) }
     }
 }
 
-/// Both coordinates, and the one quadrature in the place of the first.
-impl<S: Simd> Field<TwoRotations<S>> for ShakenMotion<S, false> {
+/// Both rotations, equal where walls turn as one, and both powers.
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
+    for ShakenMotion<S, AS_ONE, FURTHER>
+{
     #[inline(always)]
     fn rate(
         &mut self,
@@ -136,14 +141,15 @@ impl<S: Simd> Field<TwoRotations<S>> for ShakenMotion<S, false> {
         theta: TwoRotations<S>,
         omega: TwoRotations<S>,
     ) -> Rate<TwoRotations<S>> {
-        let turned = self.motions.configuration(theta.0);
-        let rate = self.motions.rate(&turned, omega.0, self.ground(after_s));
-        self.configuration = Some(turned);
-        let none = F::splat(after_s.simd, 0.0);
-        Rate {
-            acceleration: TwoRotations(rate.theta_dd),
-            quadrature: TwoRotations([rate.ground_power_w, none]),
+        let ground = self.ground(after_s);
+        if AS_ONE {
+            let (theta_dd, powers_w) = self.motions.monolithic_rate(theta.0[0], omega.0[0], ground);
+            return as_rate(RateLanes { theta_dd: [theta_dd; 2], powers_w });
         }
+        let turned = self.motions.configuration(theta.0);
+        let rate = self.motions.rate(&turned, omega.0, ground);
+        self.configuration = Some(turned);
+        as_rate(rate)
     }
 
     #[inline(always)]
@@ -156,18 +162,19 @@ impl<S: Simd> Field<TwoRotations<S>> for ShakenMotion<S, false> {
         let turned = self.configuration.unwrap_or_else(|| self.motions.configuration(theta.0));
         let (rate, reactions) = self.motions.rate_and_reactions(&turned, omega.0, self.ground(after_s));
         self.reactions = Some(reactions);
-        let none = F::splat(after_s.simd, 0.0);
-        Rate {
-            acceleration: TwoRotations(rate.theta_dd),
-            quadrature: TwoRotations([rate.ground_power_w, none]),
-        }
+        as_rate(rate)
     }
 }
 
-/// The steps of walls that turn as one.
+#[inline(always)]
+fn as_rate<S: Simd>(rate: RateLanes<S>) -> Rate<TwoRotations<S>> {
+    Rate { acceleration: TwoRotations(rate.theta_dd), quadrature: TwoRotations(rate.powers_w) }
+}
+
+/// The steps of walls that turn as one and lose nothing between impacts.
 #[inline(always)]
 fn monolithic_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    let mut shaken = ShakenMotion::<S, true>::new(simd, requests);
+    let mut shaken = ShakenMotion::<S, true, false>::new(simd, requests);
     let lanes = |of: fn(&StepRequest) -> f64| OneRotation(lanes(simd, |i| of(&requests[i])));
     let start =
         Rate { acceleration: lanes(|a| a.now.acceleration[0]), quadrature: lanes(|a| a.quadrature_rate[0]) };
@@ -199,36 +206,40 @@ fn monolithic_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step
     })
 }
 
-/// The steps of walls whose bodies turn apart.
+/// The steps of walls by both rotations.
 #[inline(always)]
-fn two_body_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    let mut shaken = ShakenMotion::<S, false>::new(simd, requests);
+fn two_body_steps<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+    simd: S,
+    requests: &[StepRequest; LANES],
+) -> [(Step, Reactions); LANES] {
+    let mut shaken = ShakenMotion::<S, AS_ONE, FURTHER>::new(simd, requests);
     let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
     let start = Rate {
         acceleration: TwoRotations([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
-        quadrature: TwoRotations([lanes(|a| a.quadrature_rate[0]), lanes(|_| 0.0)]),
+        quadrature: TwoRotations([lanes(|a| a.quadrature_rate[0]), lanes(|a| a.quadrature_rate[1])]),
     };
     let x = TwoRotations([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
     let v = TwoRotations([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
     let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
     let reactions = shaken.reactions();
-    let [x, v, a, e_x, e_v] = [
+    let [x, v, a, rate, gained, e_x, e_v] = [
         stride.position,
         stride.velocity,
         stride.end.acceleration,
+        stride.end.quadrature,
+        stride.quadrature,
         stride.position_error,
         stride.velocity_error,
     ]
     .map(|of| of.0.map(<[f64; LANES]>::from));
-    let [rate, gained] = [stride.end.quadrature, stride.quadrature].map(|of| <[f64; LANES]>::from(of.0[0]));
     std::array::from_fn(|i| {
         let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
         let step = Step {
             h: requests[i].h,
             start: *requests[i].now,
             end: Point { position: both(&x), velocity: both(&v), acceleration: both(&a) },
-            quadrature: [gained[i], 0.0],
-            end_quadrature_rate: [rate[i], 0.0],
+            quadrature: both(&gained),
+            end_quadrature_rate: both(&rate),
             position_error: both(&e_x),
             velocity_error: both(&e_v),
         };
@@ -236,12 +247,21 @@ fn two_body_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, 
     })
 }
 
-/// The steps of walls that all turn as one, or whose bodies all turn apart.
-fn steps(level: Level, as_one: bool, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    if as_one {
-        dispatch!(level, simd => monolithic_steps(simd, requests))
-    } else {
-        dispatch!(level, simd => two_body_steps(simd, requests))
+/// The steps of walls of one kind.
+fn steps(level: Level, kind: LaneKind, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
+    match kind {
+        LaneKind { as_one: true, further: false } => {
+            dispatch!(level, simd => monolithic_steps(simd, requests))
+        }
+        LaneKind { as_one: false, further: false } => {
+            dispatch!(level, simd => two_body_steps::<_, false, false>(simd, requests))
+        }
+        LaneKind { as_one: true, further: true } => {
+            dispatch!(level, simd => two_body_steps::<_, true, true>(simd, requests))
+        }
+        LaneKind { as_one: false, further: true } => {
+            dispatch!(level, simd => two_body_steps::<_, false, true>(simd, requests))
+        }
     }
 }
 
@@ -307,9 +327,8 @@ struct Pool<'w, O> {
     next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
     done: &'w mut dyn FnMut(usize, Response),
     slots: Vec<Option<(usize, Run<O>)>>,
-    /// Slots that request a step of a wall that turns as one, and of one whose bodies turn apart.
-    as_one: Vec<usize>,
-    apart: Vec<usize>,
+    /// Slots that request a step, by its kind.
+    queues: [Vec<usize>; LaneKind::COUNT],
     /// Vector instructions that this processor has.
     level: Level,
 }
@@ -320,8 +339,8 @@ impl<'w, O: Observer> Pool<'w, O> {
         next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
         done: &'w mut dyn FnMut(usize, Response),
     ) -> Self {
-        let [as_one, apart] = [(); 2].map(|()| Vec::with_capacity(AT_ONCE));
-        Self { next, done, slots: Vec::with_capacity(AT_ONCE), as_one, apart, level }
+        let queues = [(); LaneKind::COUNT].map(|()| Vec::with_capacity(AT_ONCE));
+        Self { next, done, slots: Vec::with_capacity(AT_ONCE), queues, level }
     }
 
     fn all(&mut self) {
@@ -347,8 +366,7 @@ impl<'w, O: Observer> Pool<'w, O> {
                 continue;
             }
             match run.step_request().motion.side_by_side() {
-                Some(true) => return self.as_one.push(slot),
-                Some(false) => return self.apart.push(slot),
+                Some(kind) => return self.queues[kind.index()].push(slot),
                 None => {
                     let mut reactions = Reactions::default();
                     let step = run.step_request().take(&mut reactions);
@@ -369,8 +387,9 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     /// Takes the steps of the kind that most slots request; false when there is no request.
     fn step(&mut self) -> bool {
-        let one = self.as_one.len() >= self.apart.len();
-        let queue = if one { &mut self.as_one } else { &mut self.apart };
+        let lengths = self.queues.each_ref().map(Vec::len);
+        let most = (1..LaneKind::COUNT).fold(0, |most, i| if lengths[i] > lengths[most] { i } else { most });
+        let queue = &mut self.queues[most];
         let from = queue.len().saturating_sub(LANES);
         let Some(&last) = queue.last() else { return false };
         // A lane without a run does the work of another once more.
@@ -382,7 +401,7 @@ impl<'w, O: Observer> Pool<'w, O> {
             let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
             run.step_request()
         });
-        let taken = steps(self.level, one, &requests);
+        let taken = steps(self.level, LaneKind::at(most), &requests);
         for (slot, (step, reactions)) in of.into_iter().zip(&taken).take(count) {
             if let Some((_, run)) = &mut self.slots[slot] {
                 run.finish_step(step, reactions);

@@ -50,11 +50,7 @@ impl RollingBed {
     #[inline(always)]
     pub fn in_full_contact(&self, phi: f64) -> Roll {
         let stiffness = self.rotational_stiffness_n_m;
-        Roll {
-            moment_n_m: stiffness * phi,
-            damping_n_m_s: self.bed.damping_s * stiffness,
-            ..Roll::default()
-        }
+        Roll { moment_n_m: stiffness * phi, damping_n_m_s: self.bed.damping_s * stiffness, ..Roll::default() }
     }
 
     /// The joint in contact in part, open towards a side.
