@@ -30,6 +30,7 @@ pub struct JointForce {
 
 impl JointForce {
     /// Forces at the left and right corners of a joint of width b: N/2 ± M_c/b.
+    #[inline]
     pub fn corners(&self, width_m: f64) -> [f64; 2] {
         let half = self.normal / 2.0;
         let lever = self.moment / width_m;

@@ -81,6 +81,7 @@ impl MassMatrix {
     }
 
     /// Twice the kinetic energy, ωᵀ M ω, J.
+    #[inline(always)]
     pub fn quadratic(&self, omega: Pair) -> f64 {
         self.m11 * omega[0] * omega[0] + 2.0 * self.m12 * omega[0] * omega[1] + self.m22 * omega[1] * omega[1]
     }

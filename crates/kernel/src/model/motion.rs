@@ -225,6 +225,7 @@ impl Motion {
     }
 
     /// Mass matrix Jᵀ M J at these rotations, whether they are free or not.
+    #[inline(always)]
     pub fn mass_matrix(&self, rotations: Rotations) -> MassMatrix {
         if let Some(bedded) = &self.bedded {
             return bedded.mass_matrix(rotations);
@@ -379,6 +380,7 @@ impl Motion {
     }
 
     /// Kinetic energy at a state, J.
+    #[inline(always)]
     pub fn kinetic_energy_j(&self, rotations: Rotations, omega: Pair) -> f64 {
         0.5 * self.mass_matrix(rotations).quadratic(omega)
     }
