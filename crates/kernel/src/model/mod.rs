@@ -16,6 +16,7 @@ mod joint_forces;
 mod laws;
 mod mass_matrix;
 mod motion;
+mod number;
 mod regime;
 mod rocking;
 mod side_by_side;
@@ -24,6 +25,7 @@ mod vector;
 mod wall;
 
 pub use bed::Bed;
+pub(crate) use bed::{BeddedMotion, JointLanes};
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub(crate) use effect::GroundChange;
 pub use effect::{
@@ -42,7 +44,7 @@ pub use regime::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
 pub(crate) use side_by_side::{
-    ConfigurationLanes, LANES, LaneKind, Motions, RateLanes, ReactionLanes, lanes,
+    ConfigurationLanes, LANES, LaneKind, LawLanes, Motions, RateLanes, ReactionLanes, lanes,
 };
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};

@@ -11,6 +11,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
+use super::bed::Acting;
 use super::effect::Lanes;
 use super::joint_forces::{JointForce, JointForces, Reactions};
 use super::laws::Laws;
@@ -32,27 +33,37 @@ pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> F<S> {
 
 /// What motions have in common that may step side by side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct LaneKind {
-    /// They turn as one.
-    pub as_one: bool,
-    /// They have further laws than a linear spring.
-    pub further: bool,
+pub(crate) enum LaneKind {
+    /// They turn as one on sharp edges; perhaps with further laws than a linear spring.
+    AsOne { further: bool },
+    /// Their bodies turn apart on sharp edges; perhaps with further laws than a linear spring.
+    Apart { further: bool },
+    /// They stand on beds, and these rotations are free.
+    Bedded(Freedom),
 }
 
 impl LaneKind {
-    /// How many kinds there are.
-    pub const COUNT: usize = 4;
+    /// All kinds.
+    pub const ALL: [Self; 7] = [
+        Self::AsOne { further: false },
+        Self::Apart { further: false },
+        Self::AsOne { further: true },
+        Self::Apart { further: true },
+        Self::Bedded(Freedom::Monolithic),
+        Self::Bedded(Freedom::Upper),
+        Self::Bedded(Freedom::Both),
+    ];
 
     /// Position among all kinds.
     #[inline]
     pub fn index(self) -> usize {
-        2 * usize::from(self.further) + usize::from(self.as_one)
-    }
-
-    /// The kind at a position.
-    #[inline]
-    pub fn at(index: usize) -> Self {
-        Self { as_one: index % 2 == 1, further: index / 2 == 1 }
+        match self {
+            Self::AsOne { further } => 2 * usize::from(further),
+            Self::Apart { further } => 1 + 2 * usize::from(further),
+            Self::Bedded(Freedom::None | Freedom::Monolithic) => 4,
+            Self::Bedded(Freedom::Upper) => 5,
+            Self::Bedded(Freedom::Both) => 6,
+        }
     }
 }
 
@@ -75,9 +86,59 @@ pub(crate) struct Motions<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
     upper_mass: F<S>,
     lower_inertia: F<S>,
     m_dp: F<S>,
+    spring: SpringLanes<S>,
+    further: Option<FurtherLanes<S>>,
+}
+
+/// The linear spring at the top, and what else is constant there.
+#[derive(Clone, Copy)]
+struct SpringLanes<S: Simd> {
     stiffness: F<S>,
     offset: F<S>,
-    further: Option<FurtherLanes<S>>,
+}
+
+impl<S: Simd> SpringLanes<S> {
+    #[inline(always)]
+    fn new(simd: S, m: [&Motion; LANES]) -> Self {
+        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
+        Self { stiffness: lanes(|m| LaneLaws::of(m).stiffness), offset: lanes(|m| LaneLaws::of(m).offset) }
+    }
+
+    /// As [`Laws::spring_force_n`] of a linear spring.
+    #[inline(always)]
+    fn force_n(&self, x_c: F<S>) -> F<S> {
+        fused(-self.stiffness, x_c, self.offset)
+    }
+}
+
+/// The laws of walls on beds side by side.
+pub(crate) struct LawLanes<S: Simd> {
+    spring: SpringLanes<S>,
+    further: FurtherLanes<S>,
+}
+
+impl<S: Simd> LawLanes<S> {
+    #[inline(always)]
+    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
+        Self { spring: SpringLanes::new(simd, m), further: FurtherLanes::new(simd, m) }
+    }
+}
+
+impl<S: Simd> Acting<F<S>> for LawLanes<S> {
+    #[inline(always)]
+    fn spring_force_n(&self, x_c_m: F<S>) -> F<S> {
+        self.further.spring_force_n(&self.spring, x_c_m)
+    }
+
+    #[inline(always)]
+    fn damping_force_n(&self, _: F<S>, v_c_m_s: F<S>) -> F<S> {
+        self.further.damping_force_n(v_c_m_s)
+    }
+
+    #[inline(always)]
+    fn joint_moments_n_m(&self, _: [F<S>; 2], omega: [F<S>; 2]) -> [F<S>; 2] {
+        self.further.joint_moments_n_m(omega)
+    }
 }
 
 /// Laws beyond a linear spring: a cubic one, dampers, drag. A lane without them keeps its sums as they are.
@@ -141,8 +202,15 @@ impl Motion {
             Lanes::WhileSliding => !self.held,
             Lanes::Unknown => false,
         };
-        let as_one = self.freedom == Freedom::Monolithic;
-        known.then(|| LaneKind { as_one, further: self.damped || self.laws.cubic_n_per_m3 != 0.0 })
+        if !known || self.freedom == Freedom::None {
+            return None;
+        }
+        let further = self.damped || self.laws.cubic_n_per_m3 != 0.0;
+        Some(match self.freedom {
+            freedom if self.is_bedded() => LaneKind::Bedded(freedom),
+            Freedom::Monolithic => LaneKind::AsOne { further },
+            _ => LaneKind::Apart { further },
+        })
     }
 }
 
@@ -191,7 +259,7 @@ fn rotated<S: Simd>([x, y]: [F<S>; 2], sin: F<S>, cos: F<S>) -> [F<S>; 2] {
 }
 
 #[inline(always)]
-fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
+pub(super) fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
     if theta.abs().simd_gt(FRAC_PI_4).any_true() {
         return library_sin_cos(theta);
     }
@@ -235,6 +303,13 @@ impl<S: Simd> FurtherLanes<S> {
             at_crack: lanes(|m| LaneLaws::of(m).joint_damping[1]),
             damped: lanes(|m| f64::from(u8::from(m.damped))).simd_eq(1.0),
         }
+    }
+
+    /// As [`Laws::spring_force_n`].
+    #[inline(always)]
+    fn spring_force_n(&self, spring: &SpringLanes<S>, x_c: F<S>) -> F<S> {
+        let secant = fused(self.cubic * x_c, x_c, spring.stiffness);
+        self.linear.select(spring.force_n(x_c), fused(-secant, x_c, spring.offset))
     }
 
     /// As [`Laws::damping_force_n`].
@@ -285,8 +360,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
             upper_mass: lanes(|m| m.upper_mass),
             lower_inertia: lanes(|m| m.lower_inertia),
             m_dp: lanes(|m| LaneLaws::of(m).m_dp),
-            stiffness: lanes(|m| LaneLaws::of(m).stiffness),
-            offset: lanes(|m| LaneLaws::of(m).offset),
+            spring: SpringLanes::new(simd, m),
             further: if FURTHER { Some(FurtherLanes::new(simd, m)) } else { None },
         }
     }
@@ -308,10 +382,10 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     /// As [`Laws::spring_force_n`].
     #[inline(always)]
     fn spring_force_n(&self, x_c: F<S>) -> F<S> {
-        let linear = fused(-self.stiffness, x_c, self.offset);
-        let Some(further) = &self.further else { return linear };
-        let secant = fused(further.cubic * x_c, x_c, self.stiffness);
-        further.linear.select(linear, fused(-secant, x_c, self.offset))
+        match &self.further {
+            Some(further) => further.spring_force_n(&self.spring, x_c),
+            None => self.spring.force_n(x_c),
+        }
     }
 
     /// As [`Motion::monolithic_rate`]: θ'' and the powers.
@@ -473,6 +547,17 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
 }
 
 impl<S: Simd> ReactionLanes<S> {
+    /// Those of walls that nothing holds at the top.
+    #[inline(always)]
+    pub fn of(reactions: &Reactions<F<S>>) -> Self {
+        let JointForces { ground, crack } = reactions.forces;
+        Self {
+            ground: [ground.shear, ground.normal, ground.moment],
+            crack: [crack.shear, crack.normal, crack.moment],
+            top: [reactions.top_displacement_m, reactions.top_velocity_m_s, reactions.top_acceleration_m_s2],
+        }
+    }
+
     /// That of one lane.
     #[inline(always)]
     pub fn unpacked(&self) -> [Reactions; LANES] {

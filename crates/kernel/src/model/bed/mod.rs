@@ -11,9 +11,11 @@
 //! | loss | the bed's damper, and at crossings the share of the sharp edge's impact that the bed lets through | soft beds have no impacts, stiff beds have those of sharp edges |
 
 mod crossing;
+mod lanes;
 mod law;
 mod motion;
 mod roll;
 
+pub(crate) use lanes::JointLanes;
 pub use law::Bed;
-pub(crate) use motion::{BeddedMotion, BeddedRate};
+pub(crate) use motion::{Acting, BeddedMotion, BeddedRate};

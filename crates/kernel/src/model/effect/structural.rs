@@ -288,7 +288,7 @@ pub(super) static COMPLIANT_JOINT: EffectEntry = EffectEntry {
     name: "compliant_joint",
     place: Place::Joint,
     role: Role::Bed,
-    lanes: Lanes::Unknown,
+    lanes: Lanes::Known,
     choice: Some(EffectChoice {
         key: "joint",
         // In the order of [`super::JOINTS`], and both.
