@@ -13,6 +13,7 @@ mod formula;
 mod geometry;
 mod impact;
 mod joint_forces;
+mod lane_laws;
 mod laws;
 mod mass_matrix;
 mod motion;
@@ -37,15 +38,14 @@ pub use geometry::Pair;
 pub use impact::Impact;
 pub(crate) use joint_forces::Reactions;
 pub use joint_forces::{JointForce, JointForces};
+pub(crate) use lane_laws::{LaneKind, LawLanes};
 pub use motion::MotionRate;
 pub(crate) use motion::{Configuration, Motion, RatePair};
 pub(crate) use regime::Kink;
 pub use regime::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
-pub(crate) use side_by_side::{
-    ConfigurationLanes, LANES, LaneKind, LawLanes, Motions, RateLanes, ReactionLanes, lanes,
-};
+pub(crate) use side_by_side::{ConfigurationLanes, LANES, Motions, RateLanes, ReactionLanes, lanes};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
 

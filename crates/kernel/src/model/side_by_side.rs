@@ -2,7 +2,8 @@
 //!
 //! The same sums in the same order as in [`super::motion`] and [`super::joint_forces`], lane by lane. A wall
 //! moves the same to the bit alone and beside others. Only for walls whose effects the lanes know, as the
-//! catalogue says; the others move alone.
+//! catalogue says; the others move alone. The equations of walls on beds are written once for both
+//! ([`super::bed`], [`super::number`]).
 //!
 //! What works on lanes is `#[inline(always)]`, and closures are avoided. Only so does all of it become part
 //! of the one function compiled for the vector instructions of a processor.
@@ -11,10 +12,8 @@ use std::f64::consts::FRAC_PI_4;
 
 use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
-use super::bed::Acting;
-use super::effect::Lanes;
 use super::joint_forces::{JointForce, JointForces, Reactions};
-use super::laws::Laws;
+use super::lane_laws::{FurtherLanes, LaneLaws, SpringLanes};
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
 use super::vector::{COS, SIN, sin_cos};
@@ -29,42 +28,6 @@ type F<S> = f64x4<S>;
 #[inline(always)]
 pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> F<S> {
     F::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
-}
-
-/// What motions have in common that may step side by side.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LaneKind {
-    /// They turn as one on sharp edges; perhaps with further laws than a linear spring.
-    AsOne { further: bool },
-    /// Their bodies turn apart on sharp edges; perhaps with further laws than a linear spring.
-    Apart { further: bool },
-    /// They stand on beds, and these rotations are free.
-    Bedded(Freedom),
-}
-
-impl LaneKind {
-    /// All kinds.
-    pub const ALL: [Self; 7] = [
-        Self::AsOne { further: false },
-        Self::Apart { further: false },
-        Self::AsOne { further: true },
-        Self::Apart { further: true },
-        Self::Bedded(Freedom::Monolithic),
-        Self::Bedded(Freedom::Upper),
-        Self::Bedded(Freedom::Both),
-    ];
-
-    /// Position among all kinds.
-    #[inline]
-    pub fn index(self) -> usize {
-        match self {
-            Self::AsOne { further } => 2 * usize::from(further),
-            Self::Apart { further } => 1 + 2 * usize::from(further),
-            Self::Bedded(Freedom::None | Freedom::Monolithic) => 4,
-            Self::Bedded(Freedom::Upper) => 5,
-            Self::Bedded(Freedom::Both) => 6,
-        }
-    }
 }
 
 /// The motions of several contact states side by side, all of one [`LaneKind`].
@@ -88,68 +51,6 @@ pub(crate) struct Motions<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
     m_dp: F<S>,
     spring: SpringLanes<S>,
     further: Option<FurtherLanes<S>>,
-}
-
-/// The linear spring at the top, and what else is constant there.
-#[derive(Clone, Copy)]
-struct SpringLanes<S: Simd> {
-    stiffness: F<S>,
-    offset: F<S>,
-}
-
-impl<S: Simd> SpringLanes<S> {
-    #[inline(always)]
-    fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
-        Self { stiffness: lanes(|m| LaneLaws::of(m).stiffness), offset: lanes(|m| LaneLaws::of(m).offset) }
-    }
-
-    /// As [`Laws::spring_force_n`] of a linear spring.
-    #[inline(always)]
-    fn force_n(&self, x_c: F<S>) -> F<S> {
-        fused(-self.stiffness, x_c, self.offset)
-    }
-}
-
-/// The laws of walls on beds side by side.
-pub(crate) struct LawLanes<S: Simd> {
-    spring: SpringLanes<S>,
-    further: FurtherLanes<S>,
-}
-
-impl<S: Simd> LawLanes<S> {
-    #[inline(always)]
-    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        Self { spring: SpringLanes::new(simd, m), further: FurtherLanes::new(simd, m) }
-    }
-}
-
-impl<S: Simd> Acting<F<S>> for LawLanes<S> {
-    #[inline(always)]
-    fn spring_force_n(&self, x_c_m: F<S>) -> F<S> {
-        self.further.spring_force_n(&self.spring, x_c_m)
-    }
-
-    #[inline(always)]
-    fn damping_force_n(&self, _: F<S>, v_c_m_s: F<S>) -> F<S> {
-        self.further.damping_force_n(v_c_m_s)
-    }
-
-    #[inline(always)]
-    fn joint_moments_n_m(&self, _: [F<S>; 2], omega: [F<S>; 2]) -> [F<S>; 2] {
-        self.further.joint_moments_n_m(omega)
-    }
-}
-
-/// Laws beyond a linear spring: a cubic one, dampers, drag. A lane without them keeps its sums as they are.
-struct FurtherLanes<S: Simd> {
-    cubic: F<S>,
-    linear: mask64x4<S>,
-    viscous: F<S>,
-    drag: F<S>,
-    at_ground: F<S>,
-    at_crack: F<S>,
-    damped: mask64x4<S>,
 }
 
 /// Arms and static moments turned by the rotations.
@@ -193,60 +94,6 @@ pub(crate) struct ReactionLanes<S: Simd> {
     top: [F<S>; 3],
 }
 
-impl Motion {
-    /// The kind of motions this one may go side by side with; `None` where it moves alone.
-    #[inline]
-    pub fn side_by_side(&self) -> Option<LaneKind> {
-        let known = match self.laws.lanes {
-            Lanes::Known => true,
-            Lanes::WhileSliding => !self.held,
-            Lanes::Unknown => false,
-        };
-        if !known || self.freedom == Freedom::None {
-            return None;
-        }
-        let further = self.damped || self.laws.cubic_n_per_m3 != 0.0;
-        Some(match self.freedom {
-            freedom if self.is_bedded() => LaneKind::Bedded(freedom),
-            Freedom::Monolithic => LaneKind::AsOne { further },
-            _ => LaneKind::Apart { further },
-        })
-    }
-}
-
-/// The laws of which the lanes do the sums.
-#[derive(Clone, Copy)]
-struct LaneLaws {
-    m_dp: f64,
-    stiffness: f64,
-    offset: f64,
-    cubic: f64,
-    viscous: f64,
-    drag: f64,
-    joint_damping: [f64; 2],
-}
-
-impl LaneLaws {
-    /// Every law by its name, so that a new one does not compile here at first. Either the lanes do its sums,
-    /// or the catalogue says of its effect that they do not.
-    #[inline(always)]
-    fn of(motion: &Motion) -> Self {
-        let Laws {
-            carriage_mass_kg: m_dp,
-            stiffness_n_per_m: stiffness,
-            spring_offset_n: offset,
-            cubic_n_per_m3: cubic,
-            viscous_n_s_per_m: viscous,
-            drag_n: drag,
-            joint_damping_n_m_s: joint_damping,
-            // Energy, which a step does not need.
-            stored_offset_j: _,
-            lanes: _,
-        } = motion.laws;
-        Self { m_dp, stiffness, offset, cubic, viscous, drag, joint_damping }
-    }
-}
-
 /// As [`super::vector::Vector::moment_of`].
 #[inline(always)]
 fn moment<S: Simd>(arm: [F<S>; 2], force: [F<S>; 2]) -> F<S> {
@@ -287,54 +134,6 @@ fn library_sin_cos<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
     let simd = theta.simd;
     let pairs = <[f64; LANES]>::from(theta).map(sin_cos);
     (lanes(simd, |i| pairs[i].0), lanes(simd, |i| pairs[i].1))
-}
-
-impl<S: Simd> FurtherLanes<S> {
-    #[inline(always)]
-    fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
-        let cubic = lanes(|m| LaneLaws::of(m).cubic);
-        Self {
-            cubic,
-            linear: cubic.simd_eq(0.0),
-            viscous: lanes(|m| LaneLaws::of(m).viscous),
-            drag: lanes(|m| LaneLaws::of(m).drag),
-            at_ground: lanes(|m| LaneLaws::of(m).joint_damping[0]),
-            at_crack: lanes(|m| LaneLaws::of(m).joint_damping[1]),
-            damped: lanes(|m| f64::from(u8::from(m.damped))).simd_eq(1.0),
-        }
-    }
-
-    /// As [`Laws::spring_force_n`].
-    #[inline(always)]
-    fn spring_force_n(&self, spring: &SpringLanes<S>, x_c: F<S>) -> F<S> {
-        let secant = fused(self.cubic * x_c, x_c, spring.stiffness);
-        self.linear.select(spring.force_n(x_c), fused(-secant, x_c, spring.offset))
-    }
-
-    /// As [`Laws::damping_force_n`].
-    #[inline(always)]
-    fn damping_force_n(&self, v_c: F<S>) -> F<S> {
-        fused(-self.viscous, v_c, self.drag)
-    }
-
-    /// As [`Laws::joint_moments_n_m`].
-    #[inline(always)]
-    fn joint_moments_n_m(&self, [w1, w2]: [F<S>; 2]) -> [F<S>; 2] {
-        let at_crack = self.at_crack * (w2 - w1);
-        [fused(-self.at_ground, w1, at_crack), -at_crack]
-    }
-
-    /// A number with a further one where a lane is damped, as it is where not.
-    #[inline(always)]
-    fn with(&self, number: F<S>, further: F<S>) -> F<S> {
-        self.damped.select(number + further, number)
-    }
-
-    #[inline(always)]
-    fn where_damped(&self, number: F<S>) -> F<S> {
-        self.damped.select(number, F::splat(number.simd, 0.0))
-    }
 }
 
 impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHER> {

@@ -82,6 +82,10 @@ fn changes_of(
 fn share_of(change: &BedChange, path: &Bernstein<6>, size: f64) -> Option<f64> {
     let rounding = ROUNDINGS * f64::EPSILON * size.max(change.limit_rad.abs());
     let mut left = path.below(change.limit_rad).times(change.sign);
+    // Most steps are far from every limit, and their coefficients prove it.
+    if left.0.iter().all(|c| *c > rounding) {
+        return None;
+    }
     let [start, next, ..] = left.0;
     if start < 0.0 && next > start {
         // Beyond the limit by what the change before was located less well than to roundings, and on its way back.

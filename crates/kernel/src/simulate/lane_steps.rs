@@ -157,6 +157,19 @@ impl<S: Simd> BeddedShaken<S> {
             reactions: None,
         })
     }
+
+    /// A function of its own: the stages of a step, each with all of it, would not fit the cache of instructions.
+    #[inline(always)]
+    fn rate_at(&self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
+        after_s.simd.vectorize(
+            #[inline(always)]
+            || {
+                let [x, y] = self.ground.at(after_s);
+                let balance = self.equations.balance(&self.laws, false, [theta, omega], Vector { x, y });
+                RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
+            },
+        )
+    }
 }
 
 impl<S: Simd> Shaken<S> for BeddedShaken<S> {
@@ -174,9 +187,7 @@ impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<S> {
         theta: TwoRotations<S>,
         omega: TwoRotations<S>,
     ) -> Rate<TwoRotations<S>> {
-        let [x, y] = self.ground.at(after_s);
-        let balance = self.equations.balance(&self.laws, false, [theta.0, omega.0], Vector { x, y });
-        as_rate(RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w })
+        as_rate(self.rate_at(after_s, theta.0, omega.0))
     }
 
     #[inline(always)]
