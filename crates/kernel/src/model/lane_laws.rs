@@ -211,3 +211,41 @@ impl<S: Simd> FurtherLanes<S> {
         self.damped.select(number, F::splat(number.simd, 0.0))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Contact, EffectKind, Pivot, RockingWall, Wall, WallParameters};
+
+    fn cracked(effects: Vec<crate::model::Effect>) -> RockingWall {
+        let strip = WallParameters::strip(0.3, 4.0, 1800.0);
+        let crack_height_m = Some(2.2);
+        let stiffness_n_per_m = 40e3;
+        let parameters = WallParameters { crack_height_m, stiffness_n_per_m, effects, ..strip };
+        RockingWall::new(&Wall::new(parameters).expect("a wall that can exist"))
+    }
+
+    #[test]
+    fn analytic_walls_with_every_effect_of_the_catalogue_go_side_by_side() {
+        let open = Contact { ground: Pivot::Right, crack: Pivot::Left };
+        for variant in EffectKind::ALL.iter().flat_map(|kind| kind.variants()) {
+            let mut wall = cracked(vec![variant.example()]);
+            // A top that friction holds has a force of its own.
+            let held = wall.is_held();
+            assert_eq!(wall.motion(open).side_by_side().is_none(), held, "{variant:?}");
+            let mut regime = wall.regime();
+            regime.slides = crate::model::Side::Positive;
+            wall.enter_regime(regime);
+            let kind = wall.motion(open).side_by_side();
+            let on_bed = kind == Some(LaneKind::Bedded(Freedom::Both));
+            assert!(kind.is_some() && on_bed == wall.wall().gives(), "{variant:?}: {kind:?}");
+        }
+    }
+
+    #[test]
+    fn analytic_kinds_have_places_of_their_own() {
+        for (place, kind) in LaneKind::ALL.into_iter().enumerate() {
+            assert_eq!(kind.index(), place, "{kind:?}");
+        }
+    }
+}

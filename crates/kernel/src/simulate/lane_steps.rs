@@ -73,6 +73,14 @@ impl<S: Simd> Values for TwoRotations<S> {
     }
 }
 
+/// Calls what every stage of a step does as a function of its own, compiled for the same instructions. Rare laws
+/// are longer than ones that are everywhere: six times over they would fill the cache of instructions, and the
+/// compiler's time.
+#[inline(always)]
+fn apart<S: Simd, R>(simd: S, stage: impl FnOnce() -> R) -> R {
+    simd.vectorize(stage)
+}
+
 /// The ground acceleration under every run.
 struct GroundLanes<S: Simd> {
     from: [F<S>; 2],
@@ -158,17 +166,11 @@ impl<S: Simd> BeddedShaken<S> {
         })
     }
 
-    /// A function of its own: the stages of a step, each with all of it, would not fit the cache of instructions.
     #[inline(always)]
     fn rate_at(&self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
-        after_s.simd.vectorize(
-            #[inline(always)]
-            || {
-                let [x, y] = self.ground.at(after_s);
-                let balance = self.equations.balance(&self.laws, false, [theta, omega], Vector { x, y });
-                RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
-            },
-        )
+        let [x, y] = self.ground.at(after_s);
+        let balance = self.equations.balance(&self.laws, false, [theta, omega], Vector { x, y });
+        RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
     }
 }
 
@@ -187,7 +189,11 @@ impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<S> {
         theta: TwoRotations<S>,
         omega: TwoRotations<S>,
     ) -> Rate<TwoRotations<S>> {
-        as_rate(self.rate_at(after_s, theta.0, omega.0))
+        as_rate(apart(
+            after_s.simd,
+            #[inline(always)]
+            || self.rate_at(after_s, theta.0, omega.0),
+        ))
     }
 
     #[inline(always)]
@@ -222,6 +228,21 @@ impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true, false> {
     }
 }
 
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<S, AS_ONE, FURTHER> {
+    #[inline(always)]
+    fn rate_at(&mut self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
+        let ground = self.ground.at(after_s);
+        if AS_ONE {
+            let (theta_dd, powers_w) = self.motions.monolithic_rate(theta[0], omega[0], ground);
+            return RateLanes { theta_dd: [theta_dd; 2], powers_w };
+        }
+        let turned = self.motions.configuration(theta);
+        let rate = self.motions.rate(&turned, omega, ground);
+        self.configuration = Some(turned);
+        rate
+    }
+}
+
 /// Both rotations, equal where walls turn as one, and both powers.
 impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
     for ShakenMotion<S, AS_ONE, FURTHER>
@@ -233,15 +254,14 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
         theta: TwoRotations<S>,
         omega: TwoRotations<S>,
     ) -> Rate<TwoRotations<S>> {
-        let ground = self.ground.at(after_s);
-        if AS_ONE {
-            let (theta_dd, powers_w) = self.motions.monolithic_rate(theta.0[0], omega.0[0], ground);
-            return as_rate(RateLanes { theta_dd: [theta_dd; 2], powers_w });
+        if FURTHER {
+            return as_rate(apart(
+                after_s.simd,
+                #[inline(always)]
+                || self.rate_at(after_s, theta.0, omega.0),
+            ));
         }
-        let turned = self.motions.configuration(theta.0);
-        let rate = self.motions.rate(&turned, omega.0, ground);
-        self.configuration = Some(turned);
-        as_rate(rate)
+        as_rate(self.rate_at(after_s, theta.0, omega.0))
     }
 
     #[inline(always)]
