@@ -8,6 +8,7 @@ BASE_TREE := target/base
 
 bench-against: ## walls a second by this kernel and by that of another commit, in turns: BASE=COMMIT
 	@test -n "$(BASE)" || { echo "make bench-against: which commit? BASE=COMMIT"; exit 2; }
+	git worktree prune
 	@test -d $(BASE_TREE) || git worktree add --quiet --detach $(BASE_TREE) $(BASE)
 	git -C $(BASE_TREE) checkout --quiet --force --detach $(BASE)
 	cp examples/walls_a_second.rs $(BASE_TREE)/examples/
