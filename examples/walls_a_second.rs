@@ -16,8 +16,11 @@ mod walls;
 /// Façades of each configuration, fewer on beds, whose runs take ten times as many evaluations.
 const DRAWS: [u64; 2] = [32, 4];
 
-/// What acts on the walls beside the model of the paper, and how many are drawn of them.
-const KINDS: [(&str, Option<(&str, &[f64])>, u64); 7] = [
+/// An effect of the catalogue and its parameters; `None`: the model of the paper alone.
+type Law = Option<(&'static str, &'static [f64])>;
+
+/// What acts on the walls, and how many are drawn of them.
+const KINDS: [(&str, Law, u64); 7] = [
     ("sharp edges", None, DRAWS[0]),
     ("damper at the top", Some(("viscous_damping", &[3000.0])), DRAWS[0]),
     ("damper in the crack", Some(("joint_damping.crack", &[200.0])), DRAWS[0]),
