@@ -14,7 +14,7 @@ use mrbd_kernel::simulate::{Accuracy, Response, Shaking, Simulator, simulate, si
 mod walls;
 
 /// Façades of each configuration, fewer on beds, whose runs take ten times as many evaluations.
-const DRAWS: [u64; 2] = [32, 4];
+const DRAWS: [u64; 2] = [32, 12];
 
 /// An effect of the catalogue and its parameters; `None`: the model of the paper alone.
 type Law = Option<(&'static str, &'static [f64])>;
