@@ -12,6 +12,7 @@ export MRBD_COMMIT := $(shell git describe --always --dirty --exclude '*' 2>/dev
 include make/records.mk
 include make/examples.mk
 include make/openquake.mk
+include make/against.mk
 include make/peers.mk
 include make/python.mk
 include make/slurm.mk

@@ -4,12 +4,13 @@
 
 use std::collections::HashSet;
 
+use fearless_simd::{Level, Simd};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{
     Effect, EffectEntry, EffectKind, EffectVariant, Place, Restitution, Role, Wall, WallParameters,
 };
 use mrbd_kernel::simulate::{
-    Accuracy, History, Response, Shaking, Simulator, simulate_observed, simulate_side_by_side,
+    Accuracy, History, Response, Shaking, Simulator, simulate_observed, simulate_side_by_side_at,
 };
 
 const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
@@ -68,13 +69,18 @@ fn alone(effects: &[Effect]) -> (Response, History) {
 
 /// The runs of walls with these effects, beside each other.
 fn side_by_side(walls: &[Vec<Effect>]) -> Vec<Response> {
+    side_by_side_at(Level::new(), walls)
+}
+
+/// The same by given vector instructions.
+fn side_by_side_at(level: Level, walls: &[Vec<Effect>]) -> Vec<Response> {
     let mut waiting = walls.iter().enumerate();
     let mut next = || {
         let (index, effects) = waiting.next()?;
         Some((index, Simulator::new(&table_wall(effects), &shaking(), ACCURACY).prepared()))
     };
     let mut responses = vec![None; walls.len()];
-    simulate_side_by_side(&mut next, &mut |index, response| responses[index] = Some(response));
+    simulate_side_by_side_at(level, &mut next, &mut |index, response| responses[index] = Some(response));
     responses.into_iter().map(|response| response.expect("every run ends")).collect()
 }
 
@@ -117,9 +123,22 @@ fn analytic_every_effect_moves_the_wall_side_by_side_as_alone_to_the_bit() {
     walls.push(
         EffectKind::ALL.iter().filter_map(|kind| kind.variants().next()).map(|v| v.example()).collect(),
     );
-    for (effects, response) in walls.iter().zip(side_by_side(&walls)) {
-        assert_eq!(bits(&response), bits(&alone(effects).0), "{effects:?}");
+    let alone: Vec<String> = walls.iter().map(|effects| bits(&alone(effects).0)).collect();
+    for level in levels() {
+        for ((effects, response), alone) in walls.iter().zip(side_by_side_at(level, &walls)).zip(&alone) {
+            assert_eq!(&bits(&response), alone, "{effects:?}, {level:?}");
+        }
     }
+}
+
+/// The best vector instructions of this processor, and the least that every one of its kind has.
+fn levels() -> Vec<Level> {
+    let best = Level::new();
+    #[cfg(target_arch = "x86_64")]
+    let least = best.as_sse2().map(Simd::level);
+    #[cfg(not(target_arch = "x86_64"))]
+    let least = Some(Level::baseline());
+    least.into_iter().chain([best]).collect()
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Where everything is: arms between corners, centres of mass and the top, turned by the rotations.
 
 use super::contact::Contact;
+use super::number::Number;
 use super::vector::{Vector, sin_cos};
 use super::wall::Wall;
 
@@ -44,16 +45,16 @@ impl Arms {
 
 /// The arms turned by the rotations: r_1, r_Q, r_2, r_C of model section 3, in the world's axes, m.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct TurnedArms {
-    pub o_x: f64,
-    pub r_1: Vector,
-    pub r_q: Vector,
-    pub r_2: Vector,
-    pub r_c: Vector,
+pub(crate) struct TurnedArms<N = f64> {
+    pub o_x: N,
+    pub r_1: Vector<N>,
+    pub r_q: Vector<N>,
+    pub r_2: Vector<N>,
+    pub r_c: Vector<N>,
     /// Q seen from the middle of the crack.
-    pub q_from_middle: Vector,
+    pub q_from_middle: Vector<N>,
     /// Sine and cosine of θ_1.
-    pub turn_1: (f64, f64),
+    pub turn_1: (N, N),
 }
 
 /// Sines and cosines of both rotations.
@@ -61,6 +62,7 @@ pub(crate) struct TurnedArms {
 pub(crate) struct Rotations(pub [(f64, f64); 2]);
 
 impl Rotations {
+    #[inline(always)]
     pub fn new(theta: Pair) -> Self {
         Self(theta.map(sin_cos))
     }
@@ -72,6 +74,7 @@ impl Rotations {
 }
 
 impl TurnedArms {
+    #[inline(always)]
     pub fn new(arms: &Arms, Rotations([turn_1, turn_2]): Rotations) -> Self {
         Self {
             o_x: arms.o_x,
@@ -83,9 +86,12 @@ impl TurnedArms {
             turn_1,
         }
     }
+}
 
+impl<N: Number> TurnedArms<N> {
     /// Velocities J θ' of the mass points.
-    pub fn velocities(&self, omega: Pair) -> PointVelocities {
+    #[inline(always)]
+    pub fn velocities(&self, omega: [N; 2]) -> PointVelocities<N> {
         let q = self.r_q.perpendicular() * omega[0];
         PointVelocities {
             g1: self.r_1.perpendicular() * omega[0],
@@ -98,14 +104,15 @@ impl TurnedArms {
 
 /// Velocities of the mass points, or their jumps: (x1, y1, θ1, x2, y2, θ2, xC, yC) of model section 3.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct PointVelocities {
-    pub g1: Vector,
-    pub g2: Vector,
-    pub c: Vector,
-    pub theta: Pair,
+pub(crate) struct PointVelocities<N = f64> {
+    pub g1: Vector<N>,
+    pub g2: Vector<N>,
+    pub c: Vector<N>,
+    pub theta: [N; 2],
 }
 
-impl PointVelocities {
+impl<N: Number> PointVelocities<N> {
+    #[inline(always)]
     pub fn minus(self, other: Self) -> Self {
         Self {
             g1: self.g1 - other.g1,

@@ -4,6 +4,8 @@
 //! onto the velocities that the new contact state allows. The coefficient of the change of pattern then
 //! scales them.
 
+use fearless_simd::dispatch;
+
 use super::MechanicsError;
 use super::Table2Change;
 use super::contact::{Contact, Pivot, Touching};
@@ -65,6 +67,16 @@ impl RockingWall {
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
+        dispatch!(self.motion(from).level, _ => self.plastic_impact(from, touching, state))
+    }
+
+    #[inline(always)]
+    fn plastic_impact(
+        &self,
+        from: Contact,
+        touching: Touching,
+        state: &State,
+    ) -> Result<Impact, MechanicsError> {
         let collision = self.collision(from, touching, state);
         let (mut count, mut plastic) = (0, None);
         self.admissible(from, &collision, |to, omega| {
@@ -99,6 +111,7 @@ impl RockingWall {
         outcomes
     }
 
+    #[inline(always)]
     fn collision(&self, from: Contact, touching: Touching, state: &State) -> Collision {
         let rotations = Rotations::new(state.theta);
         let v_before = self.turned_arms(from, rotations).velocities(state.omega);
@@ -110,7 +123,7 @@ impl RockingWall {
     }
 
     /// Tells the admissible contact states, with the velocities in them.
-    #[inline]
+    #[inline(always)]
     fn admissible(&self, from: Contact, collision: &Collision, mut report: impl FnMut(Contact, Pair)) {
         let (mut any, mut tie) = (false, None::<(Contact, Pair)>);
         for to in self.states_touching(from, collision.touching) {
@@ -130,6 +143,7 @@ impl RockingWall {
 
     /// By how much a contact state is admissible, and the velocities in it. The margin is the smallest corner
     /// impulse of closed joints or separation of opened ones. It is taken over the momentum or speed before.
+    #[inline(always)]
     fn margin(&self, to: Contact, collision: &Collision) -> (f64, Pair) {
         let arms = self.turned_arms(to, collision.rotations);
         let omega = self.projected_onto(to, &arms, collision);
@@ -146,17 +160,20 @@ impl RockingWall {
     }
 
     /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
+    #[inline(always)]
     fn projected_onto(&self, to: Contact, arms: &TurnedArms, collision: &Collision) -> Pair {
         let motion = self.motion(to);
         let momenta = self.masses.momenta(arms, &collision.v_before);
         motion.mass_matrix(collision.rotations).solve(motion.freedom, momenta)
     }
 
+    #[inline(always)]
     fn projected(&self, to: Contact, collision: &Collision) -> Pair {
         self.projected_onto(to, &self.turned_arms(to, collision.rotations), collision)
     }
 
     /// Smallest impulse at the corners of the closed joints over the momentum before; infinite where all are open.
+    #[inline(always)]
     fn smallest_impulse(&self, to: Contact, arms: &TurnedArms, omega: Pair, collision: &Collision) -> f64 {
         if to.ground.is_open() && to.crack.is_open() {
             return f64::INFINITY;
@@ -171,6 +188,7 @@ impl RockingWall {
     }
 
     /// Height over the narrowest joint.
+    #[inline(always)]
     fn slimness(&self) -> f64 {
         let p = self.wall().parameters();
         let narrowest = self.joints().map(|joint| self.width_m(joint)).fold(f64::INFINITY, f64::min);
@@ -179,6 +197,7 @@ impl RockingWall {
 
     /// Closes touching joints that would open slower than the capture velocity. Each time it projects once
     /// more from before the impact.
+    #[inline(always)]
     fn captured(&self, plastic: Contact, projected: Pair, collision: &Collision) -> (Contact, Pair) {
         let (mut contact, mut omega) = (plastic, projected);
         loop {
@@ -195,6 +214,7 @@ impl RockingWall {
     }
 
     /// Scales the projected velocities by the coefficient of the change.
+    #[inline(always)]
     fn scaled(
         &self,
         change: Option<Table2Change>,

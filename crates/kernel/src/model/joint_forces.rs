@@ -9,6 +9,7 @@ use wide::f64x2;
 use super::contact::Joint;
 use super::geometry::{Pair, PointVelocities, TurnedArms};
 use super::motion::{Configuration, Equations, Motion, MotionRate, RatePair};
+use super::number::Number;
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 use crate::fused::{fused, fused_pair};
@@ -19,17 +20,18 @@ use crate::fused::{fused, fused_pair};
 /// `normal` and `shear` are taken in the axes of the joint, which turns with the body below it. Only so does
 /// a corner force vanish exactly when the joint starts to open about the other corner.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct JointForce {
+pub struct JointForce<N = f64> {
     /// Along the joint, towards +x.
-    pub shear: f64,
+    pub shear: N,
     /// Across the joint, compression positive.
-    pub normal: f64,
+    pub normal: N,
     /// Clockwise moment about the middle of the joint.
-    pub moment: f64,
+    pub moment: N,
 }
 
 impl JointForce {
     /// Forces at the left and right corners of a joint of width b: N/2 ± M_c/b.
+    #[inline]
     pub fn corners(&self, width_m: f64) -> [f64; 2] {
         let half = self.normal / 2.0;
         let lever = self.moment / width_m;
@@ -39,11 +41,11 @@ impl JointForce {
 
 /// Forces through both joints.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct JointForces {
+pub struct JointForces<N = f64> {
     /// Through the ground.
-    pub ground: JointForce,
+    pub ground: JointForce<N>,
     /// Through the crack.
-    pub crack: JointForce,
+    pub crack: JointForce<N>,
 }
 
 impl JointForces {
@@ -57,11 +59,11 @@ impl JointForces {
 
 /// Masses as they enter the balance.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Masses {
-    pub m: [f64; 2],
-    pub i: [f64; 2],
-    pub m_d: f64,
-    pub m_dp: f64,
+pub(crate) struct Masses<N = f64> {
+    pub m: [N; 2],
+    pub i: [N; 2],
+    pub m_d: N,
+    pub m_dp: N,
 }
 
 impl Masses {
@@ -71,13 +73,29 @@ impl Masses {
     }
 
     /// Impulses through the joints that make the mass points' velocities jump so.
+    #[inline(always)]
     pub fn impulses(&self, arms: &TurnedArms, jump: &PointVelocities) -> JointForces {
         self.through_joints(arms, jump, 0.0)
     }
 
+    /// Sum of the masses times the magnitudes of their velocities, N s.
+    #[inline(always)]
+    pub fn momentum_size(&self, v: &PointVelocities) -> f64 {
+        let speed = |v: Vector| v.x.abs() + v.y.abs();
+        self.m[0] * speed(v.g1) + self.m[1] * speed(v.g2) + (self.m_d + self.m_dp) * speed(v.c)
+    }
+}
+
+impl<N: Number> Masses<N> {
     /// Forces through the joints at these accelerations of the mass points, gravity's in them, m/s², beside a
     /// horizontal force at the top, N. Or impulses by jumps of their velocities.
-    pub fn through_joints(&self, arms: &TurnedArms, jump: &PointVelocities, at_top: f64) -> JointForces {
+    #[inline(always)]
+    pub fn through_joints(
+        &self,
+        arms: &TurnedArms<N>,
+        jump: &PointVelocities<N>,
+        at_top: N,
+    ) -> JointForces<N> {
         let p = arms;
         let lower = jump.g1 * self.m[0];
         let upper = jump.g2 * self.m[1];
@@ -89,7 +107,7 @@ impl Masses {
         let through_ground = lower + through_crack;
         let about_o =
             p.r_1.moment_of(lower) + self.i[0] * jump.theta[0] + about_q + p.r_q.moment_of(through_crack);
-        let about_origin = about_o + Vector::new(p.o_x, 0.0).moment_of(through_ground);
+        let about_origin = about_o + Vector::new(p.o_x, p.o_x.constant(0.0)).moment_of(through_ground);
         let in_crack = through_crack.rotated_back(p.turn_1);
         JointForces {
             ground: JointForce { shear: through_ground.x, normal: through_ground.y, moment: about_origin },
@@ -98,19 +116,15 @@ impl Masses {
     }
 
     /// Power of a uniform acceleration on the masses, W: Σ m v · a, of the carriage in x only.
-    pub fn power(&self, v: &PointVelocities, a: Vector) -> f64 {
+    #[inline(always)]
+    pub fn power(&self, v: &PointVelocities<N>, a: Vector<N>) -> N {
         let momentum = v.g1 * self.m[0] + v.g2 * self.m[1] + v.c * self.m_d;
         momentum.dot(a) + self.m_dp * v.c.x * a.x
     }
 
-    /// Sum of the masses times the magnitudes of their velocities, N s.
-    pub fn momentum_size(&self, v: &PointVelocities) -> f64 {
-        let speed = |v: Vector| v.x.abs() + v.y.abs();
-        self.m[0] * speed(v.g1) + self.m[1] * speed(v.g2) + (self.m_d + self.m_dp) * speed(v.c)
-    }
-
     /// Generalised momenta Jᵀ M v in a contact state, for velocities of the mass points before the impact.
-    pub fn momenta(&self, arms: &TurnedArms, v: &PointVelocities) -> [f64; 2] {
+    #[inline(always)]
+    pub fn momenta(&self, arms: &TurnedArms<N>, v: &PointVelocities<N>) -> [N; 2] {
         let p = arms;
         let lower = v.g1 * self.m[0];
         let upper = v.g2 * self.m[1];
@@ -124,14 +138,14 @@ impl Masses {
 
 /// Joint forces and motion of the top at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Reactions {
-    pub forces: JointForces,
-    pub top_displacement_m: f64,
-    pub top_velocity_m_s: f64,
+pub(crate) struct Reactions<N = f64> {
+    pub forces: JointForces<N>,
+    pub top_displacement_m: N,
+    pub top_velocity_m_s: N,
     /// Relative to the ground, m/s².
-    pub top_acceleration_m_s2: f64,
+    pub top_acceleration_m_s2: N,
     /// Force by which friction holds the top in place, N; 0 where it does not.
-    pub holding_n: f64,
+    pub holding_n: N,
 }
 
 impl Motion {
@@ -151,8 +165,7 @@ impl Motion {
     /// The same at a state.
     pub fn rate_and_reactions_at(&self, theta: Pair, omega: Pair, ground: Vector) -> (MotionRate, Reactions) {
         if let Some(bedded) = &self.bedded {
-            let (rate, reactions) =
-                bedded.reactions(&self.laws, &self.formulas, self.held, [theta, omega], None, ground);
+            let (rate, reactions) = bedded.reactions(self, [theta, omega], None, ground);
             return (rate.into(), reactions);
         }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
@@ -164,9 +177,7 @@ impl Motion {
     /// Joint forces and motion of the top at a state with these angular accelerations.
     pub fn reactions(&self, theta: Pair, omega: Pair, theta_dd: Pair, ground: Vector) -> Reactions {
         if let Some(bedded) = &self.bedded {
-            return bedded
-                .reactions(&self.laws, &self.formulas, self.held, [theta, omega], Some(theta_dd), ground)
-                .1;
+            return bedded.reactions(self, [theta, omega], Some(theta_dd), ground).1;
         }
         let [theta, omega, theta_dd] = [theta, omega, theta_dd].map(f64x2::new);
         dispatch!(self.level, _ => {

@@ -46,16 +46,6 @@ impl Laws {
         }
     }
 
-    /// Whether the lanes do all sums of these laws.
-    #[inline]
-    pub fn known_to_lanes(&self) -> bool {
-        match self.lanes {
-            Lanes::Known => true,
-            Lanes::WhileElastic => self.drag_n == 0.0,
-            Lanes::Unknown => false,
-        }
-    }
-
     /// Horizontal force of the springs at the top, N, at a displacement in m.
     #[inline(always)]
     pub fn spring_force_n(&self, x_c_m: f64) -> f64 {

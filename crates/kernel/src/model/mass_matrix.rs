@@ -4,8 +4,8 @@ use super::contact::Contact;
 use super::formula::Slopes;
 use super::geometry::{Pair, Rotations};
 use super::motion::Motion;
+use super::number::Number;
 use super::wall::G_M_S2;
-use crate::fused::fused;
 
 /// Which rotations a contact state leaves free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,31 +33,35 @@ impl Freedom {
 
 /// Symmetric 2 × 2 mass matrix of the two rotations, kg m².
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct MassMatrix {
-    pub m11: f64,
-    pub m12: f64,
-    pub m22: f64,
+pub(crate) struct MassMatrix<N = f64> {
+    pub m11: N,
+    pub m12: N,
+    pub m22: N,
 }
 
-impl MassMatrix {
+impl<N: Number> MassMatrix<N> {
     /// Solves M x = f in the rotations that are free; the others follow or stay.
     #[inline(always)]
-    pub fn solve(&self, freedom: Freedom, f: Pair) -> Pair {
+    pub fn solve(&self, freedom: Freedom, f: [N; 2]) -> [N; 2] {
+        let Self { m11, m12, m22 } = *self;
+        let constant = |value: f64| m11.constant(value);
         match freedom {
-            Freedom::None => [0.0, 0.0],
+            Freedom::None => [constant(0.0); 2],
             Freedom::Monolithic => {
-                let x = (f[0] + f[1]) / (self.m11 + 2.0 * self.m12 + self.m22);
+                let x = (f[0] + f[1]) / (m11 + constant(2.0) * m12 + m22);
                 [x, x]
             }
-            Freedom::Upper => [0.0, f[1] / self.m22],
+            Freedom::Upper => [constant(0.0), f[1] / m22],
             Freedom::Both => {
-                let inverse = 1.0 / fused(-self.m12, self.m12, self.m11 * self.m22);
-                let cross = [-self.m12 * f[1], -self.m12 * f[0]];
-                [fused(self.m22, f[0], cross[0]) * inverse, fused(self.m11, f[1], cross[1]) * inverse]
+                let inverse = constant(1.0) / (-m12).fused(m12, m11 * m22);
+                let cross = [-m12 * f[1], -m12 * f[0]];
+                [m22.fused(f[0], cross[0]) * inverse, m11.fused(f[1], cross[1]) * inverse]
             }
         }
     }
+}
 
+impl MassMatrix {
     fn plus(&self, other: &Self) -> Self {
         Self { m11: self.m11 + other.m11, m12: self.m12 + other.m12, m22: self.m22 + other.m22 }
     }
@@ -81,6 +85,7 @@ impl MassMatrix {
     }
 
     /// Twice the kinetic energy, ωᵀ M ω, J.
+    #[inline(always)]
     pub fn quadratic(&self, omega: Pair) -> f64 {
         self.m11 * omega[0] * omega[0] + 2.0 * self.m12 * omega[0] * omega[1] + self.m22 * omega[1] * omega[1]
     }

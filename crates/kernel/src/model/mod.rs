@@ -13,9 +13,11 @@ mod formula;
 mod geometry;
 mod impact;
 mod joint_forces;
+mod lane_laws;
 mod laws;
 mod mass_matrix;
 mod motion;
+mod number;
 mod regime;
 mod rocking;
 mod side_by_side;
@@ -24,6 +26,7 @@ mod vector;
 mod wall;
 
 pub use bed::Bed;
+pub(crate) use bed::{BeddedMotion, JointLanes};
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub(crate) use effect::GroundChange;
 pub use effect::{
@@ -35,13 +38,14 @@ pub use geometry::Pair;
 pub use impact::Impact;
 pub(crate) use joint_forces::Reactions;
 pub use joint_forces::{JointForce, JointForces};
+pub(crate) use lane_laws::{LaneKind, LawLanes};
 pub use motion::MotionRate;
 pub(crate) use motion::{Configuration, Motion, RatePair};
 pub(crate) use regime::Kink;
 pub use regime::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
-pub(crate) use side_by_side::{ConfigurationLanes, LANES, Motions, ReactionLanes, lanes};
+pub(crate) use side_by_side::{ConfigurationLanes, LANES, Motions, RateLanes, ReactionLanes, lanes};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
 

@@ -13,7 +13,7 @@
 use fearless_simd::{Level, dispatch};
 use wide::f64x2;
 
-use super::bed::{BeddedMotion, BeddedRate};
+use super::bed::{Acting, BeddedMotion, BeddedRate};
 use super::contact::Contact;
 use super::formula::FormulaLaws;
 use super::geometry::{Arms, Pair, Rotations};
@@ -225,6 +225,7 @@ impl Motion {
     }
 
     /// Mass matrix Jᵀ M J at these rotations, whether they are free or not.
+    #[inline(always)]
     pub fn mass_matrix(&self, rotations: Rotations) -> MassMatrix {
         if let Some(bedded) = &self.bedded {
             return bedded.mass_matrix(rotations);
@@ -236,7 +237,7 @@ impl Motion {
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
         if let Some(bedded) = &self.bedded {
-            return bedded.rate(&self.laws, &self.formulas, self.held, [theta, omega], ground).into();
+            return bedded.rate(self, [theta, omega], ground).into();
         }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
         dispatch!(self.level, _ => self.rate_at(&self.configuration(theta), omega, ground)).into()
@@ -246,6 +247,12 @@ impl Motion {
     #[inline]
     pub fn is_bedded(&self) -> bool {
         self.bedded.is_some()
+    }
+
+    /// The equations of a wall whose joints give.
+    #[inline]
+    pub fn on_beds(&self) -> Option<&BeddedMotion> {
+        self.bedded.as_deref()
     }
 
     /// The same in a configuration that is known.
@@ -379,6 +386,7 @@ impl Motion {
     }
 
     /// Kinetic energy at a state, J.
+    #[inline(always)]
     pub fn kinetic_energy_j(&self, rotations: Rotations, omega: Pair) -> f64 {
         0.5 * self.mass_matrix(rotations).quadratic(omega)
     }
@@ -392,5 +400,22 @@ impl Motion {
         let t = self.configuration_at(theta);
         let [x_q, x_c] = t.x.to_array();
         (x_q + x_c) + self.o_c
+    }
+}
+
+impl Acting<f64> for Motion {
+    #[inline(always)]
+    fn spring_force_n(&self, x_c_m: f64) -> f64 {
+        self.laws.spring_force_n(x_c_m)
+    }
+
+    #[inline(always)]
+    fn damping_force_n(&self, x_c_m: f64, v_c_m_s: f64) -> f64 {
+        Motion::damping_force_n(self, x_c_m, v_c_m_s)
+    }
+
+    #[inline(always)]
+    fn joint_moments_n_m(&self, theta: Pair, omega: Pair) -> Pair {
+        Motion::joint_moments_n_m(self, || theta, f64x2::new(omega)).to_array()
     }
 }

@@ -92,6 +92,7 @@ impl RockingWall {
         &self.motions[contact.index()]
     }
 
+    #[inline(always)]
     pub(super) fn turned_arms(&self, contact: Contact, rotations: Rotations) -> TurnedArms {
         match &self.motion(contact).bedded {
             Some(bedded) => bedded.turned_arms(rotations),
@@ -234,6 +235,7 @@ impl RockingWall {
         [Joint::Ground, Joint::Crack].into_iter().take(if cracked { 2 } else { 1 })
     }
 
+    #[inline]
     pub(crate) fn width_m(&self, joint: Joint) -> f64 {
         self.wall.width_m[joint as usize]
     }
@@ -283,6 +285,7 @@ impl RockingWall {
     }
 
     /// Every state of the joints that touch, the others as in `contact`; closed before right before left.
+    #[inline]
     pub(super) fn states_touching(
         &self,
         contact: Contact,

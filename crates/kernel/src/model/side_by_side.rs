@@ -2,7 +2,8 @@
 //!
 //! The same sums in the same order as in [`super::motion`] and [`super::joint_forces`], lane by lane. A wall
 //! moves the same to the bit alone and beside others. Only for walls whose effects the lanes know, as the
-//! catalogue says; the others move alone.
+//! catalogue says; the others move alone. The equations of walls on beds are written once for both
+//! ([`super::bed`], [`super::number`]).
 //!
 //! What works on lanes is `#[inline(always)]`, and closures are avoided. Only so does all of it become part
 //! of the one function compiled for the vector instructions of a processor.
@@ -12,7 +13,7 @@ use std::f64::consts::FRAC_PI_4;
 use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
 use super::joint_forces::{JointForce, JointForces, Reactions};
-use super::laws::Laws;
+use super::lane_laws::{FurtherLanes, LaneLaws, SpringLanes};
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
 use super::vector::{COS, SIN, sin_cos};
@@ -29,8 +30,8 @@ pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> F<S> {
     F::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
 }
 
-/// The motions of several contact states side by side: either all turn as one, or all do not.
-pub(crate) struct Motions<S: Simd, const AS_ONE: bool> {
+/// The motions of several contact states side by side, all of one [`LaneKind`].
+pub(crate) struct Motions<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
     upper: mask64x4<S>,
     any_upper: bool,
     o_x: F<S>,
@@ -48,8 +49,8 @@ pub(crate) struct Motions<S: Simd, const AS_ONE: bool> {
     upper_mass: F<S>,
     lower_inertia: F<S>,
     m_dp: F<S>,
-    stiffness: F<S>,
-    offset: F<S>,
+    spring: SpringLanes<S>,
+    further: Option<FurtherLanes<S>>,
 }
 
 /// Arms and static moments turned by the rotations.
@@ -64,11 +65,11 @@ pub(crate) struct ConfigurationLanes<S: Simd> {
     u: [F<S>; 2],
 }
 
-/// Angular accelerations of both bodies, and the power of the ground.
+/// Angular accelerations of both bodies, the power of the ground and that of losses.
 #[derive(Clone, Copy)]
 pub(crate) struct RateLanes<S: Simd> {
     pub theta_dd: [F<S>; 2],
-    pub ground_power_w: F<S>,
+    pub powers_w: [F<S>; 2],
 }
 
 struct Equations<S: Simd> {
@@ -79,7 +80,10 @@ struct Equations<S: Simd> {
     squares: [F<S>; 2],
     x_c: F<S>,
     v_c: F<S>,
-    spring: F<S>,
+    /// Of dampers and drag at the top, and with that of the spring.
+    damping: F<S>,
+    spring_and_damping: F<S>,
+    joint_moments: [F<S>; 2],
 }
 
 /// [`Reactions`] of every lane.
@@ -88,44 +92,6 @@ pub(crate) struct ReactionLanes<S: Simd> {
     ground: [F<S>; 3],
     crack: [F<S>; 3],
     top: [F<S>; 3],
-}
-
-impl Motion {
-    /// Whether this motion turns as one, where it may go side by side with others; `None` where it moves alone.
-    #[inline]
-    pub fn side_by_side(&self) -> Option<bool> {
-        self.laws.known_to_lanes().then(|| self.freedom == Freedom::Monolithic)
-    }
-}
-
-/// The laws of which the lanes do the sums.
-#[derive(Clone, Copy)]
-struct LaneLaws {
-    m_dp: f64,
-    stiffness: f64,
-    offset: f64,
-}
-
-impl LaneLaws {
-    /// Every law by its name, so that a new one does not compile here at first. Either the lanes do its sums,
-    /// or the catalogue says of its effect that they do not.
-    #[inline(always)]
-    fn of(motion: &Motion) -> Self {
-        let Laws {
-            carriage_mass_kg: m_dp,
-            stiffness_n_per_m: stiffness,
-            spring_offset_n: offset,
-            // Energy, which a step does not need.
-            stored_offset_j: _,
-            // Of effects that the catalogue calls unknown to the lanes.
-            cubic_n_per_m3: _,
-            viscous_n_s_per_m: _,
-            drag_n: _,
-            joint_damping_n_m_s: _,
-            lanes: _,
-        } = motion.laws;
-        Self { m_dp, stiffness, offset }
-    }
 }
 
 /// As [`super::vector::Vector::moment_of`].
@@ -140,7 +106,7 @@ fn rotated<S: Simd>([x, y]: [F<S>; 2], sin: F<S>, cos: F<S>) -> [F<S>; 2] {
 }
 
 #[inline(always)]
-fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
+pub(super) fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
     if theta.abs().simd_gt(FRAC_PI_4).any_true() {
         return library_sin_cos(theta);
     }
@@ -170,7 +136,7 @@ fn library_sin_cos<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
     (lanes(simd, |i| pairs[i].0), lanes(simd, |i| pairs[i].1))
 }
 
-impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHER> {
     #[inline(always)]
     pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
         let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
@@ -193,8 +159,8 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
             upper_mass: lanes(|m| m.upper_mass),
             lower_inertia: lanes(|m| m.lower_inertia),
             m_dp: lanes(|m| LaneLaws::of(m).m_dp),
-            stiffness: lanes(|m| LaneLaws::of(m).stiffness),
-            offset: lanes(|m| LaneLaws::of(m).offset),
+            spring: SpringLanes::new(simd, m),
+            further: if FURTHER { Some(FurtherLanes::new(simd, m)) } else { None },
         }
     }
 
@@ -212,27 +178,39 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
         }
     }
 
+    /// As [`Laws::spring_force_n`].
     #[inline(always)]
     fn spring_force_n(&self, x_c: F<S>) -> F<S> {
-        fused(-self.stiffness, x_c, self.offset)
+        match &self.further {
+            Some(further) => further.spring_force_n(&self.spring, x_c),
+            None => self.spring.force_n(x_c),
+        }
     }
 
-    /// As [`Motion::monolithic_rate`].
+    /// As [`Motion::monolithic_rate`]: θ'' and the powers.
     #[inline(always)]
-    pub fn monolithic_rate(&self, theta: F<S>, omega: F<S>, [g_x, g_y]: [F<S>; 2]) -> (F<S>, F<S>) {
+    pub fn monolithic_rate(&self, theta: F<S>, omega: F<S>, [g_x, g_y]: [F<S>; 2]) -> (F<S>, [F<S>; 2]) {
         let (sin, cos) = sin_cos_lanes(theta);
         let r = rotated(self.whole_arm, sin, cos);
         let w = rotated(self.whole_moment, sin, cos);
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let v_c = r[1] * omega;
         let carriage_acceleration = fused(-r[0], omega * omega, a_x);
-        let top = self.spring_force_n(r[0] + self.o_c) - self.m_dp * carriage_acceleration;
-        let weight_and_ground = fused(w[0], a_y, -w[1] * a_x);
+        let mut top = self.spring_force_n(r[0] + self.o_c) - self.m_dp * carriage_acceleration;
+        let mut weight_and_ground = fused(w[0], a_y, -w[1] * a_x);
+        let mut loss = F::splat(theta.simd, 0.0);
+        if let Some(further) = &self.further {
+            let damping = further.damping_force_n(v_c);
+            let [joint, _] = further.joint_moments_n_m([omega; 2]);
+            top = further.with(top, damping);
+            weight_and_ground = further.with(weight_and_ground, joint);
+            loss = further.where_damped(-fused(damping, v_c, joint * omega));
+        }
         let inverse = 1.0 / fused(self.m_dp * r[1], r[1], self.whole_inertia);
         let theta_dd = fused(r[1], top, weight_and_ground) * inverse;
         let momentum_x = fused(w[1], omega, self.m_dp * v_c);
         let power = fused(g_y * w[0], omega, -g_x * momentum_x);
-        (theta_dd, power)
+        (theta_dd, [power, loss])
     }
 
     #[inline(always)]
@@ -252,22 +230,35 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
         let x_c = (t.q[0] + t.c[0]) + self.o_c;
         let v_c = t.q[1] * w1 + t.c[1] * w2;
         let spring = self.spring_force_n(x_c);
+        let none = F::splat(x_c.simd, 0.0);
+        let (mut damping, mut spring_and_damping, mut joint_moments) = (none, spring, [none; 2]);
+        if let Some(further) = &self.further {
+            damping = further.where_damped(further.damping_force_n(v_c));
+            spring_and_damping = further.with(spring, damping);
+            joint_moments = further.joint_moments_n_m([w1, w2]);
+        }
         let carriage_acceleration = a_x - t.q[0] * squares[0] - t.c[0] * squares[1];
         let kappa = t.q[1] * t.u[0] - t.q[0] * t.u[1];
         let forces = [
             fused(kappa, squares[1], fused(t.v[0], a_y, -t.v[1] * a_x)),
             fused(kappa, -squares[0], fused(t.u[0], a_y, -t.u[1] * a_x)),
         ];
-        let top = spring - self.m_dp * carriage_acceleration;
+        let top = spring_and_damping - self.m_dp * carriage_acceleration;
+        let mut f = [fused(t.q[1], top, forces[0]), fused(t.c[1], top, forces[1])];
+        if let Some(further) = &self.further {
+            f = [further.with(f[0], joint_moments[0]), further.with(f[1], joint_moments[1])];
+        }
         Equations {
             m11: self.inertias[0] + t.q[1] * t.q[1] * self.m_dp,
             m22: self.inertias[1] + t.c[1] * t.c[1] * self.m_dp,
             m12: (t.q[0] * t.u[0] + t.q[1] * t.u[1]) + self.m_dp * t.q[1] * t.c[1],
-            f: [fused(t.q[1], top, forces[0]), fused(t.c[1], top, forces[1])],
+            f,
             squares,
             x_c,
             v_c,
-            spring,
+            damping,
+            spring_and_damping,
+            joint_moments,
         }
     }
 
@@ -281,7 +272,13 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
     ) -> RateLanes<S> {
         let momentum_x = fused(self.m_dp, equations.v_c, t.v[1] * w1 + t.u[1] * w2);
         let ground_power_w = fused(g_y, t.v[0] * w1 + t.u[0] * w2, -g_x * momentum_x);
-        RateLanes { theta_dd: self.solve(equations), ground_power_w }
+        let mut loss_power_w = F::splat(w1.simd, 0.0);
+        if let Some(further) = &self.further {
+            let [j_1, j_2] = equations.joint_moments;
+            let loss = -fused(equations.damping, equations.v_c, j_1 * w1 + j_2 * w2);
+            loss_power_w = further.where_damped(loss);
+        }
+        RateLanes { theta_dd: self.solve(equations), powers_w: [ground_power_w, loss_power_w] }
     }
 
     /// As [`super::mass_matrix::MassMatrix::solve`].
@@ -328,7 +325,7 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
         let q_y = fused(t.q[0], dd_1, t.q[1] * w1);
         let u_x = fused(t.u[1], dd_2, -t.u[0] * w2);
         let u_y = fused(t.u[0], dd_2, t.u[1] * w2);
-        let top = fused(self.m_dp, a_x + q_x + c_x, -equations.spring);
+        let top = fused(self.m_dp, a_x + q_x + c_x, -equations.spring_and_damping);
         let at_q = [a_x + q_x, a_y - q_y];
         let crack = [fused(self.upper_mass, at_q[0], u_x) + top, fused(self.upper_mass, at_q[1], -u_y)];
         let about_q = fused(t.c[1], top, fused(self.inertias[1], dd_2, moment(t.u, at_q)));
@@ -349,6 +346,17 @@ impl<S: Simd, const AS_ONE: bool> Motions<S, AS_ONE> {
 }
 
 impl<S: Simd> ReactionLanes<S> {
+    /// Those of walls that nothing holds at the top.
+    #[inline(always)]
+    pub fn of(reactions: &Reactions<F<S>>) -> Self {
+        let JointForces { ground, crack } = reactions.forces;
+        Self {
+            ground: [ground.shear, ground.normal, ground.moment],
+            crack: [crack.shear, crack.normal, crack.moment],
+            top: [reactions.top_displacement_m, reactions.top_velocity_m_s, reactions.top_acceleration_m_s2],
+        }
+    }
+
     /// That of one lane.
     #[inline(always)]
     pub fn unpacked(&self) -> [Reactions; LANES] {

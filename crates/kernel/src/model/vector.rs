@@ -5,32 +5,33 @@ use std::ops::{Add, Mul, Sub};
 
 use wide::f64x2;
 
+use super::number::Number;
 use crate::fused::{fused, fused_pair};
 
 /// A vector in the plane: x out of the wall, y up.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Vector {
+pub struct Vector<N = f64> {
     /// Out of the wall's plane.
-    pub x: f64,
+    pub x: N,
     /// Up.
-    pub y: f64,
+    pub y: N,
 }
 
-impl Vector {
+impl<N: Number> Vector<N> {
     #[inline(always)]
-    pub(crate) const fn new(x: f64, y: f64) -> Self {
+    pub(crate) fn new(x: N, y: N) -> Self {
         Self { x, y }
     }
 
     /// R(θ)(x, y) = (x cos θ + y sin θ, -x sin θ + y cos θ).
     #[inline(always)]
-    pub(crate) fn rotated(self, (sin, cos): (f64, f64)) -> Self {
+    pub(crate) fn rotated(self, (sin, cos): (N, N)) -> Self {
         Self::new(self.x * cos + self.y * sin, self.y * cos - self.x * sin)
     }
 
     /// R(-θ): from the world's axes to those of a body turned by θ.
     #[inline(always)]
-    pub(crate) fn rotated_back(self, (sin, cos): (f64, f64)) -> Self {
+    pub(crate) fn rotated_back(self, (sin, cos): (N, N)) -> Self {
         Self::new(self.x * cos - self.y * sin, self.y * cos + self.x * sin)
     }
 
@@ -41,24 +42,24 @@ impl Vector {
     }
 
     #[inline(always)]
-    pub(crate) fn dot(self, other: Self) -> f64 {
+    pub(crate) fn dot(self, other: Self) -> N {
         self.x * other.x + self.y * other.y
     }
 
     /// This vector times a factor, and another.
     #[inline(always)]
-    pub(crate) fn times_plus(self, factor: f64, other: Self) -> Self {
-        Self::new(fused(self.x, factor, other.x), fused(self.y, factor, other.y))
+    pub(crate) fn times_plus(self, factor: N, other: Self) -> Self {
+        Self::new(self.x.fused(factor, other.x), self.y.fused(factor, other.y))
     }
 
     /// Clockwise moment of a force at this arm: Y F_x - X F_y.
     #[inline(always)]
-    pub(crate) fn moment_of(self, force: Self) -> f64 {
+    pub(crate) fn moment_of(self, force: Self) -> N {
         self.y * force.x - self.x * force.y
     }
 }
 
-impl Add for Vector {
+impl<N: Number> Add for Vector<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -66,7 +67,7 @@ impl Add for Vector {
     }
 }
 
-impl Sub for Vector {
+impl<N: Number> Sub for Vector<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
@@ -74,10 +75,10 @@ impl Sub for Vector {
     }
 }
 
-impl Mul<f64> for Vector {
+impl<N: Number> Mul<N> for Vector<N> {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, factor: f64) -> Self {
+    fn mul(self, factor: N) -> Self {
         Self::new(self.x * factor, self.y * factor)
     }
 }

@@ -42,46 +42,51 @@ pub(super) fn first_bed_change(
     if !wall.wall().gives() {
         return None;
     }
-    let of_joint = |joint: Joint| changes_of(wall, contact, opened, joint);
-    let changes = wall.joints().flat_map(of_joint);
-    let first = changes.filter_map(|change| {
-        let path = match change.joint {
+    let size = motion.bounds().iter().sum();
+    let mut first = None;
+    for joint in wall.joints() {
+        let Some(bed) = wall.bed(joint) else { continue };
+        let path = match joint {
             Joint::Ground => motion.coordinate(0),
             Joint::Crack => motion.difference(),
         };
-        share_of(&change, &path, motion.bounds().iter().sum()).map(|share| (Event::Bed(change), share))
-    });
-    first.reduce(|a, b| if b.1 < a.1 { b } else { a })
+        let was_open = opened[joint as usize];
+        let changes = changes_of(joint, bed.full_contact_rad(), contact.at(joint), was_open);
+        for change in changes.into_iter().flatten() {
+            let Some(share) = share_of(&change, &path, size) else { continue };
+            if first.is_none_or(|(_, earliest)| share < earliest) {
+                first = Some((Event::Bed(change), share));
+            }
+        }
+    }
+    first
 }
 
-/// The changes that may come next of one joint.
-fn changes_of(
-    wall: &RockingWall,
-    contact: Contact,
-    opened: [Pivot; 2],
-    joint: Joint,
-) -> impl Iterator<Item = BedChange> + use<> {
-    let phi_c = wall.bed(joint).map(|bed| bed.full_contact_rad());
-    let side = contact.at(joint);
-    let was_open = opened[joint as usize];
+/// The changes that may come next of a joint on a bed, whose contact is whole up to ±φ_c.
+#[inline]
+fn changes_of(joint: Joint, phi_c: f64, side: Pivot, was_open: Pivot) -> [Option<BedChange>; 3] {
     let to = |limit_rad: f64, sign: f64, kind: BedChangeKind| BedChange { joint, kind, limit_rad, sign };
-    let all = phi_c.map(|phi_c| match side {
+    match side {
         Pivot::Closed => [
             Some(to(phi_c, 1.0, BedChangeKind::Opens(Pivot::Right))),
             Some(to(-phi_c, -1.0, BedChangeKind::Opens(Pivot::Left))),
             was_open.is_open().then(|| to(0.0, -was_open.sign(), BedChangeKind::Crosses(was_open))),
         ],
         side => [Some(to(side.sign() * phi_c, -side.sign(), BedChangeKind::Closes)), None, None],
-    });
-    all.into_iter().flatten().flatten()
+    }
 }
 
 /// Where the rotation across the joint passes the limit.
 ///
 /// `size` is that of the rotations it is the difference of.
+#[inline]
 fn share_of(change: &BedChange, path: &Bernstein<6>, size: f64) -> Option<f64> {
     let rounding = ROUNDINGS * f64::EPSILON * size.max(change.limit_rad.abs());
     let mut left = path.below(change.limit_rad).times(change.sign);
+    // Most steps are far from every limit, and their coefficients prove it.
+    if left.0.iter().all(|c| *c > rounding) {
+        return None;
+    }
     let [start, next, ..] = left.0;
     if start < 0.0 && next > start {
         // Beyond the limit by what the change before was located less well than to roundings, and on its way back.

@@ -6,6 +6,7 @@ mod ensemble;
 mod events;
 mod ground_path;
 mod history;
+mod lane_steps;
 mod response;
 mod rest;
 mod run;

@@ -3,247 +3,13 @@
 //! The response of a run does not depend on those beside it. Every lane does the sums that the run would do
 //! alone.
 
-use std::ops::Mul;
-
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+use fearless_simd::Level;
 
 use super::history::Observer;
+use super::lane_steps::steps;
 use super::response::Response;
-use super::run::{Run, StepRequest};
-use crate::fused::fused_lanes;
-use crate::model::{ConfigurationLanes, LANES, Motions, ReactionLanes, Reactions, lanes};
-use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
-
-type F<S> = f64x4<S>;
-
-/// One coordinate of every run, or both of them.
-#[derive(Clone, Copy)]
-struct OneRotation<S: Simd>(F<S>);
-
-#[derive(Clone, Copy)]
-struct TwoRotations<S: Simd>([F<S>; 2]);
-
-impl<S: Simd> Mul<f64> for OneRotation<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, factor: f64) -> Self {
-        Self(self.0 * factor)
-    }
-}
-
-impl<S: Simd> Values for OneRotation<S> {
-    type Length = F<S>;
-    #[inline(always)]
-    fn over(self, length: F<S>) -> Self {
-        Self(self.0 * length)
-    }
-
-    #[inline(always)]
-    fn over_plus(self, length: F<S>, other: Self) -> Self {
-        Self(fused_lanes(self.0, length, other.0))
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: f64, other: Self) -> Self {
-        Self(fused_lanes(self.0, F::splat(self.0.simd, factor), other.0))
-    }
-}
-
-impl<S: Simd> Mul<f64> for TwoRotations<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, factor: f64) -> Self {
-        Self([self.0[0] * factor, self.0[1] * factor])
-    }
-}
-
-impl<S: Simd> Values for TwoRotations<S> {
-    type Length = F<S>;
-    #[inline(always)]
-    fn over(self, length: F<S>) -> Self {
-        Self([self.0[0] * length, self.0[1] * length])
-    }
-
-    #[inline(always)]
-    fn over_plus(self, length: F<S>, other: Self) -> Self {
-        Self([fused_lanes(self.0[0], length, other.0[0]), fused_lanes(self.0[1], length, other.0[1])])
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: f64, other: Self) -> Self {
-        self.over_plus(F::splat(self.0[0].simd, factor), other)
-    }
-}
-
-struct ShakenMotion<S: Simd, const AS_ONE: bool> {
-    motions: Motions<S, AS_ONE>,
-    from: [F<S>; 2],
-    slope: [F<S>; 2],
-    from_s: F<S>,
-    configuration: Option<ConfigurationLanes<S>>,
-    reactions: Option<ReactionLanes<S>>,
-}
-
-impl<S: Simd, const AS_ONE: bool> ShakenMotion<S, AS_ONE> {
-    #[inline(always)]
-    fn new(simd: S, requests: &[StepRequest; LANES]) -> Self {
-        let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
-        Self {
-            motions: Motions::new(simd, std::array::from_fn(|i| requests[i].motion)),
-            from: [lanes(|a| a.piece.from.x), lanes(|a| a.piece.from.y)],
-            slope: [lanes(|a| a.piece.slope.x), lanes(|a| a.piece.slope.y)],
-            from_s: lanes(|a| a.from_s),
-            configuration: None,
-            reactions: None,
-        }
-    }
-
-    #[inline(always)]
-    fn ground(&self, after_s: F<S>) -> [F<S>; 2] {
-        let offset_s = self.from_s + after_s;
-        [self.from[0] + self.slope[0] * offset_s, self.from[1] + self.slope[1] * offset_s]
-    }
-
-    /// The reactions of every lane at the end of the step.
-    #[inline(always)]
-    fn reactions(&self) -> [Reactions; LANES] {
-        self.reactions.as_ref().map_or([Reactions::default(); LANES], ReactionLanes::unpacked)
-    }
-}
-
-impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true> {
-    #[inline(always)]
-    fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
-        let (theta_dd, power) = self.motions.monolithic_rate(theta.0, omega.0, self.ground(after_s));
-        Rate { acceleration: OneRotation(theta_dd), quadrature: OneRotation(power) }
-    }
-
-    #[inline(always)]
-    fn land(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
-        let turned = self.motions.configuration([theta.0; 2]);
-        let (rate, reactions) = self.motions.rate_and_reactions(&turned, [omega.0; 2], self.ground(after_s));
-        self.reactions = Some(reactions);
-        Rate { acceleration: OneRotation(rate.theta_dd[0]), quadrature: OneRotation(rate.ground_power_w) }
-    }
-}
-
-/// Both coordinates, and the one quadrature in the place of the first.
-impl<S: Simd> Field<TwoRotations<S>> for ShakenMotion<S, false> {
-    #[inline(always)]
-    fn rate(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
-        let turned = self.motions.configuration(theta.0);
-        let rate = self.motions.rate(&turned, omega.0, self.ground(after_s));
-        self.configuration = Some(turned);
-        let none = F::splat(after_s.simd, 0.0);
-        Rate {
-            acceleration: TwoRotations(rate.theta_dd),
-            quadrature: TwoRotations([rate.ground_power_w, none]),
-        }
-    }
-
-    #[inline(always)]
-    fn land(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
-        let turned = self.configuration.unwrap_or_else(|| self.motions.configuration(theta.0));
-        let (rate, reactions) = self.motions.rate_and_reactions(&turned, omega.0, self.ground(after_s));
-        self.reactions = Some(reactions);
-        let none = F::splat(after_s.simd, 0.0);
-        Rate {
-            acceleration: TwoRotations(rate.theta_dd),
-            quadrature: TwoRotations([rate.ground_power_w, none]),
-        }
-    }
-}
-
-/// The steps of walls that turn as one.
-#[inline(always)]
-fn monolithic_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    let mut shaken = ShakenMotion::<S, true>::new(simd, requests);
-    let lanes = |of: fn(&StepRequest) -> f64| OneRotation(lanes(simd, |i| of(&requests[i])));
-    let start =
-        Rate { acceleration: lanes(|a| a.now.acceleration[0]), quadrature: lanes(|a| a.quadrature_rate[0]) };
-    let h = lanes(|a| a.h).0;
-    let stride =
-        Nystrom::stride(lanes(|a| a.now.position[0]), lanes(|a| a.now.velocity[0]), start, h, &mut shaken);
-    let reactions = shaken.reactions();
-    let [x, v, a, rate, gained, e_x, e_v] = [
-        stride.position,
-        stride.velocity,
-        stride.end.acceleration,
-        stride.end.quadrature,
-        stride.quadrature,
-        stride.position_error,
-        stride.velocity_error,
-    ]
-    .map(|of| <[f64; LANES]>::from(of.0));
-    std::array::from_fn(|i| {
-        let step = Step {
-            h: requests[i].h,
-            start: *requests[i].now,
-            end: Point { position: [x[i]; 2], velocity: [v[i]; 2], acceleration: [a[i]; 2] },
-            quadrature: [gained[i], 0.0],
-            end_quadrature_rate: [rate[i], 0.0],
-            position_error: [e_x[i]; 2],
-            velocity_error: [e_v[i]; 2],
-        };
-        (step, reactions[i])
-    })
-}
-
-/// The steps of walls whose bodies turn apart.
-#[inline(always)]
-fn two_body_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    let mut shaken = ShakenMotion::<S, false>::new(simd, requests);
-    let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
-    let start = Rate {
-        acceleration: TwoRotations([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
-        quadrature: TwoRotations([lanes(|a| a.quadrature_rate[0]), lanes(|_| 0.0)]),
-    };
-    let x = TwoRotations([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
-    let v = TwoRotations([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
-    let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
-    let reactions = shaken.reactions();
-    let [x, v, a, e_x, e_v] = [
-        stride.position,
-        stride.velocity,
-        stride.end.acceleration,
-        stride.position_error,
-        stride.velocity_error,
-    ]
-    .map(|of| of.0.map(<[f64; LANES]>::from));
-    let [rate, gained] = [stride.end.quadrature, stride.quadrature].map(|of| <[f64; LANES]>::from(of.0[0]));
-    std::array::from_fn(|i| {
-        let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
-        let step = Step {
-            h: requests[i].h,
-            start: *requests[i].now,
-            end: Point { position: both(&x), velocity: both(&v), acceleration: both(&a) },
-            quadrature: [gained[i], 0.0],
-            end_quadrature_rate: [rate[i], 0.0],
-            position_error: both(&e_x),
-            velocity_error: both(&e_v),
-        };
-        (step, reactions[i])
-    })
-}
-
-/// The steps of walls that all turn as one, or whose bodies all turn apart.
-fn steps(level: Level, as_one: bool, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    if as_one {
-        dispatch!(level, simd => monolithic_steps(simd, requests))
-    } else {
-        dispatch!(level, simd => two_body_steps(simd, requests))
-    }
-}
+use super::run::Run;
+use crate::model::{LANES, LaneKind, Reactions};
 
 /// Runs in the pool at once: enough that mostly there are as many of a kind as lanes.
 const AT_ONCE: usize = 6 * LANES;
@@ -307,9 +73,8 @@ struct Pool<'w, O> {
     next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
     done: &'w mut dyn FnMut(usize, Response),
     slots: Vec<Option<(usize, Run<O>)>>,
-    /// Slots that request a step of a wall that turns as one, and of one whose bodies turn apart.
-    as_one: Vec<usize>,
-    apart: Vec<usize>,
+    /// Slots that request a step, by its kind.
+    queues: [Vec<usize>; LaneKind::ALL.len()],
     /// Vector instructions that this processor has.
     level: Level,
 }
@@ -320,8 +85,8 @@ impl<'w, O: Observer> Pool<'w, O> {
         next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
         done: &'w mut dyn FnMut(usize, Response),
     ) -> Self {
-        let [as_one, apart] = [(); 2].map(|()| Vec::with_capacity(AT_ONCE));
-        Self { next, done, slots: Vec::with_capacity(AT_ONCE), as_one, apart, level }
+        let queues = LaneKind::ALL.map(|_| Vec::with_capacity(AT_ONCE));
+        Self { next, done, slots: Vec::with_capacity(AT_ONCE), queues, level }
     }
 
     fn all(&mut self) {
@@ -347,8 +112,7 @@ impl<'w, O: Observer> Pool<'w, O> {
                 continue;
             }
             match run.step_request().motion.side_by_side() {
-                Some(true) => return self.as_one.push(slot),
-                Some(false) => return self.apart.push(slot),
+                Some(kind) => return self.queues[kind.index()].push(slot),
                 None => {
                     let mut reactions = Reactions::default();
                     let step = run.step_request().take(&mut reactions);
@@ -369,8 +133,12 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     /// Takes the steps of the kind that most slots request; false when there is no request.
     fn step(&mut self) -> bool {
-        let one = self.as_one.len() >= self.apart.len();
-        let queue = if one { &mut self.as_one } else { &mut self.apart };
+        let lengths = self.queues.each_ref().map(Vec::len);
+        let longer = |most: LaneKind, kind: LaneKind| lengths[kind.index()] > lengths[most.index()];
+        let kind =
+            LaneKind::ALL.into_iter().reduce(|most, kind| if longer(most, kind) { kind } else { most });
+        let Some(kind) = kind else { return false };
+        let queue = &mut self.queues[kind.index()];
         let from = queue.len().saturating_sub(LANES);
         let Some(&last) = queue.last() else { return false };
         // A lane without a run does the work of another once more.
@@ -382,7 +150,7 @@ impl<'w, O: Observer> Pool<'w, O> {
             let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
             run.step_request()
         });
-        let taken = steps(self.level, one, &requests);
+        let taken = steps(self.level, kind, &requests);
         for (slot, (step, reactions)) in of.into_iter().zip(&taken).take(count) {
             if let Some((_, run)) = &mut self.slots[slot] {
                 run.finish_step(step, reactions);

@@ -1,10 +1,6 @@
-//! The static law of a bed: contact, moment, energy, and the point about which the body turns.
-
-use std::f64::consts::FRAC_PI_2;
+//! The static law of a bed: contact, moment, energy.
 
 use super::super::contact::Pivot;
-use super::super::geometry::Pair;
-use super::super::vector::Vector;
 
 /// A bed of linear springs without tension in a joint, under a constant load.
 ///
@@ -26,26 +22,6 @@ pub struct Bed {
     pub length_m: f64,
     /// N, N.
     pub load_n: f64,
-}
-
-/// Below this share of φ_c the law of contact in part is not followed any further. A step may try a state
-/// there before the change of contact is found.
-const LEAST_PARTIAL: f64 = 0.25;
-
-/// How the middle of the upper face moves as a joint turns by φ, in the axes of the body below; and what the
-/// joint does beyond that. A sharp edge has the same, without moment and energy.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct Roll {
-    /// Where the middle is, from where it is at rest, m.
-    pub place: Vector,
-    /// d/dφ of the place, m.
-    pub slope: Vector,
-    /// d²/dφ² of the place, m.
-    pub bend: Vector,
-    /// Moment against the rotation by which the bed stores energy, N m.
-    pub moment_n_m: f64,
-    /// Moment against the rotation per rate of rotation, N m s.
-    pub damping_n_m_s: f64,
 }
 
 impl Bed {
@@ -108,54 +84,6 @@ impl Bed {
         stored - self.full_energy_j(0.0)
     }
 
-    /// The joint in whole contact: the body turns about the middle, which stays.
-    pub(crate) fn roll_in_full_contact(&self, phi: f64) -> Roll {
-        let stiffness = self.rotational_stiffness_n_m();
-        Roll { moment_n_m: stiffness * phi, damping_n_m_s: self.damping_s * stiffness, ..Roll::default() }
-    }
-
-    /// The joint in contact in part, open towards a side.
-    ///
-    /// The body turns about the middle of the zone of contact, z = (b - c)/2 from that of the joint. With
-    /// u = sin φ and v = 1 - cos φ, z cos φ integrates in closed form for c = b sqrt(u_c/u), and z sin φ for
-    /// c = b (v_c/v)^¼. Both are b at φ_c, and differ from b sqrt(φ_c/φ) by a share of φ²/12 at most:
-    ///
-    /// - y = b/2 (sqrt(u) - sqrt(u_c))²
-    /// - x = b/2 (v - 4/3 v_c^¼ v^¾ + v_c/3)
-    ///
-    /// For k without bound this is the sharp edge: y = b/2 sin φ, x = b/2 (1 - cos φ).
-    pub(crate) fn roll_in_part(&self, side: f64, phi: f64) -> Roll {
-        let phi_c = self.full_contact_rad();
-        let phi = (side * phi).max(LEAST_PARTIAL * phi_c);
-        let half_m = self.width_m / 2.0;
-        let [(u, cos, v), (u_c, _, v_c)] = [phi, phi_c].map(turned);
-        // Beyond a quarter turn, where u falls again, the zone stays as wide as it was there.
-        let (open_y, risen, narrows) = if phi <= FRAC_PI_2 {
-            let part_y = (u_c / u).sqrt();
-            (1.0 - part_y, u * (1.0 - part_y).powi(2), 0.5 * part_y * cos * cos / u)
-        } else {
-            let open_y = 1.0 - u_c.sqrt();
-            (open_y, open_y * (u - u_c.sqrt()), 0.0)
-        };
-        let part_x = (v_c / v).sqrt().sqrt();
-        let c = self.partial_contact_m(phi);
-        let place =
-            Vector { x: side * half_m * (v * (1.0 - 4.0 / 3.0 * part_x) + v_c / 3.0), y: half_m * risen };
-        let slope = Vector { x: half_m * (1.0 - part_x) * u, y: side * half_m * open_y * cos };
-        let bend = Vector {
-            x: side * half_m * ((1.0 - part_x) * cos + part_x * (1.0 + cos) / 4.0),
-            y: half_m * (narrows - open_y * u),
-        };
-        let zone = self.stiffness_pa_per_m * self.length_m * c * c * c / 12.0;
-        Roll {
-            place,
-            slope,
-            bend,
-            moment_n_m: side * self.load_n * c / 6.0,
-            damping_n_m_s: self.damping_s * zone,
-        }
-    }
-
     /// How long a joint that turns at a rate (rad/s) is in whole contact on one side of the middle, as a share
     /// of the time 1/ω_z in which the weight bounces on the bed: φ_c ω_z/abs(φ'), ω_z = sqrt(k b L g/N).
     pub(crate) fn passage_over_bounce(&self, phi_rate: f64) -> f64 {
@@ -163,27 +91,4 @@ impl Bed {
         let bounce_per_s = (stiffness * super::super::wall::G_M_S2 / self.load_n).sqrt();
         self.full_contact_rad() * bounce_per_s / phi_rate.abs()
     }
-}
-
-/// Sine, cosine, and one less the cosine without cancellation.
-fn turned(phi: f64) -> (f64, f64, f64) {
-    let (sin, cos) = phi.sin_cos();
-    (sin, cos, sin * sin / (1.0 + cos))
-}
-
-/// A sharp edge at ± half the width: the middle is lifted as the body turns about it. Half a width of zero is a
-/// joint that stays closed.
-pub(crate) fn roll_about_edge(half_m: f64, phi: f64) -> Roll {
-    let (sin, cos, less) = turned(phi);
-    Roll {
-        place: Vector { x: half_m * less, y: half_m * sin },
-        slope: Vector { x: half_m * sin, y: half_m * cos },
-        bend: Vector { x: half_m * cos, y: -half_m * sin },
-        ..Roll::default()
-    }
-}
-
-/// The rotations across the ground and across the crack of a pair of body rotations.
-pub(crate) fn across([lower, upper]: Pair) -> Pair {
-    [lower, upper - lower]
 }

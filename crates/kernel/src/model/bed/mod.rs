@@ -1,7 +1,7 @@
 //! Joints that give: a bed of springs without tension between the bodies, in place of sharp edges.
 //!
 //! A sharp edge carries the whole load on a line. On a bed the load rests on a zone of contact, whose width
-//! c depends on load and rotation. [`Bed`] is the static law of one joint; [`BeddedMotion`] moves a wall on
+//! c depends on load and rotation. [`Bed`] is the static law of one joint, [`Roll`](roll::Roll) what it does as it turns; [`BeddedMotion`] moves a wall on
 //! one or two of them; `crossing` says what is lost where a joint passes from one side to the other.
 //!
 //! | choice | taken | because |
@@ -11,8 +11,11 @@
 //! | loss | the bed's damper, and at crossings the share of the sharp edge's impact that the bed lets through | soft beds have no impacts, stiff beds have those of sharp edges |
 
 mod crossing;
+mod lanes;
 mod law;
 mod motion;
+mod roll;
 
+pub(crate) use lanes::JointLanes;
 pub use law::Bed;
-pub(crate) use motion::{BeddedMotion, BeddedRate};
+pub(crate) use motion::{Acting, BeddedMotion, BeddedRate};

@@ -13,93 +13,115 @@
 //! - γ_A = A'' ω_1²,
 //! - γ_B = γ_A - R(θ_1) q ω_1² + 2 ω_1 φ' (R(θ_1) q')^⊥ + R(θ_1) q'' φ'².
 
+use fearless_simd::dispatch;
+
 use super::super::contact::{Contact, Joint, Pivot};
-use super::super::formula::FormulaLaws;
 use super::super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
 use super::super::joint_forces::{Masses, Reactions};
-use super::super::laws::Laws;
 use super::super::mass_matrix::{Freedom, MassMatrix};
+use super::super::motion::Motion;
+use super::super::number::Number;
 use super::super::vector::{Vector, sin_cos};
 use super::super::wall::{G_M_S2, Wall};
-use super::law::{Bed, Roll, across, roll_about_edge};
+use super::law::Bed;
+use super::roll::{Roll, RollingBed, across};
+
+/// What a joint does as it turns by φ.
+pub(crate) trait Rolls<N> {
+    fn roll(&self, phi: N) -> Roll<N>;
+}
+
+/// What acts on a wall beyond weight, inertia and beds.
+pub(crate) trait Acting<N> {
+    /// Force of the springs at the top, N, at its displacement in m.
+    fn spring_force_n(&self, x_c_m: N) -> N;
+    /// Force at the top against its velocity in m/s, and that of formulas, N.
+    fn damping_force_n(&self, x_c_m: N, v_c_m_s: N) -> N;
+    /// Moments of the joint dampers on θ_1 and θ_2, and those of formulas, N m.
+    fn joint_moments_n_m(&self, theta: [N; 2], omega: [N; 2]) -> [N; 2];
+}
 
 /// One joint in its state of contact.
 #[derive(Debug, Clone, Copy)]
-enum JointShape {
+pub(crate) enum JointShape {
     /// Closed (0), or turning about a sharp edge at ± half the width, m.
     Edge { half_m: f64 },
     /// On a bed, in whole contact (0) or in part towards a side.
-    Bed { bed: Bed, side: f64 },
+    Bed { bed: Bed, rolling: RollingBed, side: f64 },
 }
 
 impl JointShape {
     fn of(wall: &Wall, contact: Contact, joint: Joint) -> Self {
         let side = contact.at(joint).sign();
         match wall.beds[joint as usize] {
-            Some(bed) => Self::Bed { bed, side },
+            Some(bed) => Self::Bed { bed, rolling: RollingBed::new(&bed), side },
             None => Self::Edge { half_m: side * wall.width_m[joint as usize] / 2.0 },
-        }
-    }
-
-    fn roll(&self, phi: f64) -> Roll {
-        match self {
-            Self::Edge { half_m: 0.0 } => Roll::default(),
-            Self::Edge { half_m } => roll_about_edge(*half_m, phi),
-            Self::Bed { bed, side: 0.0 } => bed.roll_in_full_contact(phi),
-            Self::Bed { bed, side } => bed.roll_in_part(*side, phi),
         }
     }
 
     fn stored_j(&self, phi: f64) -> f64 {
         match self {
             Self::Edge { .. } => 0.0,
-            Self::Bed { bed, side } => bed.stored_j(*side, phi),
+            Self::Bed { bed, side, .. } => bed.stored_j(*side, phi),
         }
     }
 }
 
-/// The motion of one contact state of a wall with beds. The laws at the top are those of
-/// [`super::super::motion::Motion`].
+impl Rolls<f64> for JointShape {
+    #[inline(always)]
+    fn roll(&self, phi: f64) -> Roll {
+        match self {
+            Self::Edge { half_m: 0.0 } => Roll::default(),
+            Self::Edge { half_m } => Roll::about_edge(*half_m, phi),
+            Self::Bed { rolling, side: 0.0, .. } => rolling.in_full_contact(phi),
+            Self::Bed { rolling, side, .. } => rolling.in_part(*side, phi),
+        }
+    }
+}
+
+/// The motion of one contact state of a wall with beds, or those of several walls side by side. The laws at the
+/// top are those of [`super::super::motion::Motion`].
 #[derive(Debug, Clone)]
-pub(crate) struct BeddedMotion {
-    joints: [JointShape; 2],
-    freedom: Freedom,
-    masses: Masses,
-    height_1_m: f64,
-    g1: Vector,
-    g2: Vector,
-    c: Vector,
+pub(crate) struct BeddedMotion<N = f64, J = JointShape> {
+    pub joints: [J; 2],
+    pub freedom: Freedom,
+    pub masses: Masses<N>,
+    pub height_1_m: N,
+    pub g1: Vector<N>,
+    pub g2: Vector<N>,
+    pub c: Vector<N>,
 }
 
 /// A wall turned by its rotations: what is where, and how it moves with the rotations.
-struct Pose {
-    rolls: [Roll; 2],
-    arms: TurnedArms,
-    turns: [(f64, f64); 2],
+struct Pose<N = f64> {
+    rolls: [Roll<N>; 2],
+    arms: TurnedArms<N>,
+    turns: [(N, N); 2],
     /// R(θ_1) q and R(θ_1) q', R(θ_1) q''.
-    q: [Vector; 3],
+    q: [Vector<N>; 3],
     /// Displacement of A; G_1 - A, G_2 - B and C - B as turned.
-    foot: Vector,
-    g1: Vector,
-    g2: Vector,
-    c: Vector,
+    foot: Vector<N>,
+    g1: Vector<N>,
+    g2: Vector<N>,
+    c: Vector<N>,
 }
 
 /// All that the equations give at a state.
-struct Balance {
-    pose: Pose,
+pub(crate) struct Balance<N = f64> {
+    pose: Pose<N>,
     /// Accelerations of the mass points without θ'', the ground's and gravity in them, m/s².
-    drift: PointVelocities,
+    drift: PointVelocities<N>,
     /// The same of C, relative to the ground, horizontally.
-    top_drift_x: f64,
+    top_drift_x: N,
     /// Displacement (m) and velocity (m/s) of the top, and the force there, N.
-    x_c: f64,
-    v_c: f64,
-    force_n: f64,
-    theta_dd: Pair,
+    x_c: N,
+    v_c: N,
+    force_n: N,
+    pub theta_dd: [N; 2],
     /// Force by which friction holds the top, N.
-    holding_n: f64,
-    powers_w: Pair,
+    holding_n: N,
+    /// Of the ground and of losses, W.
+    pub powers_w: [N; 2],
 }
 
 /// What a step needs.
@@ -110,8 +132,166 @@ pub(crate) struct BeddedRate {
 }
 
 /// The arm to the instantaneous pivot whose turning gives this velocity per rate: (X, Y)^⊥ = (Y, -X).
-fn arm_of(slope: Vector) -> Vector {
+#[inline(always)]
+fn arm_of<N: Number>(slope: Vector<N>) -> Vector<N> {
     Vector::new(-slope.y, slope.x)
+}
+
+/// What both bodies' sums are of: one product for each.
+#[inline(always)]
+fn along<N: Number>(levers: [N; 2], pair: [N; 2]) -> N {
+    levers[0] * pair[0] + levers[1] * pair[1]
+}
+
+impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
+    #[inline(always)]
+    fn pose(&self, theta: [N; 2]) -> Pose<N> {
+        let [ground, crack] = across(theta);
+        let rolls = [self.joints[0].roll(ground), self.joints[1].roll(crack)];
+        let turns = [theta[0].sine_and_cosine(), theta[1].sine_and_cosine()];
+        let up = Vector::new(self.height_1_m.constant(0.0), self.height_1_m);
+        let Roll { place, slope, bend, .. } = rolls[1];
+        let q = [(place + up).rotated(turns[0]), slope.rotated(turns[0]), bend.rotated(turns[0])];
+        let (g1, g2, c) = (self.g1.rotated(turns[0]), self.g2.rotated(turns[1]), self.c.rotated(turns[1]));
+        // From the instantaneous pivots to the middles of the joints' upper faces.
+        let (to_foot, to_crack) = (arm_of(rolls[0].slope), arm_of(q[1]));
+        let arms = TurnedArms {
+            o_x: (rolls[0].place - to_foot).x,
+            r_1: to_foot + g1,
+            r_q: to_foot + q[0] - to_crack,
+            r_2: to_crack + g2,
+            r_c: to_crack + c,
+            q_from_middle: place.rotated(turns[0]) - to_crack,
+            turn_1: turns[0],
+        };
+        Pose { foot: rolls[0].place, rolls, arms, turns, q, g1, g2, c }
+    }
+
+    #[inline(always)]
+    fn mass_of(&self, arms: &TurnedArms<N>) -> MassMatrix<N> {
+        let Masses { m: [m1, m2], i: [i1, i2], m_d, m_dp } = self.masses;
+        let TurnedArms { r_1, r_q, r_2, r_c, .. } = *arms;
+        let above = r_2 * m2 + r_c * m_d;
+        MassMatrix {
+            m11: i1 + m1 * r_1.dot(r_1) + (m2 + m_d) * r_q.dot(r_q) + m_dp * r_q.y * r_q.y,
+            m12: r_q.dot(above) + m_dp * r_q.y * r_c.y,
+            m22: i2 + m2 * r_2.dot(r_2) + m_d * r_c.dot(r_c) + m_dp * r_c.y * r_c.y,
+        }
+    }
+
+    /// Accelerations of the mass points without θ'', relative to the ground.
+    #[inline(always)]
+    fn drift(&self, pose: &Pose<N>, [w1, w2]: [N; 2]) -> PointVelocities<N> {
+        let opening = w2 - w1;
+        let foot = pose.rolls[0].bend * (w1 * w1);
+        let crack = foot - pose.q[0] * (w1 * w1)
+            + pose.q[1].perpendicular() * (w1.constant(2.0) * w1 * opening)
+            + pose.q[2] * (opening * opening);
+        PointVelocities {
+            g1: foot - pose.g1 * (w1 * w1),
+            g2: crack - pose.g2 * (w2 * w2),
+            c: crack - pose.c * (w2 * w2),
+            theta: [w1.constant(0.0); 2],
+        }
+    }
+
+    /// Moments of the beds on θ_1 and θ_2, those that store and those that lose energy, N m.
+    #[inline(always)]
+    fn bed_moments(&self, pose: &Pose<N>, omega: [N; 2]) -> [[N; 2]; 2] {
+        let rates = across(omega);
+        let [ground, crack] = &pose.rolls;
+        let (lost_0, lost_1) = (ground.damping_n_m_s * rates[0], crack.damping_n_m_s * rates[1]);
+        [[crack.moment_n_m - ground.moment_n_m, -crack.moment_n_m], [lost_1 - lost_0, -lost_1]]
+    }
+
+    /// The equations of motion at rotations and velocities; `held`: friction holds the top in place.
+    #[inline(always)]
+    pub fn balance(
+        &self,
+        acting: &impl Acting<N>,
+        held: bool,
+        [theta, omega]: [[N; 2]; 2],
+        ground: Vector<N>,
+    ) -> Balance<N> {
+        let pose = self.pose(theta);
+        let mass = self.mass_of(&pose.arms);
+        let moving = self.drift(&pose, omega);
+        let shaking = Vector::new(ground.x, ground.y + ground.y.constant(G_M_S2));
+        let drift = PointVelocities {
+            g1: moving.g1 + shaking,
+            g2: moving.g2 + shaking,
+            c: moving.c + shaking,
+            theta: moving.theta,
+        };
+        let arms = &pose.arms;
+        let x_c = self.top_of(&pose);
+        let v = arms.velocities(omega);
+        let damping_n = acting.damping_force_n(x_c, v.c.x);
+        let dampers = acting.joint_moments_n_m(theta, omega);
+        let force_n = acting.spring_force_n(x_c) + damping_n;
+        let [stored, lost] = self.bed_moments(&pose, omega);
+        let inertia = self.masses.momenta(arms, &drift);
+        let levers = [arms.r_q.y, arms.r_c.y];
+        let f = [
+            levers[0] * force_n - inertia[0] + stored[0] + lost[0] + dampers[0],
+            levers[1] * force_n - inertia[1] + stored[1] + lost[1] + dampers[1],
+        ];
+        let free = mass.solve(self.freedom, f);
+        let (theta_dd, holding_n) = match held {
+            true => self.with_held_top(&mass, levers, moving.c.x, free),
+            false => (free, x_c.constant(0.0)),
+        };
+        let loss_w = damping_n * v.c.x + along([lost[0] + dampers[0], lost[1] + dampers[1]], omega);
+        Balance {
+            drift,
+            top_drift_x: moving.c.x,
+            x_c,
+            v_c: v.c.x,
+            force_n,
+            theta_dd,
+            holding_n,
+            powers_w: [-self.masses.power(&v, ground), -loss_w],
+            pose,
+        }
+    }
+
+    /// As [`super::super::top`]: the force that keeps a_C = 0.
+    #[inline(always)]
+    fn with_held_top(&self, mass: &MassMatrix<N>, levers: [N; 2], drift_x: N, free: [N; 2]) -> ([N; 2], N) {
+        let per_force = mass.solve(self.freedom, levers);
+        let holding_n = -(along(levers, free) + drift_x) / along(levers, per_force);
+        match self.freedom {
+            Freedom::Both => {
+                ([free[0] + per_force[0] * holding_n, free[1] + per_force[1] * holding_n], holding_n)
+            }
+            _ => ([drift_x.constant(0.0); 2], holding_n),
+        }
+    }
+
+    #[inline(always)]
+    fn top_of(&self, pose: &Pose<N>) -> N {
+        (pose.foot + pose.q[0] + pose.c).x - self.c.x
+    }
+
+    /// The reactions to these angular accelerations.
+    #[inline(always)]
+    pub fn reactions_by(&self, balance: &Balance<N>, theta_dd: [N; 2]) -> Reactions<N> {
+        let turning = balance.pose.arms.velocities(theta_dd);
+        let accelerations = PointVelocities {
+            g1: balance.drift.g1 + turning.g1,
+            g2: balance.drift.g2 + turning.g2,
+            c: balance.drift.c + turning.c,
+            theta: theta_dd,
+        };
+        let at_top = balance.force_n + balance.holding_n;
+        Reactions {
+            forces: self.masses.through_joints(&balance.pose.arms, &accelerations, at_top),
+            top_displacement_m: balance.x_c,
+            top_velocity_m_s: balance.v_c,
+            top_acceleration_m_s2: balance.top_drift_x + turning.c.x,
+            holding_n: balance.holding_n,
+        }
+    }
 }
 
 impl BeddedMotion {
@@ -135,27 +315,6 @@ impl BeddedMotion {
         self.freedom
     }
 
-    fn pose(&self, theta: Pair) -> Pose {
-        let [ground, crack] = across(theta);
-        let rolls = [self.joints[0].roll(ground), self.joints[1].roll(crack)];
-        let turns = theta.map(sin_cos);
-        let q = [rolls[1].place + Vector::new(0.0, self.height_1_m), rolls[1].slope, rolls[1].bend]
-            .map(|v| v.rotated(turns[0]));
-        let (g1, g2, c) = (self.g1.rotated(turns[0]), self.g2.rotated(turns[1]), self.c.rotated(turns[1]));
-        // From the instantaneous pivots to the middles of the joints' upper faces.
-        let (to_foot, to_crack) = (arm_of(rolls[0].slope), arm_of(q[1]));
-        let arms = TurnedArms {
-            o_x: (rolls[0].place - to_foot).x,
-            r_1: to_foot + g1,
-            r_q: to_foot + q[0] - to_crack,
-            r_2: to_crack + g2,
-            r_c: to_crack + c,
-            q_from_middle: rolls[1].place.rotated(turns[0]) - to_crack,
-            turn_1: turns[0],
-        };
-        Pose { foot: rolls[0].place, rolls, arms, turns, q, g1, g2, c }
-    }
-
     pub fn turned_arms(&self, rotations: Rotations) -> TurnedArms {
         self.pose(rotations.angles()).arms
     }
@@ -164,152 +323,26 @@ impl BeddedMotion {
         self.mass_of(&self.pose(rotations.angles()).arms)
     }
 
-    fn mass_of(&self, arms: &TurnedArms) -> MassMatrix {
-        let Masses { m: [m1, m2], i: [i1, i2], m_d, m_dp } = self.masses;
-        let TurnedArms { r_1, r_q, r_2, r_c, .. } = *arms;
-        let above = r_2 * m2 + r_c * m_d;
-        MassMatrix {
-            m11: i1 + m1 * r_1.dot(r_1) + (m2 + m_d) * r_q.dot(r_q) + m_dp * r_q.y * r_q.y,
-            m12: r_q.dot(above) + m_dp * r_q.y * r_c.y,
-            m22: i2 + m2 * r_2.dot(r_2) + m_d * r_c.dot(r_c) + m_dp * r_c.y * r_c.y,
-        }
-    }
-
-    /// Accelerations of the mass points without θ'', relative to the ground.
-    fn drift(&self, pose: &Pose, [w1, w2]: Pair) -> PointVelocities {
-        let opening = w2 - w1;
-        let foot = pose.rolls[0].bend * (w1 * w1);
-        let crack = foot - pose.q[0] * (w1 * w1)
-            + pose.q[1].perpendicular() * (2.0 * w1 * opening)
-            + pose.q[2] * (opening * opening);
-        PointVelocities {
-            g1: foot - pose.g1 * (w1 * w1),
-            g2: crack - pose.g2 * (w2 * w2),
-            c: crack - pose.c * (w2 * w2),
-            theta: [0.0; 2],
-        }
-    }
-
-    /// Moments of the beds on θ_1 and θ_2, those that store and those that lose energy, N m.
-    fn bed_moments(&self, pose: &Pose, omega: Pair) -> [Pair; 2] {
-        let rates = across(omega);
-        let [stored, lost] = [
-            [0, 1].map(|j| pose.rolls[j].moment_n_m),
-            [0, 1].map(|j| pose.rolls[j].damping_n_m_s * rates[j]),
-        ];
-        [stored, lost].map(|[ground, crack]| [crack - ground, -crack])
-    }
-
-    fn balance(
-        &self,
-        laws: &Laws,
-        formulas: &FormulaLaws,
-        held: bool,
-        [theta, omega]: [Pair; 2],
-        ground: Vector,
-    ) -> Balance {
-        let pose = self.pose(theta);
-        let mass = self.mass_of(&pose.arms);
-        let moving = self.drift(&pose, omega);
-        let shaking = Vector::new(ground.x, ground.y + G_M_S2);
-        let drift = PointVelocities {
-            g1: moving.g1 + shaking,
-            g2: moving.g2 + shaking,
-            c: moving.c + shaking,
-            theta: [0.0; 2],
-        };
-        let arms = &pose.arms;
-        let x_c = self.top_of(&pose);
-        let v = arms.velocities(omega);
-        let mut damping_n = laws.damping_force_n(v.c.x);
-        let mut dampers = laws.joint_moments_n_m(wide::f64x2::new(omega)).to_array();
-        if !formulas.is_empty() {
-            damping_n += formulas.top_force_n(x_c, v.c.x);
-            let [on_1, on_2] = formulas.joint_moments_n_m(theta, omega);
-            dampers = [dampers[0] + on_1, dampers[1] + on_2];
-        }
-        let force_n = laws.spring_force_n(x_c) + damping_n;
-        let [stored, lost] = self.bed_moments(&pose, omega);
-        let inertia = self.masses.momenta(arms, &drift);
-        let levers = [arms.r_q.y, arms.r_c.y];
-        let f = [0, 1].map(|i| levers[i] * force_n - inertia[i] + stored[i] + lost[i] + dampers[i]);
-        let free = mass.solve(self.freedom, f);
-        let (theta_dd, holding_n) = match held {
-            true => self.with_held_top(&mass, levers, moving.c.x, free),
-            false => (free, 0.0),
-        };
-        let powers_w = [
-            -self.masses.power(&v, ground),
-            -(damping_n * v.c.x + (0..2).map(|i| (lost[i] + dampers[i]) * omega[i]).sum::<f64>()),
-        ];
-        Balance {
-            drift,
-            top_drift_x: moving.c.x,
-            x_c,
-            v_c: v.c.x,
-            force_n,
-            theta_dd,
-            holding_n,
-            powers_w,
-            pose,
-        }
-    }
-
-    /// As [`super::super::top`]: the force that keeps a_C = 0.
-    fn with_held_top(&self, mass: &MassMatrix, levers: Pair, drift_x: f64, free: Pair) -> (Pair, f64) {
-        let per_force = mass.solve(self.freedom, levers);
-        let along = |theta_dd: Pair| levers[0] * theta_dd[0] + levers[1] * theta_dd[1];
-        let holding_n = -(along(free) + drift_x) / along(per_force);
-        match self.freedom {
-            Freedom::Both => ([0, 1].map(|i| free[i] + per_force[i] * holding_n), holding_n),
-            _ => ([0.0; 2], holding_n),
-        }
-    }
-
-    fn top_of(&self, pose: &Pose) -> f64 {
-        (pose.foot + pose.q[0] + pose.c).x - self.c.x
-    }
-
-    pub fn rate(
-        &self,
-        laws: &Laws,
-        formulas: &FormulaLaws,
-        held: bool,
-        moving: [Pair; 2],
-        ground: Vector,
-    ) -> BeddedRate {
-        let balance = self.balance(laws, formulas, held, moving, ground);
-        BeddedRate { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
+    pub fn rate(&self, motion: &Motion, moving: [Pair; 2], ground: Vector) -> BeddedRate {
+        dispatch!(motion.level, _ => {
+            let Balance { theta_dd, powers_w, .. } = self.balance(motion, motion.held, moving, ground);
+            BeddedRate { theta_dd, powers_w }
+        })
     }
 
     /// Joint forces and motion of the top, with these angular accelerations or those of the motion.
     pub fn reactions(
         &self,
-        laws: &Laws,
-        formulas: &FormulaLaws,
-        held: bool,
+        motion: &Motion,
         moving: [Pair; 2],
         theta_dd: Option<Pair>,
         ground: Vector,
     ) -> (BeddedRate, Reactions) {
-        let balance = self.balance(laws, formulas, held, moving, ground);
-        let theta_dd = theta_dd.unwrap_or(balance.theta_dd);
-        let turning = balance.pose.arms.velocities(theta_dd);
-        let accelerations = PointVelocities {
-            g1: balance.drift.g1 + turning.g1,
-            g2: balance.drift.g2 + turning.g2,
-            c: balance.drift.c + turning.c,
-            theta: theta_dd,
-        };
-        let at_top = balance.force_n + balance.holding_n;
-        let reactions = Reactions {
-            forces: self.masses.through_joints(&balance.pose.arms, &accelerations, at_top),
-            top_displacement_m: balance.x_c,
-            top_velocity_m_s: balance.v_c,
-            top_acceleration_m_s2: balance.top_drift_x + turning.c.x,
-            holding_n: balance.holding_n,
-        };
-        (BeddedRate { theta_dd: balance.theta_dd, powers_w: balance.powers_w }, reactions)
+        dispatch!(motion.level, _ => {
+            let balance = self.balance(motion, motion.held, moving, ground);
+            let reactions = self.reactions_by(&balance, theta_dd.unwrap_or(balance.theta_dd));
+            (BeddedRate { theta_dd: balance.theta_dd, powers_w: balance.powers_w }, reactions)
+        })
     }
 
     /// Displacement (m), velocity (m/s) and acceleration (m/s²) of the top, relative to the ground.
@@ -354,7 +387,7 @@ impl BeddedMotion {
         let of = |number: fn(&Roll) -> f64| {
             let at = |joint: &JointShape| match joint {
                 JointShape::Edge { .. } => 0.0,
-                JointShape::Bed { bed, .. } => number(&bed.roll_in_full_contact(1.0)),
+                JointShape::Bed { rolling, .. } => number(&rolling.in_full_contact(1.0)),
             };
             let [ground, crack] = [at(&self.joints[0]), at(&self.joints[1])];
             MassMatrix { m11: ground + crack, m12: -crack, m22: crack }

@@ -53,8 +53,8 @@ pub enum Role {
 pub enum Lanes {
     /// The lanes do all sums of the law.
     Known,
-    /// The lanes do the sums of the law while it is elastic, not while it drags.
-    WhileElastic,
+    /// The lanes do the sums of the law while the top slides, not while it is held.
+    WhileSliding,
     /// The lanes do not do the sums of the law.
     Unknown,
 }

@@ -51,7 +51,7 @@ pub(super) static VISCOUS_DAMPING: EffectEntry = EffectEntry {
     name: "viscous_damping",
     place: Place::Top,
     role: Role::Damper,
-    lanes: Lanes::Unknown,
+    lanes: Lanes::Known,
     choice: None,
     parameters: &[EffectParameter {
         key: "coefficient_n_s_per_m",
@@ -77,7 +77,7 @@ pub(super) static COULOMB_FRICTION: EffectEntry = EffectEntry {
     name: "coulomb_friction",
     place: Place::Top,
     role: Role::Friction,
-    lanes: Lanes::Unknown,
+    lanes: Lanes::WhileSliding,
     choice: None,
     parameters: &[EffectParameter {
         key: "force_n",
@@ -104,7 +104,7 @@ pub(super) static CUBIC_STIFFNESS: EffectEntry = EffectEntry {
     name: "cubic_stiffness",
     place: Place::Top,
     role: Role::Spring,
-    lanes: Lanes::Unknown,
+    lanes: Lanes::Known,
     choice: None,
     parameters: &[EffectParameter {
         key: "coefficient_n_per_m3",
@@ -188,7 +188,7 @@ pub(super) static YIELDING_SPRING: EffectEntry = EffectEntry {
     name: "yielding_spring",
     place: Place::Top,
     role: Role::Memory,
-    lanes: Lanes::WhileElastic,
+    lanes: Lanes::Known,
     choice: None,
     parameters: &[
         EffectParameter {
@@ -231,7 +231,7 @@ pub(super) static JOINT_DAMPING: EffectEntry = EffectEntry {
     name: "joint_damping",
     place: Place::Joint,
     role: Role::Damper,
-    lanes: Lanes::Unknown,
+    lanes: Lanes::Known,
     choice: Some(JOINT),
     parameters: &[EffectParameter {
         key: "coefficient_n_m_s_per_rad",
@@ -288,7 +288,7 @@ pub(super) static COMPLIANT_JOINT: EffectEntry = EffectEntry {
     name: "compliant_joint",
     place: Place::Joint,
     role: Role::Bed,
-    lanes: Lanes::Unknown,
+    lanes: Lanes::Known,
     choice: Some(EffectChoice {
         key: "joint",
         // In the order of [`super::JOINTS`], and both.

@@ -22,12 +22,12 @@ impl StepRequest<'_> {
     #[inline]
     pub fn take(&self, reactions: &mut Reactions) -> Step {
         if self.motion.is_bedded() {
-            return self.step_on_beds(reactions);
+            return dispatch!(self.motion.level, _ => self.step_on_beds(reactions));
         }
         dispatch!(self.motion.level, _ => self.step(reactions))
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn step_on_beds(&self, reactions: &mut Reactions) -> Step {
         let mut shaken =
             BeddedField { motion: self.motion, from_s: self.from_s, piece: self.piece, reactions };
@@ -88,6 +88,7 @@ struct BeddedField<'a, 'b> {
 }
 
 impl Field for BeddedField<'_, '_> {
+    #[inline(always)]
     fn rate(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
         let ground = self.piece.at(self.from_s + after_s);
         from_motion(self.motion.rate(theta.to_array(), omega.to_array(), ground))

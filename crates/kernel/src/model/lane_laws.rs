@@ -1,0 +1,251 @@
+//! The laws beyond weight and inertia of several walls side by side, and which walls may go together.
+
+use fearless_simd::{Select, Simd, SimdBase, f64x4, mask64x4};
+
+use super::bed::Acting;
+use super::effect::Lanes;
+use super::laws::Laws;
+use super::mass_matrix::Freedom;
+use super::motion::Motion;
+use super::side_by_side::{LANES, lanes};
+use crate::fused::fused_lanes as fused;
+
+type F<S> = f64x4<S>;
+
+/// What motions have in common that may step side by side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum LaneKind {
+    /// They turn as one on sharp edges; perhaps with further laws than a linear spring.
+    AsOne { further: bool },
+    /// Their bodies turn apart on sharp edges; perhaps with further laws than a linear spring.
+    Apart { further: bool },
+    /// They stand on beds, and these rotations are free.
+    Bedded(Freedom),
+}
+
+impl LaneKind {
+    /// All kinds.
+    pub const ALL: [Self; 7] = [
+        Self::AsOne { further: false },
+        Self::Apart { further: false },
+        Self::AsOne { further: true },
+        Self::Apart { further: true },
+        Self::Bedded(Freedom::Monolithic),
+        Self::Bedded(Freedom::Upper),
+        Self::Bedded(Freedom::Both),
+    ];
+
+    /// Position among all kinds.
+    #[inline]
+    pub fn index(self) -> usize {
+        match self {
+            Self::AsOne { further } => 2 * usize::from(further),
+            Self::Apart { further } => 1 + 2 * usize::from(further),
+            Self::Bedded(Freedom::None | Freedom::Monolithic) => 4,
+            Self::Bedded(Freedom::Upper) => 5,
+            Self::Bedded(Freedom::Both) => 6,
+        }
+    }
+}
+
+impl Motion {
+    /// The kind of motions this one may go side by side with; `None` where it moves alone.
+    #[inline]
+    pub fn side_by_side(&self) -> Option<LaneKind> {
+        let known = match self.laws.lanes {
+            Lanes::Known => true,
+            Lanes::WhileSliding => !self.held,
+            Lanes::Unknown => false,
+        };
+        if !known || self.freedom == Freedom::None {
+            return None;
+        }
+        let further = self.damped || self.laws.cubic_n_per_m3 != 0.0;
+        Some(match self.freedom {
+            freedom if self.is_bedded() => LaneKind::Bedded(freedom),
+            Freedom::Monolithic => LaneKind::AsOne { further },
+            _ => LaneKind::Apart { further },
+        })
+    }
+}
+
+/// The laws of which the lanes do the sums.
+#[derive(Clone, Copy)]
+pub(super) struct LaneLaws {
+    pub m_dp: f64,
+    stiffness: f64,
+    offset: f64,
+    cubic: f64,
+    viscous: f64,
+    drag: f64,
+    joint_damping: [f64; 2],
+}
+
+impl LaneLaws {
+    /// Every law by its name, so that a new one does not compile here at first. Either the lanes do its sums,
+    /// or the catalogue says of its effect that they do not.
+    #[inline(always)]
+    pub fn of(motion: &Motion) -> Self {
+        let Laws {
+            carriage_mass_kg: m_dp,
+            stiffness_n_per_m: stiffness,
+            spring_offset_n: offset,
+            cubic_n_per_m3: cubic,
+            viscous_n_s_per_m: viscous,
+            drag_n: drag,
+            joint_damping_n_m_s: joint_damping,
+            // Energy, which a step does not need.
+            stored_offset_j: _,
+            lanes: _,
+        } = motion.laws;
+        Self { m_dp, stiffness, offset, cubic, viscous, drag, joint_damping }
+    }
+}
+
+/// The linear spring at the top, and what else is constant there.
+#[derive(Clone, Copy)]
+pub(super) struct SpringLanes<S: Simd> {
+    stiffness: F<S>,
+    offset: F<S>,
+}
+
+impl<S: Simd> SpringLanes<S> {
+    #[inline(always)]
+    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
+        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
+        Self { stiffness: lanes(|m| LaneLaws::of(m).stiffness), offset: lanes(|m| LaneLaws::of(m).offset) }
+    }
+
+    /// As [`Laws::spring_force_n`] of a linear spring.
+    #[inline(always)]
+    pub fn force_n(&self, x_c: F<S>) -> F<S> {
+        fused(-self.stiffness, x_c, self.offset)
+    }
+}
+
+/// The laws of walls on beds side by side.
+pub(crate) struct LawLanes<S: Simd> {
+    spring: SpringLanes<S>,
+    further: FurtherLanes<S>,
+}
+
+impl<S: Simd> LawLanes<S> {
+    #[inline(always)]
+    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
+        Self { spring: SpringLanes::new(simd, m), further: FurtherLanes::new(simd, m) }
+    }
+}
+
+impl<S: Simd> Acting<F<S>> for LawLanes<S> {
+    #[inline(always)]
+    fn spring_force_n(&self, x_c_m: F<S>) -> F<S> {
+        self.further.spring_force_n(&self.spring, x_c_m)
+    }
+
+    #[inline(always)]
+    fn damping_force_n(&self, _: F<S>, v_c_m_s: F<S>) -> F<S> {
+        self.further.damping_force_n(v_c_m_s)
+    }
+
+    #[inline(always)]
+    fn joint_moments_n_m(&self, _: [F<S>; 2], omega: [F<S>; 2]) -> [F<S>; 2] {
+        self.further.joint_moments_n_m(omega)
+    }
+}
+
+/// Laws beyond a linear spring: a cubic one, dampers, drag. A lane without them keeps its sums as they are.
+pub(super) struct FurtherLanes<S: Simd> {
+    cubic: F<S>,
+    linear: mask64x4<S>,
+    viscous: F<S>,
+    drag: F<S>,
+    at_ground: F<S>,
+    at_crack: F<S>,
+    damped: mask64x4<S>,
+}
+
+impl<S: Simd> FurtherLanes<S> {
+    #[inline(always)]
+    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
+        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
+        let cubic = lanes(|m| LaneLaws::of(m).cubic);
+        Self {
+            cubic,
+            linear: cubic.simd_eq(0.0),
+            viscous: lanes(|m| LaneLaws::of(m).viscous),
+            drag: lanes(|m| LaneLaws::of(m).drag),
+            at_ground: lanes(|m| LaneLaws::of(m).joint_damping[0]),
+            at_crack: lanes(|m| LaneLaws::of(m).joint_damping[1]),
+            damped: lanes(|m| f64::from(u8::from(m.damped))).simd_eq(1.0),
+        }
+    }
+
+    /// As [`Laws::spring_force_n`].
+    #[inline(always)]
+    pub fn spring_force_n(&self, spring: &SpringLanes<S>, x_c: F<S>) -> F<S> {
+        let secant = fused(self.cubic * x_c, x_c, spring.stiffness);
+        self.linear.select(spring.force_n(x_c), fused(-secant, x_c, spring.offset))
+    }
+
+    /// As [`Laws::damping_force_n`].
+    #[inline(always)]
+    pub fn damping_force_n(&self, v_c: F<S>) -> F<S> {
+        fused(-self.viscous, v_c, self.drag)
+    }
+
+    /// As [`Laws::joint_moments_n_m`].
+    #[inline(always)]
+    pub fn joint_moments_n_m(&self, [w1, w2]: [F<S>; 2]) -> [F<S>; 2] {
+        let at_crack = self.at_crack * (w2 - w1);
+        [fused(-self.at_ground, w1, at_crack), -at_crack]
+    }
+
+    /// A number with a further one where a lane is damped, as it is where not.
+    #[inline(always)]
+    pub fn with(&self, number: F<S>, further: F<S>) -> F<S> {
+        self.damped.select(number + further, number)
+    }
+
+    #[inline(always)]
+    pub fn where_damped(&self, number: F<S>) -> F<S> {
+        self.damped.select(number, F::splat(number.simd, 0.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Contact, EffectKind, Pivot, RockingWall, Wall, WallParameters};
+
+    fn cracked(effects: Vec<crate::model::Effect>) -> RockingWall {
+        let strip = WallParameters::strip(0.3, 4.0, 1800.0);
+        let crack_height_m = Some(2.2);
+        let stiffness_n_per_m = 40e3;
+        let parameters = WallParameters { crack_height_m, stiffness_n_per_m, effects, ..strip };
+        RockingWall::new(&Wall::new(parameters).expect("a wall that can exist"))
+    }
+
+    #[test]
+    fn analytic_walls_with_every_effect_of_the_catalogue_go_side_by_side() {
+        let open = Contact { ground: Pivot::Right, crack: Pivot::Left };
+        for variant in EffectKind::ALL.iter().flat_map(|kind| kind.variants()) {
+            let mut wall = cracked(vec![variant.example()]);
+            // A top that friction holds has a force of its own.
+            let held = wall.is_held();
+            assert_eq!(wall.motion(open).side_by_side().is_none(), held, "{variant:?}");
+            let mut regime = wall.regime();
+            regime.slides = crate::model::Side::Positive;
+            wall.enter_regime(regime);
+            let kind = wall.motion(open).side_by_side();
+            let on_bed = kind == Some(LaneKind::Bedded(Freedom::Both));
+            assert!(kind.is_some() && on_bed == wall.wall().gives(), "{variant:?}: {kind:?}");
+        }
+    }
+
+    #[test]
+    fn analytic_kinds_have_places_of_their_own() {
+        for (place, kind) in LaneKind::ALL.into_iter().enumerate() {
+            assert_eq!(kind.index(), place, "{kind:?}");
+        }
+    }
+}

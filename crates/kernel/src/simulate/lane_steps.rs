@@ -1,0 +1,396 @@
+//! The steps of several runs at once, in vector lanes: packed, taken together, unpacked.
+
+use std::ops::Mul;
+
+use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+
+use super::run::StepRequest;
+use crate::fused::fused_lanes;
+use crate::model::{
+    BeddedMotion, ConfigurationLanes, JointLanes, LANES, LaneKind, LawLanes, Motions, RateLanes,
+    ReactionLanes, Reactions, Vector, lanes,
+};
+use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
+
+type F<S> = f64x4<S>;
+
+/// One coordinate of every run, or both of them.
+#[derive(Clone, Copy)]
+struct OneRotation<S: Simd>(F<S>);
+
+#[derive(Clone, Copy)]
+struct TwoRotations<S: Simd>([F<S>; 2]);
+
+impl<S: Simd> Mul<f64> for OneRotation<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        Self(self.0 * factor)
+    }
+}
+
+impl<S: Simd> Values for OneRotation<S> {
+    type Length = F<S>;
+    #[inline(always)]
+    fn over(self, length: F<S>) -> Self {
+        Self(self.0 * length)
+    }
+
+    #[inline(always)]
+    fn over_plus(self, length: F<S>, other: Self) -> Self {
+        Self(fused_lanes(self.0, length, other.0))
+    }
+
+    #[inline(always)]
+    fn times_plus(self, factor: f64, other: Self) -> Self {
+        Self(fused_lanes(self.0, F::splat(self.0.simd, factor), other.0))
+    }
+}
+
+impl<S: Simd> Mul<f64> for TwoRotations<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        Self([self.0[0] * factor, self.0[1] * factor])
+    }
+}
+
+impl<S: Simd> Values for TwoRotations<S> {
+    type Length = F<S>;
+    #[inline(always)]
+    fn over(self, length: F<S>) -> Self {
+        Self([self.0[0] * length, self.0[1] * length])
+    }
+
+    #[inline(always)]
+    fn over_plus(self, length: F<S>, other: Self) -> Self {
+        Self([fused_lanes(self.0[0], length, other.0[0]), fused_lanes(self.0[1], length, other.0[1])])
+    }
+
+    #[inline(always)]
+    fn times_plus(self, factor: f64, other: Self) -> Self {
+        self.over_plus(F::splat(self.0[0].simd, factor), other)
+    }
+}
+
+/// Calls what every stage of a step does as a function of its own, compiled for the same instructions. Rare laws
+/// are longer than ones that are everywhere: six times over they would fill the cache of instructions, and the
+/// compiler's time.
+#[inline(always)]
+fn apart<S: Simd, R>(simd: S, stage: impl FnOnce() -> R) -> R {
+    simd.vectorize(stage)
+}
+
+/// The ground acceleration under every run.
+struct GroundLanes<S: Simd> {
+    from: [F<S>; 2],
+    slope: [F<S>; 2],
+    from_s: F<S>,
+}
+
+impl<S: Simd> GroundLanes<S> {
+    #[inline(always)]
+    fn new(simd: S, requests: &[StepRequest; LANES]) -> Self {
+        let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
+        Self {
+            from: [lanes(|a| a.piece.from.x), lanes(|a| a.piece.from.y)],
+            slope: [lanes(|a| a.piece.slope.x), lanes(|a| a.piece.slope.y)],
+            from_s: lanes(|a| a.from_s),
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, after_s: F<S>) -> [F<S>; 2] {
+        let offset_s = self.from_s + after_s;
+        [self.from[0] + self.slope[0] * offset_s, self.from[1] + self.slope[1] * offset_s]
+    }
+}
+
+/// Motions under that of the ground, and the reactions once they have landed.
+trait Shaken<S: Simd> {
+    fn reactions(&self) -> Option<&ReactionLanes<S>>;
+
+    /// The reactions of every lane at the end of the step.
+    #[inline(always)]
+    fn landed(&self) -> [Reactions; LANES] {
+        self.reactions().map_or([Reactions::default(); LANES], ReactionLanes::unpacked)
+    }
+}
+
+/// Walls on sharp edges.
+struct ShakenMotion<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
+    motions: Motions<S, AS_ONE, FURTHER>,
+    ground: GroundLanes<S>,
+    configuration: Option<ConfigurationLanes<S>>,
+    reactions: Option<ReactionLanes<S>>,
+}
+
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<S, AS_ONE, FURTHER> {
+    #[inline(always)]
+    fn new(simd: S, requests: &[StepRequest; LANES]) -> Self {
+        Self {
+            motions: Motions::new(simd, std::array::from_fn(|i| requests[i].motion)),
+            ground: GroundLanes::new(simd, requests),
+            configuration: None,
+            reactions: None,
+        }
+    }
+}
+
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Shaken<S> for ShakenMotion<S, AS_ONE, FURTHER> {
+    #[inline(always)]
+    fn reactions(&self) -> Option<&ReactionLanes<S>> {
+        self.reactions.as_ref()
+    }
+}
+
+/// Walls on beds.
+struct BeddedShaken<S: Simd> {
+    equations: BeddedMotion<F<S>, JointLanes<S>>,
+    laws: LawLanes<S>,
+    ground: GroundLanes<S>,
+    reactions: Option<ReactionLanes<S>>,
+}
+
+impl<S: Simd> BeddedShaken<S> {
+    /// `None` unless every wall stands on beds.
+    #[inline(always)]
+    fn new(simd: S, requests: &[StepRequest; LANES]) -> Option<Self> {
+        let m = requests.each_ref().map(|request| request.motion);
+        let walls = [m[0].on_beds()?, m[1].on_beds()?, m[2].on_beds()?, m[3].on_beds()?];
+        Some(Self {
+            equations: BeddedMotion::of_lanes(simd, &walls),
+            laws: LawLanes::new(simd, m),
+            ground: GroundLanes::new(simd, requests),
+            reactions: None,
+        })
+    }
+
+    #[inline(always)]
+    fn rate_at(&self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
+        let [x, y] = self.ground.at(after_s);
+        let balance = self.equations.balance(&self.laws, false, [theta, omega], Vector { x, y });
+        RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
+    }
+}
+
+impl<S: Simd> Shaken<S> for BeddedShaken<S> {
+    #[inline(always)]
+    fn reactions(&self) -> Option<&ReactionLanes<S>> {
+        self.reactions.as_ref()
+    }
+}
+
+impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<S> {
+    #[inline(always)]
+    fn rate(
+        &mut self,
+        after_s: F<S>,
+        theta: TwoRotations<S>,
+        omega: TwoRotations<S>,
+    ) -> Rate<TwoRotations<S>> {
+        as_rate(apart(
+            after_s.simd,
+            #[inline(always)]
+            || self.rate_at(after_s, theta.0, omega.0),
+        ))
+    }
+
+    #[inline(always)]
+    fn land(
+        &mut self,
+        after_s: F<S>,
+        theta: TwoRotations<S>,
+        omega: TwoRotations<S>,
+    ) -> Rate<TwoRotations<S>> {
+        let [x, y] = self.ground.at(after_s);
+        let balance = self.equations.balance(&self.laws, false, [theta.0, omega.0], Vector { x, y });
+        self.reactions = Some(ReactionLanes::of(&self.equations.reactions_by(&balance, balance.theta_dd)));
+        as_rate(RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w })
+    }
+}
+
+/// The one rotation and the power of the ground, where nothing is lost.
+impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true, false> {
+    #[inline(always)]
+    fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
+        let (theta_dd, [power, _]) = self.motions.monolithic_rate(theta.0, omega.0, self.ground.at(after_s));
+        Rate { acceleration: OneRotation(theta_dd), quadrature: OneRotation(power) }
+    }
+
+    #[inline(always)]
+    fn land(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
+        let turned = self.motions.configuration([theta.0; 2]);
+        let (rate, reactions) =
+            self.motions.rate_and_reactions(&turned, [omega.0; 2], self.ground.at(after_s));
+        self.reactions = Some(reactions);
+        Rate { acceleration: OneRotation(rate.theta_dd[0]), quadrature: OneRotation(rate.powers_w[0]) }
+    }
+}
+
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<S, AS_ONE, FURTHER> {
+    #[inline(always)]
+    fn rate_at(&mut self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
+        let ground = self.ground.at(after_s);
+        if AS_ONE {
+            let (theta_dd, powers_w) = self.motions.monolithic_rate(theta[0], omega[0], ground);
+            return RateLanes { theta_dd: [theta_dd; 2], powers_w };
+        }
+        let turned = self.motions.configuration(theta);
+        let rate = self.motions.rate(&turned, omega, ground);
+        self.configuration = Some(turned);
+        rate
+    }
+}
+
+/// Both rotations, equal where walls turn as one, and both powers.
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
+    for ShakenMotion<S, AS_ONE, FURTHER>
+{
+    #[inline(always)]
+    fn rate(
+        &mut self,
+        after_s: F<S>,
+        theta: TwoRotations<S>,
+        omega: TwoRotations<S>,
+    ) -> Rate<TwoRotations<S>> {
+        if FURTHER {
+            return as_rate(apart(
+                after_s.simd,
+                #[inline(always)]
+                || self.rate_at(after_s, theta.0, omega.0),
+            ));
+        }
+        as_rate(self.rate_at(after_s, theta.0, omega.0))
+    }
+
+    #[inline(always)]
+    fn land(
+        &mut self,
+        after_s: F<S>,
+        theta: TwoRotations<S>,
+        omega: TwoRotations<S>,
+    ) -> Rate<TwoRotations<S>> {
+        let turned = self.configuration.unwrap_or_else(|| self.motions.configuration(theta.0));
+        let (rate, reactions) = self.motions.rate_and_reactions(&turned, omega.0, self.ground.at(after_s));
+        self.reactions = Some(reactions);
+        as_rate(rate)
+    }
+}
+
+#[inline(always)]
+fn as_rate<S: Simd>(rate: RateLanes<S>) -> Rate<TwoRotations<S>> {
+    Rate { acceleration: TwoRotations(rate.theta_dd), quadrature: TwoRotations(rate.powers_w) }
+}
+
+/// The steps of walls that turn as one and lose nothing between impacts.
+#[inline(always)]
+fn monolithic_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
+    let mut shaken = ShakenMotion::<S, true, false>::new(simd, requests);
+    let lanes = |of: fn(&StepRequest) -> f64| OneRotation(lanes(simd, |i| of(&requests[i])));
+    let start =
+        Rate { acceleration: lanes(|a| a.now.acceleration[0]), quadrature: lanes(|a| a.quadrature_rate[0]) };
+    let h = lanes(|a| a.h).0;
+    let stride =
+        Nystrom::stride(lanes(|a| a.now.position[0]), lanes(|a| a.now.velocity[0]), start, h, &mut shaken);
+    let reactions = shaken.landed();
+    let [x, v, a, rate, gained, e_x, e_v] = [
+        stride.position,
+        stride.velocity,
+        stride.end.acceleration,
+        stride.end.quadrature,
+        stride.quadrature,
+        stride.position_error,
+        stride.velocity_error,
+    ]
+    .map(|of| <[f64; LANES]>::from(of.0));
+    std::array::from_fn(|i| {
+        let step = Step {
+            h: requests[i].h,
+            start: *requests[i].now,
+            end: Point { position: [x[i]; 2], velocity: [v[i]; 2], acceleration: [a[i]; 2] },
+            quadrature: [gained[i], 0.0],
+            end_quadrature_rate: [rate[i], 0.0],
+            position_error: [e_x[i]; 2],
+            velocity_error: [e_v[i]; 2],
+        };
+        (step, reactions[i])
+    })
+}
+
+/// The steps of walls on sharp edges by both rotations.
+#[inline(always)]
+fn two_body_steps<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+    simd: S,
+    requests: &[StepRequest; LANES],
+) -> [(Step, Reactions); LANES] {
+    steps_of(simd, requests, ShakenMotion::<S, AS_ONE, FURTHER>::new(simd, requests))
+}
+
+/// The steps of walls on beds.
+#[inline(always)]
+fn bedded_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
+    let Some(shaken) = BeddedShaken::new(simd, requests) else { unreachable!("walls of a kind on beds") };
+    steps_of(simd, requests, shaken)
+}
+
+#[inline(always)]
+fn steps_of<S: Simd>(
+    simd: S,
+    requests: &[StepRequest; LANES],
+    mut shaken: impl Field<TwoRotations<S>> + Shaken<S>,
+) -> [(Step, Reactions); LANES] {
+    let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
+    let start = Rate {
+        acceleration: TwoRotations([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
+        quadrature: TwoRotations([lanes(|a| a.quadrature_rate[0]), lanes(|a| a.quadrature_rate[1])]),
+    };
+    let x = TwoRotations([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
+    let v = TwoRotations([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
+    let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
+    let reactions = shaken.landed();
+    let [x, v, a, rate, gained, e_x, e_v] = [
+        stride.position,
+        stride.velocity,
+        stride.end.acceleration,
+        stride.end.quadrature,
+        stride.quadrature,
+        stride.position_error,
+        stride.velocity_error,
+    ]
+    .map(|of| of.0.map(<[f64; LANES]>::from));
+    std::array::from_fn(|i| {
+        let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
+        let step = Step {
+            h: requests[i].h,
+            start: *requests[i].now,
+            end: Point { position: both(&x), velocity: both(&v), acceleration: both(&a) },
+            quadrature: both(&gained),
+            end_quadrature_rate: both(&rate),
+            position_error: both(&e_x),
+            velocity_error: both(&e_v),
+        };
+        (step, reactions[i])
+    })
+}
+
+/// The steps of walls of one kind.
+pub(super) fn steps(
+    level: Level,
+    kind: LaneKind,
+    requests: &[StepRequest; LANES],
+) -> [(Step, Reactions); LANES] {
+    match kind {
+        LaneKind::AsOne { further: false } => dispatch!(level, simd => monolithic_steps(simd, requests)),
+        LaneKind::Apart { further: false } => {
+            dispatch!(level, simd => two_body_steps::<_, false, false>(simd, requests))
+        }
+        LaneKind::AsOne { further: true } => {
+            dispatch!(level, simd => two_body_steps::<_, true, true>(simd, requests))
+        }
+        LaneKind::Apart { further: true } => {
+            dispatch!(level, simd => two_body_steps::<_, false, true>(simd, requests))
+        }
+        LaneKind::Bedded(_) => dispatch!(level, simd => bedded_steps(simd, requests)),
+    }
+}
