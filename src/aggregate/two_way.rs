@@ -12,16 +12,16 @@ use super::draws::{DRAWS, FEWEST_RECORDS, INTERVAL, SEED};
 use super::quantile::LEVELS;
 use super::resampled::Interval;
 
-/// Runs that are looked at for an interval at most: 10⁸ take half a second.
-const MOST_LOOKS: usize = 100_000_000;
+/// Runs that are looked at for the intervals of a group at most: 10⁷ take some 50 ms, and a study has dozens of groups.
+const MOST_LOOKS: usize = 10_000_000;
 
 /// Of a million runs fewer draws are made, but never fewer than these: the quantile at 5 % is then the tenth of them.
 const FEWEST_DRAWS: u64 = 200;
 
-/// A run: its value, or `None` above all numbers; its record and its façade by number.
+/// A run: its value, infinite where it lies above all numbers; its record and its façade by number.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Drawn {
-    pub value: Option<f64>,
+    pub value: f64,
     pub record: u32,
     pub facade: u32,
 }
@@ -29,10 +29,7 @@ pub(super) struct Drawn {
 /// Intervals of the quantiles at [`LEVELS`] of runs under so many records.
 pub(super) fn intervals(mut runs: Vec<Drawn>, records: usize) -> [Option<Interval>; 7] {
     // What is no number stands at the end.
-    runs.sort_unstable_by(|a, b| {
-        let value = |run: &Drawn| run.value.unwrap_or(f64::INFINITY);
-        value(a).total_cmp(&value(b)).then(a.value.is_none().cmp(&b.value.is_none()))
-    });
+    runs.sort_unstable_by(|a, b| a.value.total_cmp(&b.value));
     let facades = runs.iter().map(|run| run.facade as usize + 1).max().unwrap_or(0);
     let few_records = records > 1 && records < FEWEST_RECORDS;
     if facades < FEWEST_RECORDS || few_records {
@@ -71,7 +68,7 @@ fn weighted(runs: &[Drawn], weight: impl Fn(&Drawn) -> u64) -> Option<[Option<f6
         let upto = before + weight(run);
         for (upper, next) in next.iter_mut().enumerate() {
             while *next < LEVELS.len() && ranks[*next].floor() as u64 + (upper as u64) < upto {
-                found[*next][upper] = run.value;
+                found[*next][upper] = Some(run.value).filter(|value| value.is_finite());
                 *next += 1;
             }
         }
@@ -104,7 +101,8 @@ mod tests {
     /// Façades × records of values.
     fn runs(facades: u32, records: u32, value: impl Fn(u32, u32) -> Option<f64>) -> Vec<Drawn> {
         let of = |facade| (0..records).map(move |record| (facade, record));
-        let run = |(facade, record)| Drawn { value: value(facade, record), record, facade };
+        let above = f64::INFINITY;
+        let run = |(facade, record)| Drawn { value: value(facade, record).unwrap_or(above), record, facade };
         (0..facades).flat_map(of).map(run).collect()
     }
 
@@ -114,7 +112,9 @@ mod tests {
             let runs: Vec<Drawn> =
                 runs(9, 1, |facade, _| (facade < 9 - beyond).then(|| f64::from(facade * facade)));
             let weights = [2, 0, 1, 3, 0, 1, 2, 4, 1];
-            let repeated = runs.iter().flat_map(|run| vec![run.value; weights[run.facade as usize] as usize]);
+            let repeated = runs.iter().flat_map(|run| {
+                vec![Some(run.value).filter(|x| x.is_finite()); weights[run.facade as usize] as usize]
+            });
             let repeated: Vec<Option<f64>> = repeated.collect();
             let standing: Vec<f64> = repeated.iter().flatten().copied().collect();
             let expected = quantiles(&standing, repeated.len() - standing.len());

@@ -1,11 +1,13 @@
 //! `mrbd slurm`: the scripts it writes, run by a stand-in for Slurm. A real one is in slurm_cluster.rs.
 
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 use crate::campaign::contents;
 use crate::pipeline_cli::{mrbd, stdout, study};
 use crate::pipeline_support::SMALL;
+use crate::variance::sharp;
 
 /// A stand-in for Slurm's: it runs every task of an array in falling order, then what depends on it.
 const SBATCH: &str = r#"#!/bin/sh
@@ -22,10 +24,33 @@ case $tasks in
 esac
 "#;
 
+/// Runs the command that `mrbd slurm` prints, with the stand-in.
+#[cfg(unix)]
+fn submit(at: &Path, command: &str) {
+    use std::os::unix::fs::PermissionsExt;
+    fs::write(at.join("sbatch"), SBATCH).expect("written");
+    fs::set_permissions(at.join("sbatch"), fs::Permissions::from_mode(0o755)).expect("made to run");
+    let path = format!("{}:{}", at.display(), std::env::var("PATH").unwrap_or_default());
+    let output = Command::new("sh").args(["-c", command]).current_dir(at).env("PATH", path).output();
+    stdout(&output.expect("a shell"));
+}
+
+#[cfg(unix)]
+#[test]
+fn regress_an_array_of_a_study_of_variance_gives_the_bits_of_one_process() {
+    let folder = study(&sharp());
+    let at = folder.path();
+    let told = stdout(&mrbd(at, &["run", "study.toml", "--out", "whole", "--block-runs", "16"]));
+    let command =
+        ["slurm", "study.toml", "--out", "array", "--block-runs", "16", "--tasks", "3", "--cpus", "1"];
+    submit(at, &stdout(&mrbd(at, &command)));
+    assert_eq!(contents(&at.join("array")), contents(&at.join("whole")));
+    assert_eq!(fs::read_to_string(at.join("merged.txt")).expect("shares"), told);
+}
+
 #[cfg(unix)]
 #[test]
 fn regress_the_scripts_for_slurm_give_the_bits_of_one_process() {
-    use std::os::unix::fs::PermissionsExt;
     let folder = study(SMALL);
     let at = folder.path();
     let told = stdout(&mrbd(at, &["run", "study.toml", "--out", "whole", "--block-runs", "4"]));
@@ -34,11 +59,7 @@ fn regress_the_scripts_for_slurm_give_the_bits_of_one_process() {
     command.extend(["--tasks", "3", "--at-once", "2", "--cpus", "1", "--partition", "long"]);
     command.extend(["--account", "the \"lab\" a", "--sbatch=--qos=high", "--sbatch", "--comment=it's"]);
     let command = stdout(&mrbd(at, &command));
-    fs::write(at.join("sbatch"), SBATCH).expect("written");
-    fs::set_permissions(at.join("sbatch"), fs::Permissions::from_mode(0o755)).expect("made to run");
-    let path = format!("{}:{}", at.display(), std::env::var("PATH").unwrap_or_default());
-    let output = Command::new("sh").args(["-c", &command]).current_dir(at).env("PATH", path).output();
-    stdout(&output.expect("a shell"));
+    submit(at, &command);
     assert_eq!(contents(&at.join("the user's 10%A out")), contents(&at.join("whole")));
     assert_eq!(fs::read_to_string(at.join("merged.txt")).expect("medians"), told);
     let log = fs::read_to_string(at.join("sbatch.log")).expect("a log");

@@ -19,7 +19,7 @@ fn variance() -> String {
 }
 
 /// The same on sharp edges, which takes no time.
-fn sharp() -> String {
+pub fn sharp() -> String {
     let from = TABLE.find("beds").expect("beds");
     let to = TABLE.find("factor").expect("a factor");
     let sharp = format!("{}beds = [{{ stiffness_pa_per_m = 1e13 }}]\n{}", &TABLE[..from], &TABLE[to..]);
