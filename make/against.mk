@@ -11,7 +11,7 @@ bench-against: ## walls a second by this kernel and by that of another commit, i
 	git worktree prune
 	@test -d $(BASE_TREE) || git worktree add --quiet --detach $(BASE_TREE) $(BASE)
 	git -C $(BASE_TREE) checkout --quiet --force --detach $(BASE)
-	cp examples/walls_a_second.rs $(BASE_TREE)/examples/
+	mkdir -p $(BASE_TREE)/examples && cp examples/walls_a_second.rs $(BASE_TREE)/examples/
 	cargo build --release --locked --example walls_a_second
 	cargo build --release --locked --example walls_a_second --manifest-path $(BASE_TREE)/Cargo.toml --target-dir $(BASE_TREE)/target
-	@sh benches/against.sh $(BASE_TREE)/target/release/examples/walls_a_second target/release/examples/walls_a_second $(TURNS)
+	@sh benches/against.sh $(BASE_TREE)/target/release/examples/walls_a_second $(CARGO_TARGET)/release/examples/walls_a_second $(TURNS)
