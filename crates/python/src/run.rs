@@ -225,7 +225,9 @@ impl Run {
             let response = simulate_observed(wall, &self.shaking, self.settings.accuracy(), &mut watch);
             (watch, response)
         });
-        if response != *self.response() {
+        // Where a run left the wall is not pickled.
+        let known = Response { left: response.left, ..self.response().clone() };
+        if response != known {
             return Err(Error::new_err(
                 "the run comes out otherwise: another version of the program made it",
             ));
