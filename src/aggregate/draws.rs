@@ -26,7 +26,14 @@ pub const DRAWS: u64 = 1000;
 pub const FEWEST_RECORDS: usize = 5;
 
 /// Seed of all draws.
-pub(super) const SEED: u64 = 2012;
+const SEED: u64 = 2012;
+
+/// The random numbers of a draw: its own, so that threads and machines change nothing.
+pub(super) fn rng_of(draw: u64) -> ChaCha8Rng {
+    let mut rng = ChaCha8Rng::seed_from_u64(SEED);
+    rng.set_stream(draw);
+    rng
+}
 
 /// Ends of the interval of a median.
 pub(super) const INTERVAL: [f64; 2] = [0.05, 0.95];
@@ -188,8 +195,7 @@ impl Draws {
 
     /// The medians of a draw of so many records.
     pub fn drawn(&self, draw: u64, records: usize) -> Vec<Median> {
-        let mut rng = ChaCha8Rng::seed_from_u64(SEED);
-        rng.set_stream(draw);
+        let mut rng = rng_of(draw);
         let records: Vec<usize> = (0..records).map(|_| rng.random_range(0..self.records)).collect();
         self.cases.iter().flat_map(|case| case.medians(&records, &mut rng)).collect()
     }

@@ -7,12 +7,12 @@
 
 use std::collections::BTreeMap;
 
-use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::draws::{DRAWS, FEWEST_RECORDS, INTERVAL, SEED};
+use super::draws::{DRAWS, FEWEST_RECORDS, INTERVAL, rng_of};
 use super::sequences::{Compared, Pair};
+use super::two_way::counts;
 
 /// The ends of an interval; none of an end that lies above all numbers, as collapses do.
 pub type Interval = [Option<f64>; 2];
@@ -66,8 +66,7 @@ fn number<K: Ord>(of: &mut BTreeMap<K, usize>, key: K) -> usize {
 
 /// Median ratio and share of a draw.
 fn one_draw(pairs: &[Weighted], counts: [usize; 2], draw: u64) -> [Option<f64>; 2] {
-    let mut rng = ChaCha8Rng::seed_from_u64(SEED);
-    rng.set_stream(draw);
+    let mut rng = rng_of(draw);
     let [records, walls] = counts.map(|count| draw_counts(&mut rng, count));
     let weight = |pair: &Weighted| {
         pair.records.iter().map(|&record| records[record]).product::<f64>() * walls[pair.wall]
@@ -91,9 +90,7 @@ fn draw_counts(rng: &mut ChaCha8Rng, count: usize) -> Vec<f64> {
     if count < FEWEST_RECORDS {
         return vec![1.0; count];
     }
-    let mut drawn = vec![0.0; count];
-    (0..count).for_each(|_| drawn[rng.random_range(0..count)] += 1.0);
-    drawn
+    counts(count, rng).into_iter().map(|drawn| drawn as f64).collect()
 }
 
 /// Order statistics at 5 and 95 %, outwards.

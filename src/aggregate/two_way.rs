@@ -4,15 +4,16 @@
 //! was drawn times as often as its record (Owen 2007, "The pigeonhole bootstrap", Ann. Appl. Stat. 1(2)). Of one
 //! record the façades alone are drawn. A draw depends on its number alone, so that threads and machines change nothing.
 
-use rand::{RngExt, SeedableRng};
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::draws::{DRAWS, FEWEST_RECORDS, INTERVAL, SEED};
+use super::draws::{DRAWS, FEWEST_RECORDS, INTERVAL, rng_of};
 use super::quantile::LEVELS;
 use super::resampled::Interval;
 
-/// Runs that are looked at for the intervals of a group at most: 10⁷ take some 50 ms, and a study has dozens of groups.
+/// Runs that are looked at for the intervals of a group at most: a study has dozens of groups, and a million runs are not
+/// to wait longer for intervals than for themselves.
 const MOST_LOOKS: usize = 10_000_000;
 
 /// Of a million runs fewer draws are made, but never fewer than these: the quantile at 5 % is then the tenth of them.
@@ -37,8 +38,7 @@ pub(super) fn intervals(mut runs: Vec<Drawn>, records: usize) -> [Option<Interva
     }
     let draws = ((MOST_LOOKS / runs.len()) as u64).clamp(FEWEST_DRAWS, DRAWS);
     let draw = |number: u64| {
-        let mut rng = ChaCha8Rng::seed_from_u64(SEED);
-        rng.set_stream(number);
+        let mut rng = rng_of(number);
         let of_records = counts(records, &mut rng);
         let of_facades = counts(facades, &mut rng);
         weighted(&runs, |run| of_records[run.record as usize] * of_facades[run.facade as usize])
@@ -47,8 +47,8 @@ pub(super) fn intervals(mut runs: Vec<Drawn>, records: usize) -> [Option<Interva
     std::array::from_fn(|level| interval(drawn.iter().map(|quantiles| quantiles[level]).collect()))
 }
 
-/// How often each of some was drawn.
-fn counts(of: usize, rng: &mut ChaCha8Rng) -> Vec<u64> {
+/// How often each of some is drawn in as many draws.
+pub(super) fn counts(of: usize, rng: &mut ChaCha8Rng) -> Vec<u64> {
     let mut counts = vec![0; of];
     (0..of).for_each(|_| counts[rng.random_range(0..of)] += 1);
     counts
@@ -96,6 +96,8 @@ mod tests {
     use rand_distr::{Distribution, StandardNormal};
 
     use super::super::quantile::{MEDIAN, quantiles};
+    use rand::SeedableRng;
+
     use super::*;
 
     /// Façades × records of values.
