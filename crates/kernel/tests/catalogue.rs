@@ -7,7 +7,8 @@ use std::collections::HashSet;
 use fearless_simd::{Level, Simd};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{
-    Effect, EffectEntry, EffectKind, EffectVariant, Place, Restitution, Role, Wall, WallParameters,
+    Effect, EffectEntry, EffectKind, EffectVariant, Place, Quantity, Restitution, RockingWall, Role, Wall,
+    WallParameters,
 };
 use mrbd_kernel::simulate::{
     Accuracy, History, Response, Shaking, Simulator, simulate_observed, simulate_side_by_side_at,
@@ -112,6 +113,56 @@ fn analytic_every_effect_acts_where_its_role_says() {
             Role::Corners | Role::Bed | Role::Impact | Role::GroundMotion => (true, false),
         };
         assert_eq!((moves, reads), expected, "{effect:?}: (moves the wall, changes the reading)");
+    }
+}
+
+/// Force that an effect adds at the top, N, at a displacement and a velocity, and mass that it adds there, kg.
+fn added(effect: Effect, x_c_m: f64, v_c_m_s: f64) -> (f64, f64) {
+    let [with, without] = [table_wall(&[effect]), table_wall(&[])].map(|wall| RockingWall::new(&wall));
+    let force_n = |wall: &RockingWall| wall.top_force_n(x_c_m, v_c_m_s, 0.0);
+    (force_n(&with) - force_n(&without), with.carriage_mass_kg() - without.carriage_mass_kg())
+}
+
+/// The same as the role of an effect and the quantities of its numbers mean it.
+fn meant(variant: EffectVariant, numbers: &[f64], x_c_m: f64, v_c_m_s: f64) -> (f64, f64) {
+    let entry = variant.entry();
+    let side = match variant.choice {
+        Some("negative") => f64::from(x_c_m < 0.0),
+        Some("positive") => f64::from(x_c_m > 0.0),
+        _ => 1.0,
+    };
+    let stiffness_n_per_m = table_wall(&[]).parameters().stiffness_n_per_m;
+    let number = numbers[0];
+    let force_n = match (entry.role, entry.parameters[0].quantity) {
+        (Role::Damper, Quantity::TopDamping) => -number * v_c_m_s,
+        (Role::Friction, Quantity::TopForce) => -number * v_c_m_s.signum(),
+        (Role::Spring, Quantity::TopStiffness) => -number * x_c_m * side,
+        (Role::Spring, Quantity::TopCubicStiffness) => -number * x_c_m.powi(3),
+        (Role::Spring, Quantity::TopDisplacement) => {
+            stiffness_n_per_m * x_c_m.abs().min(number) * x_c_m.signum()
+        }
+        (Role::Memory, Quantity::TopStiffness) => (-number * x_c_m).clamp(-numbers[1], numbers[1]),
+        (Role::Mass, Quantity::TopMass) => return (0.0, number),
+        (role, quantity) => panic!("{}: a {role:?} by a {quantity:?} has no law here", entry.name),
+    };
+    (force_n, 0.0)
+}
+
+#[test]
+fn analytic_every_law_at_the_top_is_what_its_role_and_quantity_mean() {
+    for variant in variants().filter(|variant| variant.entry().place == Place::Top) {
+        for effect in sizes(variant) {
+            // Both sides, inside the gap of the example and beyond it, on the way out and back.
+            for x_c_m in [-0.05, -0.004, -5e-4, 5e-4, 0.004, 0.05] {
+                for v_c_m_s in [-0.3, -0.01, 0.01, 0.3] {
+                    let found = added(effect, x_c_m, v_c_m_s);
+                    let expected = meant(variant, &effect.parameters(), x_c_m, v_c_m_s);
+                    // Roundings of differences of forces of up to some kilonewtons.
+                    let is_same = (found.0 - expected.0).abs() < 1e-9 && (found.1 - expected.1).abs() < 1e-9;
+                    assert!(is_same, "{effect:?} at {x_c_m} m, {v_c_m_s} m/s: {found:?}, meant {expected:?}");
+                }
+            }
+        }
     }
 }
 
