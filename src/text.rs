@@ -1,5 +1,7 @@
 //! Text as people and files have it: wrapped sentences, aligned tables, escaped names, percents and dates.
 
+use chrono::DateTime;
+
 /// Width of a terminal's text, columns.
 pub const TERMINAL: usize = 100;
 
@@ -69,19 +71,9 @@ pub fn signed_percent(deviation: f64) -> String {
 }
 
 /// A time (UTC) as people write it, by the civil calendar.
-///
-/// Days to dates after Howard Hinnant, "chrono-Compatible Low-Level Date Algorithms", public domain.
 pub fn utc(unix_s: u64) -> String {
-    let (days, second) = (unix_s / 86_400, unix_s % 86_400);
-    let z = days + 719_468;
-    let era_day = z % 146_097;
-    let era_year = (era_day - era_day / 1_460 + era_day / 36_524 - era_day / 146_096) / 365;
-    let year_day = era_day - (365 * era_year + era_year / 4 - era_year / 100);
-    let shifted_month = (5 * year_day + 2) / 153;
-    let day = year_day - (153 * shifted_month + 2) / 5 + 1;
-    let month = if shifted_month < 10 { shifted_month + 3 } else { shifted_month - 9 };
-    let year = era_year + (z / 146_097) * 400 + u64::from(month <= 2);
-    format!("{year}-{month:02}-{day:02} {:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60)
+    let time = i64::try_from(unix_s).ok().and_then(|unix_s| DateTime::from_timestamp(unix_s, 0));
+    time.map_or_else(|| format!("{unix_s} s after 1970"), |time| time.format("%Y-%m-%d %H:%M:%S").to_string())
 }
 
 #[cfg(test)]

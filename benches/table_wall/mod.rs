@@ -5,27 +5,10 @@ use std::path::Path;
 use mrbd_kernel::model::{ImpactLaw, Restitution, Wall, WallParameters};
 use mrbd_records::{Accelerogram, Suite};
 
-/// The calibrated wall of the shaking-table tests (Tables 1 and 2 of the paper).
+/// The calibrated wall of the shaking-table tests, under an impact law and a capture velocity.
 pub fn table_wall(law: ImpactLaw, capture_velocity_rad_s: f64) -> Wall {
-    let coefficients = [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94];
-    let parameters = WallParameters {
-        thickness_m: 0.291,
-        height_m: 3.984,
-        crack_height_m: Some(2.191),
-        length_m: 1.5,
-        mass_kg: 3614.0,
-        lower_width_m: 0.271,
-        upper_width_m: 0.281,
-        diaphragm_mass_kg: 179.0,
-        carriage_mass_kg: 663.0,
-        stiffness_n_per_m: 37_000.0,
-        eccentricity_m: 0.0,
-        restitution: Restitution { coefficients, law, capture_velocity_rad_s },
-        collapse_rotation_ratio: 2.0,
-        initial_rotation_rad: [0.0, 0.0],
-        effects: Vec::new(),
-        formulas: Vec::new(),
-    };
+    let mut parameters = WallParameters::table_wall();
+    parameters.restitution = Restitution { law, capture_velocity_rad_s, ..parameters.restitution };
     Wall::new(parameters).expect("the table wall")
 }
 

@@ -4,6 +4,7 @@
 //! ensemble: the run as planned, one whose motion is changed by up to a millionth, or one at another tolerance or capture
 //! velocity. A draw depends on its number alone, so that threads and machines change nothing.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -36,7 +37,7 @@ pub(super) fn rng_of(draw: u64) -> ChaCha8Rng {
 }
 
 /// Ends of the interval of a median.
-pub(super) const INTERVAL: [f64; 2] = [0.05, 0.95];
+const INTERVAL: [f64; 2] = [0.05, 0.95];
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -208,16 +209,19 @@ impl Draws {
             .collect();
         let places = self.cases.iter().flat_map(|case| Measure::ALL.map(|measure| (&case.case, measure)));
         let of = |(place, (case, measure))| {
-            (case, measure, interval(drawn.iter().filter_map(|draw: &Vec<_>| draw[place])))
+            (case, measure, interval(drawn.iter().filter_map(|draw: &Vec<_>| draw[place]), Middle::by_size))
         };
         places.enumerate().map(of).collect()
     }
 }
 
-/// Order statistics at 5 and 95 %, outwards: a collapse lies above every rotation.
-fn interval(drawn: impl Iterator<Item = Middle>) -> Option<[Middle; 2]> {
-    let mut drawn: Vec<Middle> = drawn.collect();
-    drawn.sort_by(Middle::by_size);
+/// Order statistics of what was drawn at 5 and 95 %, outwards; `None` of nothing.
+pub(super) fn interval<T: Copy>(
+    drawn: impl Iterator<Item = T>,
+    by_size: impl Fn(&T, &T) -> Ordering,
+) -> Option<[T; 2]> {
+    let mut drawn: Vec<T> = drawn.collect();
+    drawn.sort_unstable_by(by_size);
     let last = drawn.len().checked_sub(1)? as f64;
     Some([drawn[(INTERVAL[0] * last).floor() as usize], drawn[(INTERVAL[1] * last).ceil() as usize]])
 }

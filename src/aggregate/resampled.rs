@@ -10,11 +10,11 @@ use std::collections::BTreeMap;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::draws::{DRAWS, FEWEST_RECORDS, INTERVAL, rng_of};
+use super::draws::{DRAWS, FEWEST_RECORDS, interval, rng_of};
 use super::sequences::{Compared, Pair};
 use super::two_way::counts;
 
-/// The ends of an interval; none of an end that lies above all numbers, as collapses do.
+/// The ends of an interval; `None` of an end that lies above all numbers, as collapses do.
 pub type Interval = [Option<f64>; 2];
 
 /// Intervals of the median ratio, and of the share that falls only after the parts before.
@@ -54,7 +54,11 @@ pub(super) fn intervals(pairs: &[&Pair]) -> Resampled {
     }
     let drawn: Vec<[Option<f64>; 2]> =
         (0..DRAWS).into_par_iter().map(|draw| one_draw(&weighted, counts, draw)).collect();
-    let [ratio, share] = [0, 1].map(|i| interval(drawn.iter().filter_map(|values| values[i])));
+    let finite = |end: f64| Some(end).filter(|value| value.is_finite());
+    let [ratio, share] = [0, 1].map(|i| {
+        let ends = interval(drawn.iter().filter_map(|values| values[i]), f64::total_cmp);
+        ends.map(|ends| ends.map(finite))
+    });
     Resampled { ratio, share }
 }
 
@@ -91,15 +95,6 @@ fn draw_counts(rng: &mut ChaCha8Rng, count: usize) -> Vec<f64> {
         return vec![1.0; count];
     }
     counts(count, rng).into_iter().map(|drawn| drawn as f64).collect()
-}
-
-/// Order statistics at 5 and 95 %, outwards.
-fn interval(drawn: impl Iterator<Item = f64>) -> Option<Interval> {
-    let mut drawn: Vec<f64> = drawn.collect();
-    drawn.sort_unstable_by(f64::total_cmp);
-    let last = drawn.len().checked_sub(1)? as f64;
-    let ends = [(INTERVAL[0] * last).floor(), (INTERVAL[1] * last).ceil()];
-    Some(ends.map(|end| Some(drawn[end as usize]).filter(|value| value.is_finite())))
 }
 
 #[cfg(test)]

@@ -4,11 +4,13 @@
 //! was drawn times as often as its record (Owen 2007, "The pigeonhole bootstrap", Ann. Appl. Stat. 1(2)). Of one
 //! record the façades alone are drawn. A draw depends on its number alone, so that threads and machines change nothing.
 
+use std::cmp::Ordering;
+
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::draws::{DRAWS, FEWEST_RECORDS, INTERVAL, rng_of};
+use super::draws::{DRAWS, FEWEST_RECORDS, interval, rng_of};
 use super::quantile::LEVELS;
 use super::resampled::Interval;
 
@@ -44,7 +46,7 @@ pub(super) fn intervals(mut runs: Vec<Drawn>, records: usize) -> [Option<Interva
         weighted(&runs, |run| of_records[run.record as usize] * of_facades[run.facade as usize])
     };
     let drawn: Vec<[Option<f64>; 7]> = (0..draws).into_par_iter().filter_map(draw).collect();
-    std::array::from_fn(|level| interval(drawn.iter().map(|quantiles| quantiles[level]).collect()))
+    std::array::from_fn(|level| interval(drawn.iter().map(|quantiles| quantiles[level]), by_size))
 }
 
 /// How often each of some is drawn in as many draws.
@@ -81,14 +83,12 @@ fn weighted(runs: &[Drawn], weight: impl Fn(&Drawn) -> u64) -> Option<[Option<f6
     }))
 }
 
-/// Order statistics at both ends, outwards: what is no number lies above all.
-fn interval(mut drawn: Vec<Option<f64>>) -> Option<Interval> {
-    drawn.sort_unstable_by(|a, b| match (a, b) {
+/// What is no number lies above all.
+fn by_size(a: &Option<f64>, b: &Option<f64>) -> Ordering {
+    match (a, b) {
         (Some(a), Some(b)) => a.total_cmp(b),
         (a, b) => a.is_none().cmp(&b.is_none()),
-    });
-    let last = drawn.len().checked_sub(1)? as f64;
-    Some([drawn[(INTERVAL[0] * last).floor() as usize], drawn[(INTERVAL[1] * last).ceil() as usize]])
+    }
 }
 
 #[cfg(test)]

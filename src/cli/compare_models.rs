@@ -1,12 +1,11 @@
 //! `mrbd run` on a pipeline that compares models: rows on stdout, findings on stderr, both in the output folder.
 
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::output;
 use crate::classics::comparison::{self, Finding, ModelComparison, compare, print_rows, write_histories};
 use crate::error::{Error, Result};
-use crate::store::{WholeFolder, write_durably};
+use crate::store::{WholeFolder, now_unix_s, write_durably};
 
 /// What it writes.
 const FILES: [&str; 4] = ["manifest.json", "comparison.csv", "histories.parquet", "findings.json"];
@@ -16,7 +15,7 @@ const FILES: [&str; 4] = ["manifest.json", "comparison.csv", "histories.parquet"
 /// # Errors
 /// Input errors of the pipeline and what it names, and of the output folder; [`mrbd_files::Error::Io`] if the disk refuses.
 pub fn execute(pipeline: &Path, suite: Option<&Path>, out: Option<&Path>, replace: bool) -> Result<()> {
-    let started_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let started_unix_s = now_unix_s();
     let default = Path::new("outputs").join(comparison::name(pipeline)?);
     let folder = out.unwrap_or(&default);
     let folder = WholeFolder::check(folder, &FILES, replace)?;

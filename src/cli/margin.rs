@@ -1,7 +1,6 @@
 //! `mrbd margin`: how far a wall is from falling, under each record of a suite.
 
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use clap::Args;
 
@@ -10,7 +9,7 @@ use super::threads::Threads;
 use super::{Answer, output};
 use crate::error::{Error, InputError, Result};
 use crate::margin::{COLUMNS, Curve, FILES, KIND, Margin, Question, capacities, curves};
-use crate::store::{WholeFolder, print_csv, write_durably, write_table};
+use crate::store::{WholeFolder, now_unix_s, print_csv, write_durably, write_table};
 use crate::study::ladder::Ladder;
 use crate::study::pipeline::Limit;
 use mrbd_files::{FileNote, load_wall};
@@ -83,7 +82,7 @@ impl MarginCommand {
     /// # Errors
     /// As [`MarginCommand::execute`].
     pub fn answer(&self, told: &dyn Progress) -> Result<Answer> {
-        let started_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+        let started_unix_s = now_unix_s();
         let question = self.question()?;
         let suite = Suite::load(&self.suite)?;
         let folder =

@@ -2,7 +2,6 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use clap::Args;
 
@@ -10,7 +9,7 @@ use super::output;
 use super::threads::Threads;
 use crate::error::{Error, Result};
 use crate::measures::{FILES, KIND, Measures, OfFloor, OfMeasure, of_folder};
-use crate::store::{WholeFolder, write_durably};
+use crate::store::{WholeFolder, now_unix_s, write_durably};
 use crate::text::{TERMINAL, aligned, wrapped};
 use mrbd_files::FileNote;
 
@@ -46,7 +45,7 @@ impl MeasuresCommand {
     /// # Errors
     /// Input errors for a folder without such a study; results that cannot be written.
     pub fn execute(self) -> Result<()> {
-        let started_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+        let started_unix_s = now_unix_s();
         let folder =
             self.out.as_deref().map(|out| WholeFolder::check(out, &FILES, self.force)).transpose()?;
         let measures = self.threads.pool()?.install(|| of_folder(&self.folder))?;

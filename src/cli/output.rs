@@ -2,10 +2,9 @@
 
 use std::io::{self, ErrorKind, Write};
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::error::{Error, InputError, Result};
-use crate::store::write_durably;
+use crate::store::{now_unix_s, write_durably};
 use mrbd_files::FileNote;
 use mrbd_records::Suite;
 
@@ -91,7 +90,7 @@ pub fn write_manifest_of(
         "suite": suite.map(|(name, _)| name),
         "generated": suite.is_some_and(|(_, generated)| generated),
         "inputs": inputs,
-        "started_unix_s": SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+        "started_unix_s": now_unix_s(),
     });
     write_durably(path, format!("{manifest:#}\n").as_bytes())
 }

@@ -1,14 +1,13 @@
 //! `mrbd suites`: sweeps under several suites of records side by side.
 
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use clap::Args;
 
 use super::threads::Threads;
 use super::{output, progress};
 use crate::error::{Error, InputError, Result};
-use crate::store::{WholeFolder, write_durably};
+use crate::store::{WholeFolder, now_unix_s, write_durably};
 use crate::study::runs::Manifest;
 use crate::suites::{FILES, KIND, Suites, of_folder, print_table, records_drawn, write_csv};
 use mrbd_files::FileNote;
@@ -46,7 +45,7 @@ impl SuitesCommand {
     /// # Errors
     /// Input errors for folders without a whole sweep, and for two of one suite; results that cannot be written.
     pub fn execute(self) -> Result<()> {
-        let started_unix_s = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+        let started_unix_s = now_unix_s();
         let folder =
             self.out.as_deref().map(|out| WholeFolder::check(out, &FILES, self.force)).transpose()?;
         let suites = self.threads.pool()?.install(|| self.read())?;

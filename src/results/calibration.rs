@@ -12,9 +12,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::folder::{MANIFEST, Manifest, entries, now_unix_s, refuse};
+use super::folder::{MANIFEST, Manifest, entries, refuse};
 use crate::error::{Error, InputError, Result};
-use crate::store::{Column, Read, write_durably, write_table};
+use crate::store::{Column, Read, now_unix_s, write_durably, write_table};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
 use arrow_schema::{DataType, Field, Schema};
 use mrbd_files::FileNote;

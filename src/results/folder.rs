@@ -1,7 +1,6 @@
 //! The folders of results, and `manifest.json` in them: what kind of results they are and where they come from.
 
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 use serde_json::Value;
@@ -55,11 +54,6 @@ impl Manifest {
         let text = format!("{:#}\n", serde_json::json!(self));
         write_durably(&folder.join(MANIFEST), text.as_bytes())
     }
-}
-
-/// Now, seconds since 1970.
-pub(super) fn now_unix_s() -> u64 {
-    SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs())
 }
 
 /// Whether a folder has a manifest that says it holds results of a kind.

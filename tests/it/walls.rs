@@ -57,23 +57,11 @@ pub fn block(p_rad_s: f64, alpha_rad: f64, velocity_ratio: f64) -> WallParameter
     wall
 }
 
-/// The table wall of the paper's Table 1 with the coefficients of its Table 2.
+/// The table wall of the paper's Table 1 with the coefficients of its Table 2, under an impact law.
 pub fn table_wall(law: ImpactLaw) -> WallParameters {
-    WallParameters {
-        length_m: 1.5,
-        mass_kg: 3614.0,
-        lower_width_m: 0.271,
-        upper_width_m: 0.281,
-        diaphragm_mass_kg: 179.0,
-        carriage_mass_kg: 663.0,
-        stiffness_n_per_m: 37e3,
-        restitution: Restitution {
-            coefficients: [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94],
-            law,
-            ..Restitution::default()
-        },
-        ..bare_wall(0.291, 3.984, Some(2.191))
-    }
+    let mut wall = WallParameters::table_wall();
+    wall.restitution.law = law;
+    wall
 }
 
 /// A cracked wall of any shape a builder or a test might think of, with plastic impacts.

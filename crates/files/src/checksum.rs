@@ -12,6 +12,11 @@ use crate::error::{Error, InputError, Result};
 /// Bytes read at once, so that the size of a file does not matter to memory.
 const CHUNK: usize = 1 << 16;
 
+/// Bytes as people write them: two hexadecimal digits each.
+pub fn hexadecimal(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// SHA-256 of a file's contents, 64 hexadecimal digits.
 ///
 /// # Errors
@@ -28,7 +33,7 @@ pub fn sha256(mut from: impl Read) -> io::Result<String> {
     let mut chunk = vec![0; CHUNK];
     loop {
         match from.read(&mut chunk) {
-            Ok(0) => return Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()),
+            Ok(0) => return Ok(hexadecimal(&hash.finalize())),
             Ok(read) => hash.update(&chunk[..read]),
             Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
             Err(e) => return Err(e),

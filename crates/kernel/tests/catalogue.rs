@@ -7,8 +7,7 @@ use std::collections::HashSet;
 use fearless_simd::{Level, Simd};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{
-    Effect, EffectEntry, EffectKind, EffectVariant, Place, Quantity, Restitution, RockingWall, Role, Wall,
-    WallParameters,
+    Effect, EffectEntry, EffectKind, EffectVariant, Place, Quantity, RockingWall, Role, Wall, WallParameters,
 };
 use mrbd_kernel::simulate::{
     Accuracy, History, Response, Shaking, Simulator, simulate_observed, simulate_side_by_side_at,
@@ -18,24 +17,7 @@ const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
 
 /// The table wall of the paper's Table 1, its restitution of Table 2, with these effects.
 fn table_wall(effects: &[Effect]) -> Wall {
-    let strip = WallParameters::strip(0.291, 3.984, 1800.0);
-    let restitution = Restitution {
-        coefficients: [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94],
-        ..Restitution::default()
-    };
-    let parameters = WallParameters {
-        crack_height_m: Some(2.191),
-        length_m: 1.5,
-        mass_kg: 3614.0,
-        lower_width_m: 0.271,
-        upper_width_m: 0.281,
-        diaphragm_mass_kg: 179.0,
-        carriage_mass_kg: 663.0,
-        stiffness_n_per_m: 37e3,
-        restitution,
-        effects: effects.to_vec(),
-        ..strip
-    };
+    let parameters = WallParameters { effects: effects.to_vec(), ..WallParameters::table_wall() };
     Wall::new(parameters).expect("a wall that can exist")
 }
 

@@ -2,7 +2,7 @@
 
 use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::accelerogram::Accelerogram;
-use mrbd_kernel::model::{Contact, Effect, ImpactLaw, Restitution, RockingWall, Wall, WallParameters};
+use mrbd_kernel::model::{Contact, Effect, ImpactLaw, RockingWall, Wall, WallParameters};
 use mrbd_kernel::simulate::{
     Accuracy, Observer, Outcome, Response, Shaking, Simulator, simulate, simulate_observed,
     simulate_side_by_side,
@@ -12,23 +12,9 @@ use mrbd_kernel::solver::Quintic;
 const ACCURACY: Accuracy = Accuracy { tolerance: 1e-8 };
 
 fn table_wall() -> WallParameters {
-    let restitution = Restitution {
-        coefficients: [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94],
-        law: ImpactLaw::Contact,
-        ..Restitution::default()
-    };
-    WallParameters {
-        crack_height_m: Some(2.191),
-        length_m: 1.5,
-        mass_kg: 3614.0,
-        lower_width_m: 0.271,
-        upper_width_m: 0.281,
-        diaphragm_mass_kg: 179.0,
-        carriage_mass_kg: 663.0,
-        stiffness_n_per_m: 37e3,
-        restitution,
-        ..WallParameters::strip(0.291, 3.984, 1800.0)
-    }
+    let mut wall = WallParameters::table_wall();
+    wall.restitution.law = ImpactLaw::Contact;
+    wall
 }
 
 /// Two sines that rock the table wall in all patterns.

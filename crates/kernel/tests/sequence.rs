@@ -1,7 +1,7 @@
 //! Sequences of ground motions: what is carried from one to the next, and that it is all.
 
 use mrbd_kernel::accelerogram::Accelerogram;
-use mrbd_kernel::model::{Contact, Effect, Pair, Restitution, Wall, WallParameters};
+use mrbd_kernel::model::{Contact, Effect, Pair, Wall, WallParameters};
 use mrbd_kernel::simulate::{
     Accuracy, Observer, Outcome, Response, Shaking, following, simulate, simulate_observed, simulate_sequence,
 };
@@ -14,23 +14,13 @@ const STRICT: Accuracy = Accuracy { tolerance: 1e-10 };
 
 /// The table wall of the paper's Table 1, with a floor that may yield in the place of its spring.
 fn table_wall(yield_force_n: Option<f64>) -> Wall {
-    let strip = WallParameters::strip(0.291, 3.984, 1800.0);
-    let coefficients = [0.93, 1.03, 0.825, 0.985, 0.865, 0.76, 0.98, 0.94];
-    let spring = |force_n| Effect::with_parameters("yielding_spring", &[37e3, force_n]).expect("an effect");
-    Wall::new(WallParameters {
-        crack_height_m: Some(2.191),
-        length_m: 1.5,
-        mass_kg: 3614.0,
-        lower_width_m: 0.271,
-        upper_width_m: 0.281,
-        diaphragm_mass_kg: 179.0,
-        carriage_mass_kg: 663.0,
-        stiffness_n_per_m: if yield_force_n.is_some() { 0.0 } else { 37e3 },
-        restitution: Restitution { coefficients, ..Restitution::default() },
-        effects: yield_force_n.map(spring).into_iter().collect(),
-        ..strip
-    })
-    .expect("a wall that can exist")
+    let mut wall = WallParameters::table_wall();
+    if let Some(force_n) = yield_force_n {
+        let spring = Effect::with_parameters("yielding_spring", &[wall.stiffness_n_per_m, force_n]);
+        wall.effects.push(spring.expect("an effect"));
+        wall.stiffness_n_per_m = 0.0;
+    }
+    Wall::new(wall).expect("a wall that can exist")
 }
 
 /// Two sines that begin with zero, so that a record which follows another has no jump to begin with.

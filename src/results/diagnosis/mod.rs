@@ -11,9 +11,9 @@ pub mod tables;
 
 use std::path::{Path, PathBuf};
 
-use super::folder::{MANIFEST, Manifest, entries, holds, now_unix_s, refuse, remove_all};
+use super::folder::{MANIFEST, Manifest, entries, holds, refuse, remove_all};
 use crate::error::{Error, Result};
-use crate::store::write_durably;
+use crate::store::{now_unix_s, write_durably};
 use mrbd_files::FileNote;
 use mrbd_lab::diagnose::Diagnosis;
 pub use mrbd_lab::diagnose::answer::KIND;

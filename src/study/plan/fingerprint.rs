@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::run::RecordHash;
 use crate::study::pipeline::Member;
 use crate::study::sequence::{Place, Sequence};
+use mrbd_files::checksum::hexadecimal;
 use mrbd_formula::Formula;
 use mrbd_kernel::model::{Effect, WallParameters};
 use mrbd_records::Accelerogram;
@@ -127,7 +128,7 @@ impl Fingerprint {
 
     /// The whole hash, 64 hexadecimal digits.
     pub fn hex(self) -> String {
-        self.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
+        hexadecimal(&self.0.finalize())
     }
 
     /// The beginning of the hash that serves as an id.

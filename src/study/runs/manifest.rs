@@ -3,11 +3,11 @@
 //! A folder is resumed only by the plan it was begun with: how another plan differs is said.
 
 use std::path::Path;
-use std::time::{SystemTime, UNIX_EPOCH};
 
 use super::schema::{OLDEST_READ, SCHEMA_VERSION};
 use crate::error::{Error, InputError, Result};
 use crate::store::durable::{folder_of, write_durably, write_durably_if_absent};
+use crate::store::now_unix_s;
 use crate::study::pipeline::{Kind, Pipeline, Variant};
 use crate::study::plan::{Plan, RecordHash};
 use crate::study::sequence::{Part, Sequence};
@@ -130,7 +130,7 @@ impl Manifest {
                 .collect::<Result<_, _>>()?,
             gravity_m_s2: G_M_S2,
             variants: serde_json::json!(variants),
-            started_unix_s: SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs()),
+            started_unix_s: now_unix_s(),
         })
     }
 

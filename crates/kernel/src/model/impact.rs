@@ -10,8 +10,8 @@ use super::MechanicsError;
 use super::Table2Change;
 use super::contact::{Contact, Pivot, Touching};
 use super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
+use super::parameters::ImpactLaw;
 use super::rocking::{RockingWall, State, opening};
-use super::wall::ImpactLaw;
 
 /// Separations and impulses within this share of the motion before count as zero: some hundred roundings.
 const ROUNDING: f64 = 1e-13;

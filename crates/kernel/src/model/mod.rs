@@ -18,6 +18,7 @@ mod laws;
 mod mass_matrix;
 mod motion;
 mod number;
+mod parameters;
 mod regime;
 mod rocking;
 mod side_by_side;
@@ -41,13 +42,14 @@ pub use joint_forces::{JointForce, JointForces};
 pub(crate) use lane_laws::{LaneKind, LawLanes};
 pub use motion::MotionRate;
 pub(crate) use motion::{Configuration, Motion, RatePair};
+pub use parameters::{ImpactLaw, Restitution, WallParameters};
 pub(crate) use regime::Kink;
 pub use regime::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
 pub(crate) use side_by_side::{ConfigurationLanes, LANES, Motions, RateLanes, ReactionLanes, lanes};
 pub use vector::Vector;
-pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
+pub use wall::{G_M_S2, ImpossibleWall, Wall, crushed_widths_m};
 
 /// A rule of the mechanics was broken: a defect of the program, to report and not to hide.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

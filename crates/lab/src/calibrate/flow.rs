@@ -18,6 +18,7 @@ use super::search::{Draws, Found};
 use super::staged_search::{StagedSearch, stage_names};
 use crate::experiment::file::{CalibrateTable, ExperimentFile, Purpose};
 use crate::experiment::{Test, load_tests};
+use mrbd_files::checksum::hexadecimal;
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::Accuracy;
@@ -87,7 +88,7 @@ fn request(files: &[(String, PathBuf)], settings: &CalibrateTable) -> Result<Str
         let readable = |e: std::io::Error| InputError::file(name, e.to_string(), "a readable file");
         hash.update(std::fs::read(name).map_err(readable)?);
     }
-    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(hexadecimal(&hash.finalize()))
 }
 
 /// Calibrates an experiment; every simulation goes into the archive.

@@ -277,32 +277,11 @@ fn solve(arm: f64, half: f64, u: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mrbd_kernel::model::{Restitution, RockingWall};
-
-    fn table_wall() -> WallParameters {
-        WallParameters {
-            thickness_m: 0.291,
-            height_m: 3.984,
-            crack_height_m: Some(2.191),
-            length_m: 1.5,
-            mass_kg: 3614.0,
-            lower_width_m: 0.271,
-            upper_width_m: 0.281,
-            diaphragm_mass_kg: 179.0,
-            carriage_mass_kg: 663.0,
-            stiffness_n_per_m: 37000.0,
-            eccentricity_m: 0.0,
-            restitution: Restitution::default(),
-            collapse_rotation_ratio: 2.0,
-            initial_rotation_rad: [0.0, 0.0],
-            effects: Vec::new(),
-            formulas: Vec::new(),
-        }
-    }
+    use mrbd_kernel::model::RockingWall;
 
     #[test]
     fn analytic_rotations_come_back_from_the_models_own_displacements() {
-        let p = table_wall();
+        let p = WallParameters::table_wall();
         let wall = RockingWall::new(&Wall::new(p.clone()).expect("a possible wall"));
         for theta in [[0.05, 0.08], [0.05, 0.01], [-0.03, 0.02], [-0.03, -0.05], [0.1, 0.1], [0.0, 0.02]] {
             let contact = mrbd_kernel::model::Contact::of_rotations(theta);

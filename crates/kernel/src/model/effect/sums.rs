@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 use super::super::contact::Joint;
-use super::super::wall::{ImpossibleWall, WallParameters};
+use super::super::parameters::WallParameters;
+use super::super::wall::ImpossibleWall;
 use super::{Effect, EffectKind, Lanes};
 use crate::written;
 
