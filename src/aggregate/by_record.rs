@@ -5,7 +5,7 @@ use std::path::Path;
 use polars::prelude::PolarsResult;
 
 use super::medians::{Measure, Middle};
-use super::row::Row;
+use super::stored::Row;
 use crate::error::{Error, Result};
 use crate::store::frame::read;
 use crate::study::pipeline::Parameter;

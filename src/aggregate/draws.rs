@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use super::medians::{Case, Measure, Median, Middle, VariantNote};
 use super::quantile::quantiles;
-use super::row::Row;
+use super::stored::Row;
 use super::sweep::{CASE, case};
 use super::variants::MEMBER_OF;
 use crate::store::frame::{Frame, Texts, read};

@@ -2,7 +2,7 @@
 
 use polars::prelude::{Float64Chunked, PolarsResult};
 
-use super::row::{Row, absent};
+use super::stored::{Row, absent};
 use crate::store::frame::{Frame, Texts};
 
 /// Runs that are alike in some columns.

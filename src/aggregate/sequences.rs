@@ -11,7 +11,7 @@ use polars::prelude::PolarsResult;
 
 use super::medians::VariantNote;
 use super::resampled::{Interval, Resampled, intervals};
-use super::row::Row;
+use super::stored::Row;
 use super::variants::variant_notes;
 use crate::error::{Error, Result};
 use crate::store::frame::{Frame, read};

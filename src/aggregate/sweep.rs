@@ -9,7 +9,7 @@ use super::group::{Group, in_plan_order};
 use super::medians::{Case, Measure, Median, Medians};
 use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
-use super::row::Row;
+use super::stored::Row;
 use super::variants::{MEMBER_OF, variant_notes};
 use crate::error::{Error, Result};
 use crate::store::frame::{Frame, read};

@@ -7,7 +7,7 @@ use polars::prelude::PolarsResult;
 
 use super::group::{Group, in_plan_order};
 use super::medians::VariantNote;
-use super::row::Row;
+use super::stored::Row;
 use crate::store::frame::read;
 
 /// What is counted over all runs.

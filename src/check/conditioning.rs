@@ -1,14 +1,19 @@
-//! Ill-conditioned runs: what a tighter tolerance makes of a sample of runs that are stored.
+//! Ill-conditioned runs: a sample of runs that are stored, run again at a tighter tolerance.
 //!
 //! Where two impacts nearly coincide a tiny change of step decides the later motion. Such a run is no error, but neither
 //! is its answer the only one; what counts is how many there are, and whether medians depend on them.
 
 use std::collections::BTreeMap;
 
+use indicatif::ProgressBar;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::aggregate::{Answer, Compared, MOVED_SHARE, median};
+use crate::study::batch::run_all;
+use crate::study::plan::Plan;
+use mrbd_kernel::model::Wall;
+use mrbd_kernel::simulate::{Accuracy, Shaking, simulate};
 
 /// Standard deviations of a normal distribution that hold 95 %.
 const Z_95: f64 = 1.959_963_984_540_054;
@@ -121,6 +126,33 @@ fn moved(compared: &Compared, again: &Again) -> bool {
     again.stored.outcome == compared.usable
         && again.tighter.outcome == compared.usable
         && pairs.into_iter().any(far)
+}
+
+/// The tolerance of the runs again, over that of the study, unless another is given.
+const TIGHTER: f64 = 1e-2;
+
+/// Runs that are stored, by position in the plan, and the same at another tolerance, on the threads of the current pool.
+///
+/// `None` for a hundredth of the tolerance of each run.
+pub fn run_again(
+    plan: &Plan,
+    stored: &BTreeMap<u64, Answer>,
+    tolerance: Option<f64>,
+    progress: &ProgressBar,
+) -> Vec<Again> {
+    let tighter = |wall: &Wall, shaking: &Shaking, accuracy: Accuracy| {
+        let tolerance = tolerance.unwrap_or(TIGHTER * accuracy.tolerance);
+        simulate(wall, shaking, Accuracy { tolerance })
+    };
+    let compared = Compared::of(plan.kind());
+    let runs = run_all(plan, stored.keys().copied().collect(), &tighter, progress).into_iter();
+    let again = runs.zip(stored.values()).map(|(finished, stored)| Again {
+        variant: finished.run.variant.name.clone(),
+        configuration: finished.run.configuration.name().to_owned(),
+        stored: stored.clone(),
+        tighter: compared.answer(&finished),
+    });
+    again.collect()
 }
 
 #[cfg(test)]

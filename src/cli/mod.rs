@@ -3,14 +3,12 @@
 //! stdout is for data, stderr for people.
 
 mod aggregate;
-mod answer;
 mod assess;
 mod assess_survey;
 mod calibrate;
 mod check;
 mod check_tolerance;
 mod compare_models;
-mod completions;
 mod describe;
 mod diagnose;
 mod effects;
@@ -32,17 +30,16 @@ mod shell;
 mod simulate;
 mod slurm;
 mod status;
-mod stop;
 mod suites;
 mod table_args;
 mod threads;
 mod variance;
 
 pub use aggregate::keep_medians;
-pub use answer::Answer;
 pub use assess::AssessCommand;
 pub use fragility::{FragilityAnswer, FragilityCommand};
 pub use margin::MarginCommand;
+pub use output::Answer;
 pub use push::PushCommand;
 pub use risk::RiskCommand;
 
@@ -100,7 +97,7 @@ enum Command {
     AssessSurvey(assess_survey::AssessSurveyCommand),
     Risk(risk::RiskCommand),
     Simulate(simulate::SimulateArgs),
-    Completions(completions::CompletionsCommand),
+    Completions(shell::CompletionsCommand),
 }
 
 /// Version, and the commit where the build knew it.

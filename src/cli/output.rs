@@ -1,7 +1,7 @@
-//! Printing results on stdout.
+//! What a command answers, and printing it on stdout.
 
 use std::io::{self, ErrorKind, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::error::{Error, InputError, Result};
 use crate::store::{now_unix_s, write_durably};
@@ -98,4 +98,26 @@ pub fn write_manifest_of(
 /// An error of a stream as an error of stdout.
 pub fn failed(error: io::Error) -> Error {
     Error::io("print the results", Path::new("stdout"), error)
+}
+
+/// The answer of a command.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// What `--json` prints.
+    pub json: String,
+    /// What is printed without it.
+    pub text: String,
+    /// What a reader should know beside it, each a sentence.
+    pub notes: Vec<String>,
+    /// The page that was written.
+    pub page: Option<PathBuf>,
+}
+
+impl Answer {
+    /// Prints the answer on stdout, and what stands beside it on stderr.
+    pub(super) fn print(&self, as_json: bool) -> Result<()> {
+        let page = self.page.iter().map(|page| page.display().to_string());
+        page.chain(self.notes.iter().cloned()).for_each(|line| eprintln!("mrbd: {line}"));
+        print(if as_json { &self.json } else { &self.text }.trim_end())
+    }
 }

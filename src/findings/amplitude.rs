@@ -4,9 +4,9 @@ use std::cmp::Ordering;
 
 use super::Finding;
 use super::change::tell;
-use super::needs::{BOTH_RANGES, Needs, Subject};
-use super::verdict::{Answer, Verdict};
+use super::conclusion::{BOTH_RANGES, Needs, Subject};
 use super::view::{Point, Slender, View};
+use super::vote::{Answer, Verdict};
 use super::vote::{NOTICEABLE, Vote};
 use crate::aggregate::{Measure, Middle, median};
 use crate::study::pipeline::Parameter;

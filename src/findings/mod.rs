@@ -9,25 +9,21 @@ mod conclusion;
 mod diaphragm;
 mod distributions;
 mod geometry;
-mod needs;
 mod report;
 mod sensitivity;
 mod sequences;
 mod tables;
-mod variants;
-mod verdict;
 mod view;
 mod vote;
 
-use needs::Needs;
+use conclusion::Needs;
 
 pub use conclusion::{Conclusion, Conclusions, SURE, Sureness, conclusions, sure_rules, sureness};
 pub use distributions::report_distributions;
 pub use report::{report, write_findings};
 pub use sequences::{AFTER_RULES, after_cells, report_sequences};
-pub use verdict::{Answer, Verdict};
 pub use view::{Point, Slender, View};
-pub use vote::{FloorVotes, Vote, rules};
+pub use vote::{Answer, FloorVotes, Verdict, Vote, rules};
 
 /// A conclusion of the source and how it is checked.
 pub struct Finding {

@@ -3,9 +3,9 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use super::change::shift;
 use super::conclusion::{Conclusion, Conclusions, Sureness, percent, sure_rules};
 use super::tables::print_tables;
-use super::variants::shift;
 use super::vote::{noticeable, rules};
 use super::{FINDINGS, Finding, Held, Verdict, View};
 use crate::aggregate::{MOVED_SHARE, Measure, Medians, Moved, VariantNote};

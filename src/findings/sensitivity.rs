@@ -2,10 +2,10 @@
 
 use super::Finding;
 use super::change::{distance, middle_of, tell};
+use super::conclusion::{BOTH_RANGES, Needs, Subject};
 use super::diaphragm::little;
-use super::needs::{BOTH_RANGES, Needs, Subject};
-use super::verdict::{Answer, Verdict};
 use super::view::{Point, Slender, View};
+use super::vote::{Answer, Verdict};
 use super::vote::{FloorVotes, Vote};
 use crate::aggregate::{Measure, Median, Middle};
 use crate::study::pipeline::Parameter;

@@ -5,12 +5,12 @@ use super::cloud::residuals;
 use super::components::components;
 use super::goodness::{Goodness, goodness};
 use super::interval::{Interval, Replicates, expanded_level};
+use super::method::Unknown;
 use super::method::{Fitted, Method};
 use super::outcomes::{OutcomeFit, fit_outcomes};
 use super::profile::profile_intervals;
 use super::sample::Sample;
 use super::shares::{Share, outcome_shares};
-use super::unknown::Unknown;
 
 /// What to ask of a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]

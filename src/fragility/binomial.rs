@@ -3,7 +3,7 @@
 //! The log-likelihood of both links is concave in (a, b), so Newton's method with halved steps finds its only maximum;
 //! whether there is one is decided before, from the data (Albert & Anderson 1984, Biometrika 71).
 
-use super::unknown::Unknown;
+use super::method::Unknown;
 use mrbd_statistics::normal;
 
 /// Newton steps before giving up; a well-posed fit takes 5 to 10.

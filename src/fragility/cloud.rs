@@ -6,9 +6,9 @@
 //! logistic regression over all runs; P(EDP > limit | IM) = Φ((a + b ln IM - ln limit)/s) (1 - P_C) + P_C.
 
 use super::binomial::{Line, Link};
-use super::lognormal::LogNormal;
+use super::method::LogNormal;
+use super::method::Unknown;
 use super::sample::Sample;
-use super::unknown::Unknown;
 use mrbd_statistics::normal;
 
 /// A cloud's fragility for one limit of the demand.

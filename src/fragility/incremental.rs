@@ -3,9 +3,9 @@
 //! Baker (2015), Eq. 7 and 8 for truncated analyses: every record either collapses at an intensity or is only known
 //! to stand at the last one that was run. Olsen's (1978) parameters γ = 1/β, δ = ln θ/β make the likelihood concave.
 
-use super::lognormal::LogNormal;
+use super::method::LogNormal;
+use super::method::Unknown;
 use super::sample::Sample;
-use super::unknown::Unknown;
 use mrbd_statistics::normal;
 
 /// Newton steps before giving up.

@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use super::lognormal::LogNormal;
+use super::method::LogNormal;
 use crate::text::escaped;
 
 /// Probability at minIML and noDamageLimit; one minus it at maxIML.

@@ -6,9 +6,9 @@
 //! θ and β and are left out of log-likelihoods.
 
 use super::binomial::{Counts, Line, Link};
-use super::lognormal::LogNormal;
+use super::method::LogNormal;
+use super::method::Unknown;
 use super::sample::Sample;
-use super::unknown::Unknown;
 
 /// A fragility of maximum likelihood.
 #[derive(Debug, Clone, Copy, PartialEq)]

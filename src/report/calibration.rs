@@ -1,7 +1,6 @@
 //! The page of a calibration: measured against simulated, what the tests tell, how the searches converged.
 
 mod convergence;
-mod histories;
 mod misfits;
 mod parameters;
 
@@ -26,7 +25,7 @@ pub fn page(calibrated: &Calibrated) -> Page {
         numbers: numbers(stored),
         notes: notes(stored),
         sections: vec![
-            histories::section(tests.as_deref(), stored),
+            misfits::histories(tests.as_deref(), stored),
             parameters::section(stored),
             misfits::section(stored),
             convergence::section(stored),

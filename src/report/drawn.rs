@@ -1,6 +1,5 @@
 //! The page of a study of drawn façades: fragilities, quantiles of the response, and the draws against the survey.
 
-mod along;
 mod fragility;
 mod quantiles;
 mod samples;

@@ -1,7 +1,6 @@
 //! One run: histories of rotations, patterns, impacts and ground motion, and the wall in motion.
 
 mod histories;
-mod motion;
 mod plot_file;
 mod watch;
 
@@ -179,7 +178,7 @@ impl RunPicture<'_> {
             text: vec![
                 "Rotations are drawn larger than they are; corners that touch stay in contact at any magnification. An impact flashes where it strikes.".into(),
             ],
-            motion: Some(Motion { data: script_safe(&motion::data(self)) }),
+            motion: Some(Motion { data: script_safe(&watch::motion(self)) }),
             ..Section::default()
         }
     }

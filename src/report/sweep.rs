@@ -1,6 +1,5 @@
 //! The page of a sweep: the paper's figures 12 and 14 to 20 from one's own medians and runs.
 
-mod by_record;
 mod medians;
 mod spectra;
 mod tables;
@@ -20,7 +19,7 @@ pub fn page(sweep: &Sweep) -> Page {
     let links = provenance::run_links(&sweep.run_files);
     let mut sections = vec![medians::section(&view, sweep.records)];
     if !sweep.reference.is_empty() {
-        sections.push(by_record::section(&view, &sweep.reference, &links));
+        sections.push(tables::by_record(&view, &sweep.reference, &links));
     }
     sections.push(spectra::section(sweep.spectra.as_ref(), manifest.kind));
     sections.extend([findings(conclusions), assumptions(&medians.variants)]);

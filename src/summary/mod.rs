@@ -15,17 +15,13 @@ mod calibration;
 mod drawn;
 mod file;
 mod fragility;
-mod samples;
-mod sequences;
 mod spectra;
 mod sweep;
 
 pub use calibration::{Calibrated, Rotations, TestRotations};
-pub use drawn::Drawn;
+pub use drawn::{AfterOthers, Drawn, FloorSamples, Samples};
 pub use file::{Note, read_json};
 pub use fragility::{DEFAULT_INTENSITY, LEVEL, LimitFragility};
-pub use samples::{FloorSamples, Samples};
-pub use sequences::AfterOthers;
 pub use spectra::{CodeSpectrum, Spectra};
 pub use sweep::Sweep;
 
