@@ -39,6 +39,8 @@ python-against-mrbd: wheel
 		&& PATH="$(CURDIR)/$$venv/bin:$$PATH" $$venv/bin/python -m pytest -q $(PYTHON_CRATE)/tests || exit 1; \
 	done
 	cargo fmt --manifest-path $(PYTHON_CRATE)/Cargo.toml --check
+	CARGO_TARGET_DIR=$${CARGO_TARGET_DIR:-$(CURDIR)/target} cargo clippy --release --locked --all-targets \
+		--manifest-path $(PYTHON_CRATE)/Cargo.toml -- -D warnings
 	cd $(PYTHON_CRATE) && $(CURDIR)/$(PYTHON_VENV)/bin/mypy notebooks/*.py
 	$(PYTHON_VENV)/bin/ruff check $(PYTHON_CRATE)
 	$(PYTHON_VENV)/bin/ruff check --config $(PYTHON_CRATE)/pyproject.toml docs/site
