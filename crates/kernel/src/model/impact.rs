@@ -4,14 +4,13 @@
 //! onto the velocities that the new contact state allows. The coefficient of the change of pattern then
 //! scales them.
 
-use fearless_simd::dispatch;
-
 use super::MechanicsError;
 use super::Table2Change;
 use super::contact::{Contact, Pivot, Touching};
 use super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
 use super::rocking::{RockingWall, State, opening};
 use super::wall::ImpactLaw;
+use crate::instructions::dispatch;
 
 /// Separations and impulses within this share of the motion before count as zero: some hundred roundings.
 const ROUNDING: f64 = 1e-13;

@@ -45,7 +45,7 @@ pub(crate) use regime::Kink;
 pub use regime::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
-pub(crate) use side_by_side::{ConfigurationLanes, LANES, Motions, RateLanes, ReactionLanes, lanes};
+pub(crate) use side_by_side::{ConfigurationLanes, MotionRow, Motions, RateLanes, ReactionLanes};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters, crushed_widths_m};
 

@@ -176,7 +176,7 @@ impl RockingWall {
         if contact.ground.is_open() && contact.crack.is_open() {
             return None;
         }
-        let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
+        let weight = self.weight_n();
         let mut smallest = None;
         for joint in self.joints() {
             if contact.at(joint).is_closed() && self.bed(joint).is_none() {
@@ -186,6 +186,12 @@ impl RockingWall {
             }
         }
         smallest
+    }
+
+    /// Weight of all that rests on the ground, N.
+    #[inline]
+    pub(crate) fn weight_n(&self) -> f64 {
+        (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2
     }
 
     /// The bed of a joint that gives.

@@ -1,6 +1,7 @@
 //! The loop of one run: rest, motion, openings and impacts, until the end.
 
 mod bed;
+mod boarding;
 mod event;
 mod rest;
 mod step;

@@ -15,9 +15,9 @@ pub(crate) struct Totals {
     pub energy: EnergyLedger,
     pub demand: [JointDemand; 2],
     pub work: Work,
-    in_tension: [bool; 2],
+    pub in_tension: [bool; 2],
     /// Joints the wall has: one, or two where it is cracked.
-    joints: usize,
+    pub joints: usize,
 }
 
 impl Totals {

@@ -1,0 +1,113 @@
+//! A run boards a lane of a row, and alights from it.
+
+use super::super::history::Observer;
+use super::super::row::{Row, put};
+use super::{Run, Task};
+use crate::model::{Contact, Joint};
+use crate::solver::STAGES;
+
+impl<O: Observer> Run<O> {
+    /// The contact state the run is in.
+    pub fn contact(&self) -> Contact {
+        self.contact
+    }
+
+    /// The samples of its record.
+    #[inline]
+    pub fn samples(&self) -> &[crate::model::Vector] {
+        self.ground.samples()
+    }
+
+    /// Whether the laws of a contact state are always the same.
+    pub fn has_smooth_laws(&self) -> bool {
+        self.wall.piecewise_laws().is_none() && !self.wall.formulas().have_switches()
+    }
+
+    /// Whether steps without an event are the same for it as for any other run.
+    fn is_plain(&self) -> bool {
+        self.has_smooth_laws() && !self.wall.wall().gives() && !self.observer.watches()
+    }
+
+    /// Puts all that the next step needs in a lane.
+    pub fn board(&self, row: &mut Row, i: usize) {
+        row.motions.put(i, self.wall.motion(self.contact));
+        row.errors.put(i, &self.controller);
+        self.board_ground(row, i);
+        self.board_limits(row, i);
+        self.board_again(row, i);
+    }
+
+    fn board_ground(&self, row: &mut Row, i: usize) {
+        row.ground.samples[i] = self.ground.samples().len() as f64;
+        row.ground.step_s[i] = self.ground.step_s();
+        row.ground.origin_s[i] = self.ground.origin_s();
+        row.ground.end_s[i] = self.ground.end_s();
+    }
+
+    fn board_limits(&self, row: &mut Row, i: usize) {
+        let limits = &mut row.limits;
+        let Contact { ground, crack } = self.contact;
+        put(&mut limits.sides, i, [ground.sign(), crack.sign()]);
+        put(&mut limits.collapse_rad, i, self.collapse_rad);
+        let closed = self.wall.joints().find(|joint| self.contact.at(*joint).is_closed());
+        limits.closed[i] = f64::from(u8::from(closed.is_some()));
+        limits.width_m[i] = self.wall.width_m(closed.unwrap_or(Joint::Ground));
+        limits.weight_n[i] = self.wall.weight_n();
+        limits.cracked[i] = f64::from(u8::from(self.wall.wall().is_cracked()));
+    }
+
+    /// The same of a run that comes back in the contact state in which it alighted.
+    pub fn board_again(&self, row: &mut Row, i: usize) {
+        let (Task::Advance { h } | Task::ReachEvent { h, .. } | Task::RefineEvent { h, .. }) = self.task;
+        let Some(piece) = &self.piece else { unreachable!("a step is asked for within a piece") };
+        row.moving.put(i, &self.now, self.quadrature_rate, h);
+        row.ground.put(i, piece, self.k, self.offset_s);
+        row.errors.put(i, &self.controller);
+        let advances = matches!(self.task, Task::Advance { .. }) && self.is_plain();
+        let (limits, totals) = (&mut row.limits, &self.totals);
+        limits.advances[i] = f64::from(u8::from(advances));
+        put(&mut limits.theta_max_rad, i, totals.theta_max.map(|peak| peak.value.abs()));
+        put(&mut limits.tension, i, totals.in_tension.map(|tension| f64::from(u8::from(tension))));
+        limits.corner_force[i] = self.corner_force.unwrap_or_default();
+        limits.top_velocity_m_s[i] = self.top_velocity_m_s;
+        let sums = &mut row.sums;
+        sums.top_m[i] = totals.top_max.value;
+        sums.top_time_s[i] = totals.top_max.time_s;
+        sums.pattern_time_s[i] = totals.pattern_time_s[self.contact.index()];
+        put(&mut sums.friction, i, totals.demand.map(|demand| demand.friction));
+        put(&mut sums.compression_n, i, totals.demand.map(|demand| demand.compression_n));
+        sums.ground_work_j[i] = totals.energy.ground_work_j;
+        sums.effect_loss_j[i] = totals.energy.effect_loss_j;
+        sums.passed_through_j[i] = totals.energy.passed_through_j;
+        (sums.steps[i], sums.tolerance_steps[i]) = (0.0, 0.0);
+    }
+
+    /// Takes over what became of it in a lane.
+    pub fn alight(&mut self, row: &Row, i: usize) {
+        let steps = row.sums.steps[i] as u64;
+        if steps == 0 {
+            return;
+        }
+        (self.now, self.quadrature_rate) = row.moving.at(i);
+        (self.piece, self.k, self.offset_s) =
+            (Some(row.ground.at(i)), row.ground.k[i], row.ground.offset_s[i]);
+        row.errors.tell(i, &mut self.controller);
+        self.corner_force = self.corner_force.map(|_| row.limits.corner_force[i]);
+        self.top_velocity_m_s = row.limits.top_velocity_m_s[i];
+        self.stalled = 0;
+        let (sums, totals) = (&row.sums, &mut self.totals);
+        totals.top_max.value = sums.top_m[i];
+        totals.top_max.time_s = sums.top_time_s[i];
+        totals.pattern_time_s[self.contact.index()] = sums.pattern_time_s[i];
+        for (j, demand) in totals.demand.iter_mut().enumerate() {
+            demand.friction = sums.friction[j][i];
+            demand.compression_n = sums.compression_n[j][i];
+        }
+        totals.energy.ground_work_j = sums.ground_work_j[i];
+        totals.energy.effect_loss_j = sums.effect_loss_j[i];
+        totals.energy.passed_through_j = sums.passed_through_j[i];
+        totals.work.steps += steps;
+        totals.work.evaluations += STAGES * steps;
+        totals.work.tolerance_steps += sums.tolerance_steps[i] as u64;
+    }
+}
