@@ -12,6 +12,7 @@ mod effect;
 mod formula;
 mod geometry;
 mod impact;
+mod impact_lanes;
 mod joint_forces;
 mod lane_laws;
 mod laws;

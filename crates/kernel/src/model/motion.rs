@@ -174,6 +174,13 @@ impl Motion {
         }
     }
 
+    /// I_1O and I_2Q, kg m², and U at zero rotation, kg m.
+    #[inline(always)]
+    pub(super) fn inertias_and_moment(&self) -> [f64; 4] {
+        let [i_1, i_2] = self.inertias.to_array();
+        [i_1, i_2, self.u.x, self.u.y]
+    }
+
     /// The laws beyond weight and inertia.
     pub fn laws(&self) -> &Laws {
         &self.laws

@@ -221,6 +221,12 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
         }
     }
 
+    /// As [`Motion::top_displacement_m`].
+    #[inline(always)]
+    pub fn top_displacement_m(&self, t: &ConfigurationLanes<S>) -> F<S> {
+        (t.q[0] + t.c[0]) + self.o_c
+    }
+
     /// As [`Laws::spring_force_n`].
     #[inline(always)]
     fn spring_force_n(&self, x_c: F<S>) -> F<S> {
@@ -270,7 +276,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     ) -> Equations<S> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let squares = [w1 * w1, w2 * w2];
-        let x_c = (t.q[0] + t.c[0]) + self.o_c;
+        let x_c = self.top_displacement_m(t);
         let v_c = t.q[1] * w1 + t.c[1] * w2;
         let spring = self.spring_force_n(x_c);
         let none = F::splat(x_c.simd, 0.0);

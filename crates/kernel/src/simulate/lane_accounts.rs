@@ -8,9 +8,9 @@ use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 use super::events::NEAR_ZERO;
 use super::ground_path::LEAST_PIECE;
 use super::lane_steps::Landed;
-use super::row::{GroundRow, LimitRow, Row, SumRow};
+use super::row::{GroundRow, LimitRow, MovingRow, Row, SumRow};
 use crate::lanes::{LANES, Numbers, from_row, lanes};
-use crate::model::Vector;
+use crate::model::{Motions, Vector};
 
 type F<S> = f64x4<S>;
 type Mask<S> = mask64x4<S>;
@@ -46,6 +46,46 @@ fn keeps_to<S: Simd>(side: F<S>, c: &[F<S>; 6]) -> Mask<S> {
     let at = [c[1] * side, c[2] * side, c[3] * side, c[4] * side, c[5] * side];
     let least = at[0].min(at[1]).min(at[2].min(at[3])).min(at[4]) + (1.0 - side.abs());
     least.simd_gt(0.0) & (c[0] * side).simd_ge(0.0)
+}
+
+/// Whether the paths of both bodies are surely clear of collapse and contact, and whether they may rise above the
+/// largest rotations so far.
+struct Paths<S: Simd> {
+    clear: Mask<S>,
+    rise: Mask<S>,
+}
+
+impl MovingRow {
+    /// Position, velocity and acceleration of a body.
+    #[inline(always)]
+    fn start<S: Simd>(&self, simd: S, i: usize) -> [F<S>; 3] {
+        let of = |numbers: &Numbers| from_row(simd, numbers);
+        [of(&self.position[i]), of(&self.velocity[i]), of(&self.acceleration[i])]
+    }
+}
+
+impl<S: Simd> Landed<S> {
+    #[inline(always)]
+    fn end(&self, i: usize) -> [F<S>; 3] {
+        [self.position[i], self.velocity[i], self.acceleration[i]]
+    }
+}
+
+/// By what velocities and accelerations enter the coefficients.
+#[inline(always)]
+fn scale<S: Simd>(h: F<S>) -> [F<S>; 2] {
+    [h / 5.0, h * h / 20.0]
+}
+
+/// Value at a share of the steps, as [`crate::solver::Bernstein::value`] has it.
+#[inline(always)]
+fn value<S: Simd>(mut c: [F<S>; 6], share: F<S>) -> F<S> {
+    for width in (1..6).rev() {
+        for i in 0..width {
+            c[i] = c[i] + share * (c[i + 1] - c[i]);
+        }
+    }
+    c[0]
 }
 
 /// Where a piece of the record goes on, or the next begins.
@@ -103,38 +143,37 @@ impl GroundRow {
 }
 
 impl LimitRow {
-    /// Whether the paths of both bodies are far from collapse, contact and what they reached before.
     #[inline(always)]
-    fn clear<S: Simd, const AS_ONE: bool>(&self, from: &Row, landed: &Landed<S>, h: F<S>) -> Mask<S> {
+    fn paths<S: Simd, const AS_ONE: bool>(
+        &self,
+        moving: &MovingRow,
+        landed: &Landed<S>,
+        h: F<S>,
+    ) -> Paths<S> {
         let simd = h.simd;
-        let scale = [h / 5.0, h * h / 20.0];
-        let start = |i: usize| {
-            let moving = &from.moving;
-            [&moving.position[i], &moving.velocity[i], &moving.acceleration[i]].map(|of| from_row(simd, of))
-        };
-        let end = |i: usize| [landed.position[i], landed.velocity[i], landed.acceleration[i]];
-        let (start_1, end_1) = (start(0), end(0));
+        let scale = scale(h);
+        let (start_1, end_1) = (moving.start(simd, 0), landed.end(0));
         let lower = hermite(start_1, end_1, scale);
-        let below = |i: usize, bound: F<S>| {
-            let stands = bound.simd_lt(from_row(simd, &self.collapse_rad[i]));
-            stands & bound.simd_le(from_row(simd, &self.theta_max_rad[i]))
-        };
+        let stands = |i: usize, bound: F<S>| bound.simd_lt(from_row(simd, &self.collapse_rad[i]));
+        let rises = |i: usize, bound: F<S>| bound.simd_gt(from_row(simd, &self.theta_max_rad[i]));
         let sides = [from_row(simd, &self.sides[0]), from_row(simd, &self.sides[1])];
         // What is no number compares to nothing.
         let sum = end_1[0] + end_1[1] + end_1[2];
         let bound_1 = bound(&lower);
-        let clear = sum.simd_eq(sum) & below(0, bound_1) & keeps_to(sides[0], &lower);
+        let clear = sum.simd_eq(sum) & stands(0, bound_1) & keeps_to(sides[0], &lower);
         if AS_ONE {
-            return clear & below(1, bound_1);
+            return Paths { clear: clear & stands(1, bound_1), rise: rises(0, bound_1) | rises(1, bound_1) };
         }
-        let (start_2, end_2) = (start(1), end(1));
+        let (start_2, end_2) = (moving.start(simd, 1), landed.end(1));
         let upper = hermite(start_2, end_2, scale);
         let apart = |first: [F<S>; 3], second: [F<S>; 3]| {
             [second[0] - first[0], second[1] - first[1], second[2] - first[2]]
         };
         let gap = hermite(apart(start_1, start_2), apart(end_1, end_2), scale);
         let sum = end_2[0] + end_2[1] + end_2[2];
-        clear & sum.simd_eq(sum) & below(1, bound(&upper)) & keeps_to(sides[1], &gap)
+        let bound_2 = bound(&upper);
+        let clear = clear & sum.simd_eq(sum) & stands(1, bound_2) & keeps_to(sides[1], &gap);
+        Paths { clear, rise: rises(0, bound_1) | rises(1, bound_2) }
     }
 
     /// Smallest corner force of the joint that is closed, over the weight, and whether it surely stays closed.
@@ -201,8 +240,9 @@ impl SumRow {
 impl Row {
     /// Keeps the steps in which nothing happened, and requests those that follow. Gives the lanes of which it did.
     #[inline(always)]
-    pub fn settle<S: Simd, const AS_ONE: bool>(
+    pub fn settle<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
         &mut self,
+        motions: &Motions<S, AS_ONE, FURTHER>,
         landed: &Landed<S>,
         samples: &[&[Vector]; LANES],
     ) -> Mask<S> {
@@ -216,16 +256,21 @@ impl Row {
         let cracked = from_row(simd, &self.limits.cracked).simd_eq(1.0);
         let none = F::splat(simd, 0.0);
         let normals = [landed.reactions.ground[1], cracked.select(landed.reactions.crack[1], none)];
-        let turning = landed.reactions.top[1] * from_row(simd, &self.limits.top_velocity_m_s);
+        let paths = self.limits.paths::<S, AS_ONE>(&self.moving, landed, h);
         let done = from_row(simd, &self.limits.advances).simd_eq(1.0)
             & error.simd_le(1.0)
-            & self.limits.clear::<S, AS_ONE>(self, landed, h)
+            & paths.clear
             & stays_closed
             & self.limits.same_tension(normals)
-            & !turning.simd_lt(0.0)
             & to.goes_on;
+        let rises = done & paths.rise;
+        if rises.any_true() {
+            self.landed.store_motion(landed);
+            self.raise_rotations(rises.to_bitmask());
+        }
         keep(done, &mut self.limits.corner_force, corner_force);
         self.account(done, landed, normals, h);
+        self.turn_top(done, motions, landed, h);
         self.moving_on(done, landed);
         self.errors.propose(done, error, h);
         let left_s = self.ground.move_on(done, &to, samples);
@@ -247,6 +292,33 @@ impl Row {
         sums.force(done, 0, [landed.reactions.ground[0], normals[0]]);
         sums.force(done, 1, [landed.reactions.crack[0], normals[1]]);
         sums.energy(done, landed.quadrature);
+    }
+
+    /// Raises the largest displacement of tops that turn back inside the step, as [`super::run`] does.
+    #[inline(always)]
+    fn turn_top<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+        &mut self,
+        done: Mask<S>,
+        motions: &Motions<S, AS_ONE, FURTHER>,
+        landed: &Landed<S>,
+        h: F<S>,
+    ) {
+        let (simd, now) = (h.simd, landed.reactions.top[1]);
+        let before = from_row(simd, &self.limits.top_velocity_m_s);
+        let turns = done & (before * now).simd_lt(0.0);
+        if !turns.any_true() {
+            return;
+        }
+        let share = turns.select(before / (before - now), F::splat(simd, 0.0));
+        let scale = scale(h);
+        let lower = value(hermite(self.moving.start(simd, 0), landed.end(0), scale), share);
+        let upper = match AS_ONE {
+            true => lower,
+            false => value(hermite(self.moving.start(simd, 1), landed.end(1), scale), share),
+        };
+        let x_c = motions.top_displacement_m(&motions.configuration([lower, upper]));
+        let start_s = from_row(simd, &self.ground.start_s) + from_row(simd, &self.ground.offset_s);
+        self.sums.top(turns, x_c, start_s + share * h);
     }
 
     /// Makes the ends of the steps of some lanes the present.

@@ -7,7 +7,7 @@ use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4};
 use super::row::{GroundRow, Row};
 use super::run::StepRequest;
 use crate::fused::fused_lanes;
-use crate::instructions::dispatch;
+use crate::instructions::dispatch_lanes;
 use crate::lanes::{LANES, Numbers, from_row, lanes};
 use crate::model::{
     BeddedMotion, ConfigurationLanes, JointLanes, LaneKind, LawLanes, Motions, RateLanes, ReactionLanes,
@@ -373,7 +373,7 @@ where
     let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &row.motions);
     loop {
         let landed = motions.step(simd, row);
-        let done = row.settle::<S, AS_ONE>(&landed, samples);
+        let done = row.settle(&motions, &landed, samples);
         let left = row.taken & !done.to_bitmask();
         if left != 0 {
             row.landed.store(&landed);
@@ -386,16 +386,16 @@ where
 pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row, samples: &[&[Vector]; LANES]) -> u64 {
     match kind {
         LaneKind::AsOne { further: false } => {
-            dispatch!(level, simd => steps_until::<_, true, false>(simd, row, samples))
+            dispatch_lanes!(level, simd => steps_until::<_, true, false>(simd, row, samples))
         }
         LaneKind::Apart { further: false } => {
-            dispatch!(level, simd => steps_until::<_, false, false>(simd, row, samples))
+            dispatch_lanes!(level, simd => steps_until::<_, false, false>(simd, row, samples))
         }
         LaneKind::AsOne { further: true } => {
-            dispatch!(level, simd => steps_until::<_, true, true>(simd, row, samples))
+            dispatch_lanes!(level, simd => steps_until::<_, true, true>(simd, row, samples))
         }
         LaneKind::Apart { further: true } => {
-            dispatch!(level, simd => steps_until::<_, false, true>(simd, row, samples))
+            dispatch_lanes!(level, simd => steps_until::<_, false, true>(simd, row, samples))
         }
         LaneKind::Bedded(_) => unreachable!("walls on beds take their steps by request"),
     }
@@ -442,5 +442,5 @@ fn bedded_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Re
 
 /// The steps that walls on beds request.
 pub(super) fn steps(level: Level, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    dispatch!(level, simd => bedded_steps(simd, requests))
+    dispatch_lanes!(level, simd => bedded_steps(simd, requests))
 }

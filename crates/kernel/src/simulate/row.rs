@@ -7,9 +7,11 @@ use fearless_simd::Simd;
 
 use super::ground_path::Piece;
 use super::lane_steps::Landed;
+use super::response::Peak;
+use super::totals::raise_rotations;
 use crate::lanes::{LANES, Numbers};
 use crate::model::{JointForce, JointForces, MotionRow, Reactions, Vector};
-use crate::solver::{ErrorRow, Point, Step};
+use crate::solver::{ErrorRow, Point, Quintic, Step};
 
 /// The runs of a row.
 #[derive(Debug, Default)]
@@ -61,7 +63,7 @@ pub(super) struct LimitRow {
     /// Sides on which the joints are open.
     pub sides: [Numbers; 2],
     pub collapse_rad: [Numbers; 2],
-    /// Largest rotations so far, rad.
+    /// Magnitudes of the largest rotations so far, rad.
     pub theta_max_rad: [Numbers; 2],
     /// 1 where a joint is closed, its width in m, and the weight of the wall, N.
     pub closed: Numbers,
@@ -80,6 +82,8 @@ pub(super) struct LimitRow {
 /// What every step adds to.
 #[derive(Debug, Default)]
 pub(super) struct SumRow {
+    /// Largest rotations of both bodies.
+    pub theta_max: [[Peak; 2]; LANES],
     pub top_m: Numbers,
     pub top_time_s: Numbers,
     pub pattern_time_s: Numbers,
@@ -162,12 +166,24 @@ impl GroundRow {
     }
 }
 
+impl LimitRow {
+    /// Puts the largest rotations so far in a lane.
+    pub fn put_rotations(&mut self, i: usize, theta_max: &[Peak; 2]) {
+        put(&mut self.theta_max_rad, i, [theta_max[0].value.abs(), theta_max[1].value.abs()]);
+    }
+}
+
 impl LandedRow {
     #[inline(always)]
-    pub fn store<S: Simd>(&mut self, landed: &Landed<S>) {
+    pub fn store_motion<S: Simd>(&mut self, landed: &Landed<S>) {
         self.position = landed.position.map(Numbers::from);
         self.velocity = landed.velocity.map(Numbers::from);
         self.acceleration = landed.acceleration.map(Numbers::from);
+    }
+
+    #[inline(always)]
+    pub fn store<S: Simd>(&mut self, landed: &Landed<S>) {
+        self.store_motion(landed);
         self.quadrature = landed.quadrature.map(Numbers::from);
         self.powers_w = landed.powers_w.map(Numbers::from);
         self.position_error = landed.position_error.map(Numbers::from);
@@ -200,6 +216,17 @@ impl LandedRow {
 }
 
 impl Row {
+    /// Raises the largest rotations in some lanes by what happens inside the last step.
+    #[inline(never)]
+    pub fn raise_rotations(&mut self, which: u64) {
+        for i in (0..LANES).filter(|i| which >> i & 1 == 1) {
+            let start_s = self.ground.start_s[i] + self.ground.offset_s[i];
+            let motion = Quintic::new(&self.moving.at(i).0, &self.landed.end(i), self.moving.h[i]);
+            raise_rotations(&mut self.sums.theta_max[i], start_s, &motion);
+            self.limits.put_rotations(i, &self.sums.theta_max[i]);
+        }
+    }
+
     /// The last step in a lane.
     pub fn step(&self, i: usize) -> Step {
         Step {

@@ -10,8 +10,9 @@ use super::lane_steps::{advance, steps};
 use super::response::Response;
 use super::row::Row;
 use super::run::Run;
+use crate::instructions::lanes_pay;
 use crate::lanes::LANES;
-use crate::model::{Contact, LaneKind, Reactions};
+use crate::model::{Contact, LaneKind, Reactions, Regime};
 
 /// Runs in the pool at once: enough that mostly there are as many of a kind as lanes.
 const AT_ONCE: usize = 6 * LANES;
@@ -79,15 +80,16 @@ struct Pool<'w, O> {
     queues: [Vec<usize>; LaneKind::ALL.len()],
     /// Walls on sharp edges that step together, by the kind of their step.
     rows: [Aboard; LaneKind::ON_EDGES],
-    /// Vector instructions that this processor has.
+    /// Vector instructions that this processor has, and whether walls go side by side by them.
     level: Level,
+    lanes_pay: bool,
 }
 
-/// A row and the slots of the runs in it, with the contact states in which they boarded.
+/// A row and the slots of the runs in it, with the laws by which they boarded.
 #[derive(Default)]
 struct Aboard {
     row: Box<Row>,
-    slots: [Option<(usize, Contact)>; LANES],
+    slots: [Option<(usize, (Contact, Regime))>; LANES],
 }
 
 impl Aboard {
@@ -103,7 +105,8 @@ impl<'w, O: Observer> Pool<'w, O> {
         done: &'w mut dyn FnMut(usize, Response),
     ) -> Self {
         let queues = LaneKind::ALL.map(|_| Vec::with_capacity(AT_ONCE));
-        Self { next, done, slots: Vec::with_capacity(AT_ONCE), queues, rows: Default::default(), level }
+        let (slots, lanes_pay) = (Vec::with_capacity(AT_ONCE), lanes_pay(level));
+        Self { next, done, slots, queues, rows: Default::default(), level, lanes_pay }
     }
 
     fn all(&mut self) {
@@ -122,7 +125,10 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     #[inline(never)]
     fn begin_next(&mut self) -> Option<(usize, Run<O>)> {
-        let (number, prepared) = (self.next)()?;
+        let (number, mut prepared) = (self.next)()?;
+        if !self.lanes_pay {
+            prepared.run.set_level(self.level);
+        }
         Some((number, prepared.begun()))
     }
 
@@ -139,7 +145,8 @@ impl<'w, O: Observer> Pool<'w, O> {
                 self.replace(slot);
                 continue;
             }
-            match run.step_request().motion.side_by_side() {
+            let kind = if self.lanes_pay { run.step_request().motion.side_by_side() } else { None };
+            match kind {
                 Some(kind) => return Some(kind),
                 None => {
                     let mut reactions = Reactions::default();
@@ -195,15 +202,19 @@ impl<'w, O: Observer> Pool<'w, O> {
             let Aboard { row, slots } = &mut self.rows[kind.index()];
             run.board(row, i);
             row.taken |= 1 << i;
-            slots[i] = Some((slot, run.contact()));
+            slots[i] = Some((slot, run.laws()));
         }
     }
 
     /// Goes through what happened to the run in a lane, and lets it or another one board there.
     fn attend(&mut self, kind: LaneKind, i: usize) {
         let Aboard { row, slots } = &mut self.rows[kind.index()];
-        let Some((slot, boarded)) = slots[i].take() else { return };
+        let Some((slot, boarded)) = slots[i] else { return };
         if let Some((_, run)) = &mut self.slots[slot] {
+            if row.limits.advances[i] == 1.0 && run.approaches_event_in(row, i) {
+                return;
+            }
+            slots[i] = None;
             run.alight(row, i);
             run.finish_step(&row.step(i), &row.landed.reactions(i));
         }
@@ -215,13 +226,13 @@ impl<'w, O: Observer> Pool<'w, O> {
         row.taken &= !(1 << i);
         match (next, &self.slots[slot]) {
             (Some(next), Some((_, run))) if next == kind => {
-                if same && run.contact() == boarded && run.has_smooth_laws() {
+                if same && run.laws() == boarded {
                     run.board_again(row, i);
                 } else {
                     run.board(row, i);
                 }
                 row.taken |= 1 << i;
-                slots[i] = Some((slot, run.contact()));
+                slots[i] = Some((slot, run.laws()));
             }
             (Some(next), _) => self.queues[next.index()].push(slot),
             (None, _) => {}

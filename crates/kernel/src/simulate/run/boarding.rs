@@ -3,13 +3,13 @@
 use super::super::history::Observer;
 use super::super::row::{Row, put};
 use super::{Run, Task};
-use crate::model::{Contact, Joint};
+use crate::model::{Contact, Joint, Regime};
 use crate::solver::STAGES;
 
 impl<O: Observer> Run<O> {
-    /// The contact state the run is in.
-    pub fn contact(&self) -> Contact {
-        self.contact
+    /// What its motion depends on beside the wall: the contact state, and the branch of the laws at the top.
+    pub fn laws(&self) -> (Contact, Regime) {
+        (self.contact, self.wall.regime())
     }
 
     /// The samples of its record.
@@ -18,14 +18,10 @@ impl<O: Observer> Run<O> {
         self.ground.samples()
     }
 
-    /// Whether the laws of a contact state are always the same.
-    pub fn has_smooth_laws(&self) -> bool {
-        self.wall.piecewise_laws().is_none() && !self.wall.formulas().have_switches()
-    }
-
     /// Whether steps without an event are the same for it as for any other run.
     fn is_plain(&self) -> bool {
-        self.has_smooth_laws() && !self.wall.wall().gives() && !self.observer.watches()
+        let smooth = self.wall.piecewise_laws().is_none() && !self.wall.formulas().have_switches();
+        smooth && !self.wall.wall().gives() && !self.observer.watches()
     }
 
     /// Puts all that the next step needs in a lane.
@@ -56,21 +52,21 @@ impl<O: Observer> Run<O> {
         limits.cracked[i] = f64::from(u8::from(self.wall.wall().is_cracked()));
     }
 
-    /// The same of a run that comes back in the contact state in which it alighted.
+    /// The same of a run that comes back with the laws with which it alighted.
     pub fn board_again(&self, row: &mut Row, i: usize) {
-        let (Task::Advance { h } | Task::ReachEvent { h, .. } | Task::RefineEvent { h, .. }) = self.task;
         let Some(piece) = &self.piece else { unreachable!("a step is asked for within a piece") };
-        row.moving.put(i, &self.now, self.quadrature_rate, h);
+        row.moving.put(i, &self.now, self.quadrature_rate, self.requested_s());
         row.ground.put(i, piece, self.k, self.offset_s);
         row.errors.put(i, &self.controller);
         let advances = matches!(self.task, Task::Advance { .. }) && self.is_plain();
         let (limits, totals) = (&mut row.limits, &self.totals);
         limits.advances[i] = f64::from(u8::from(advances));
-        put(&mut limits.theta_max_rad, i, totals.theta_max.map(|peak| peak.value.abs()));
+        limits.put_rotations(i, &totals.theta_max);
         put(&mut limits.tension, i, totals.in_tension.map(|tension| f64::from(u8::from(tension))));
         limits.corner_force[i] = self.corner_force.unwrap_or_default();
         limits.top_velocity_m_s[i] = self.top_velocity_m_s;
         let sums = &mut row.sums;
+        sums.theta_max[i] = totals.theta_max;
         sums.top_m[i] = totals.top_max.value;
         sums.top_time_s[i] = totals.top_max.time_s;
         sums.pattern_time_s[i] = totals.pattern_time_s[self.contact.index()];
@@ -84,6 +80,7 @@ impl<O: Observer> Run<O> {
 
     /// Takes over what became of it in a lane.
     pub fn alight(&mut self, row: &Row, i: usize) {
+        row.errors.tell(i, &mut self.controller);
         let steps = row.sums.steps[i] as u64;
         if steps == 0 {
             return;
@@ -91,11 +88,11 @@ impl<O: Observer> Run<O> {
         (self.now, self.quadrature_rate) = row.moving.at(i);
         (self.piece, self.k, self.offset_s) =
             (Some(row.ground.at(i)), row.ground.k[i], row.ground.offset_s[i]);
-        row.errors.tell(i, &mut self.controller);
         self.corner_force = self.corner_force.map(|_| row.limits.corner_force[i]);
         self.top_velocity_m_s = row.limits.top_velocity_m_s[i];
         self.stalled = 0;
         let (sums, totals) = (&row.sums, &mut self.totals);
+        totals.theta_max = sums.theta_max[i];
         totals.top_max.value = sums.top_m[i];
         totals.top_max.time_s = sums.top_time_s[i];
         totals.pattern_time_s[self.contact.index()] = sums.pattern_time_s[i];
