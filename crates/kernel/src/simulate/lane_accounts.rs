@@ -17,7 +17,7 @@ type Mask<S> = mask64x4<S>;
 
 /// Keeps new numbers of some lanes.
 #[inline(always)]
-fn keep<S: Simd>(which: Mask<S>, numbers: &mut Numbers, new: F<S>) {
+pub(super) fn keep<S: Simd>(which: Mask<S>, numbers: &mut Numbers, new: F<S>) {
     *numbers = which.select(new, from_row(new.simd, numbers)).into();
 }
 
@@ -29,7 +29,11 @@ fn keep_both<S: Simd>(which: Mask<S>, numbers: &mut [Numbers; 2], new: [F<S>; 2]
 
 /// Bernstein coefficients of the quintics through both ends of the steps, as [`crate::solver::Quintic`] has them.
 #[inline(always)]
-fn hermite<S: Simd>([x0, v0, a0]: [F<S>; 3], [x1, v1, a1]: [F<S>; 3], [h_5, hh_20]: [F<S>; 2]) -> [F<S>; 6] {
+pub(super) fn hermite<S: Simd>(
+    [x0, v0, a0]: [F<S>; 3],
+    [x1, v1, a1]: [F<S>; 3],
+    [h_5, hh_20]: [F<S>; 2],
+) -> [F<S>; 6] {
     let (v0, v1) = (v0 * h_5, v1 * h_5);
     [x0, x0 + v0, x0 + v0 * 2.0 + a0 * hh_20, x1 - v1 * 2.0 + a1 * hh_20, x1 - v1, x1]
 }
@@ -73,7 +77,7 @@ impl<S: Simd> Landed<S> {
 
 /// By what velocities and accelerations enter the coefficients.
 #[inline(always)]
-fn scale<S: Simd>(h: F<S>) -> [F<S>; 2] {
+pub(super) fn scale<S: Simd>(h: F<S>) -> [F<S>; 2] {
     [h / 5.0, h * h / 20.0]
 }
 
@@ -257,12 +261,19 @@ impl Row {
         let none = F::splat(simd, 0.0);
         let normals = [landed.reactions.ground[1], cracked.select(landed.reactions.crack[1], none)];
         let paths = self.limits.paths::<S, AS_ONE>(&self.moving, landed, h);
-        let done = from_row(simd, &self.limits.advances).simd_eq(1.0)
+        let mut done = from_row(simd, &self.limits.advances).simd_eq(1.0)
             & error.simd_le(1.0)
             & paths.clear
             & stays_closed
             & self.limits.same_tension(normals)
             & to.goes_on;
+        if self.kinks.any {
+            let before_m_s = from_row(simd, &self.limits.top_velocity_m_s);
+            done = done & self.kinks.far(&self.moving, before_m_s, landed, h);
+        }
+        if self.watched {
+            self.remember();
+        }
         let rises = done & paths.rise;
         if rises.any_true() {
             self.landed.store_motion(landed);
@@ -329,5 +340,8 @@ impl Row {
         keep_both(done, &mut self.moving.acceleration, landed.acceleration);
         keep_both(done, &mut self.moving.powers_w, landed.powers_w);
         keep(done, &mut self.limits.top_velocity_m_s, landed.reactions.top[1]);
+        if self.kinks.any {
+            self.kinks.move_on(done, landed);
+        }
     }
 }

@@ -314,9 +314,8 @@ fn two_body_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
     row: &Row,
 ) -> Landed<S> {
     let mut shaken = ShakenMotion::new(motions, GroundLanes::of_row(simd, &row.ground));
-    let of = |numbers: &[Numbers; 2]| {
-        TwoRotations([from_row(simd, &numbers[0]), from_row(simd, &numbers[1])])
-    };
+    let of =
+        |numbers: &[Numbers; 2]| TwoRotations([from_row(simd, &numbers[0]), from_row(simd, &numbers[1])]);
     let moving = &row.moving;
     let start = Rate { acceleration: of(&moving.acceleration), quadrature: of(&moving.powers_w) };
     let h = from_row(simd, &moving.h);
@@ -375,7 +374,7 @@ where
         let landed = motions.step(simd, row);
         let done = row.settle(&motions, &landed, samples);
         let left = row.taken & !done.to_bitmask();
-        if left != 0 {
+        if left != 0 || row.watched {
             row.landed.store(&landed);
             return left;
         }
@@ -413,8 +412,7 @@ fn bedded_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Re
     let x = TwoRotations([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
     let v = TwoRotations([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
     let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
-    let reactions =
-        shaken.reactions.as_ref().map_or([Reactions::default(); LANES], ReactionLanes::unpacked);
+    let reactions = shaken.reactions.as_ref().map_or([Reactions::default(); LANES], ReactionLanes::unpacked);
     let [x, v, a, rate, gained, e_x, e_v] = [
         stride.position,
         stride.velocity,

@@ -23,12 +23,17 @@ pub(super) struct Row {
     pub ground: GroundRow,
     pub errors: ErrorRow,
     pub limits: LimitRow,
+    pub kinks: KinkRow,
     pub sums: SumRow,
     pub landed: LandedRow,
+    /// Whether the runs are watched, and then where and when they were before the last step.
+    pub watched: bool,
+    pub before: MovingRow,
+    pub before_s: Numbers,
 }
 
 /// Where the runs are, and the length of their next step, s.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct MovingRow {
     pub position: [Numbers; 2],
     pub velocity: [Numbers; 2],
@@ -77,6 +82,24 @@ pub(super) struct LimitRow {
     pub tension: [Numbers; 2],
     /// 1 of a wall with a crack.
     pub cracked: Numbers,
+}
+
+/// Where the laws at the top have kinks.
+#[derive(Debug, Default)]
+pub(super) struct KinkRow {
+    /// Whether those of any run have.
+    pub any: bool,
+    /// Displacements between which the top is far from them, m; finite.
+    pub least_m: Numbers,
+    pub most_m: Numbers,
+    /// Which way the top moves as a spring yields, and as it slides: ±1, or 0 where it does neither.
+    pub stops: [Numbers; 2],
+    /// Thickness and height of the walls, beside which roundings are small.
+    pub thickness_m: Numbers,
+    pub height_m: Numbers,
+    /// Displacement (m) and acceleration (m/s²) of the top now.
+    pub top_m: Numbers,
+    pub top_m_s2: Numbers,
 }
 
 /// What every step adds to.
@@ -216,6 +239,19 @@ impl LandedRow {
 }
 
 impl Row {
+    /// Keeps where the runs are for those who watch them.
+    #[inline(never)]
+    pub fn remember(&mut self) {
+        self.before.clone_from(&self.moving);
+        self.before_s = std::array::from_fn(|i| self.ground.start_s[i] + self.ground.offset_s[i]);
+    }
+
+    /// The motion in a lane over the step before the one that is to follow, and when it began, s.
+    pub fn moved(&self, i: usize) -> (f64, Quintic) {
+        let motion = Quintic::new(&self.before.at(i).0, &self.moving.at(i).0, self.before.h[i]);
+        (self.before_s[i], motion)
+    }
+
     /// Raises the largest rotations in some lanes by what happens inside the last step.
     #[inline(never)]
     pub fn raise_rotations(&mut self, which: u64) {

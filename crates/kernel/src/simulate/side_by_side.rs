@@ -169,8 +169,9 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     /// The kind of step that most runs wait for, those aboard counted; `None` when none does.
     fn most_wanted(&self) -> Option<LaneKind> {
-        let wanted =
-            |kind: &LaneKind| self.queues[kind.index()].len() + self.rows.get(kind.index()).map_or(0, Aboard::count);
+        let wanted = |kind: &LaneKind| {
+            self.queues[kind.index()].len() + self.rows.get(kind.index()).map_or(0, Aboard::count)
+        };
         LaneKind::ALL.into_iter().filter(|kind| wanted(kind) > 0).max_by_key(wanted)
     }
 
@@ -182,8 +183,12 @@ impl<'w, O: Observer> Pool<'w, O> {
             let run = |i: usize| slots[i].and_then(|(slot, _)| self.slots[slot].as_ref());
             let samples = std::array::from_fn(|i| run(i).map_or(&[][..], |(_, run)| run.samples()));
             let left = advance(self.level, kind, row, &samples);
-            for i in (0..LANES).filter(|i| left >> i & 1 == 1) {
-                self.attend(kind, i);
+            for i in 0..LANES {
+                if left >> i & 1 == 1 {
+                    self.attend(kind, i);
+                } else if self.rows[kind.index()].row.watched {
+                    self.show(kind, i);
+                }
             }
             if self.rows[kind.index()].count() + self.queues[kind.index()].len() < LANES {
                 return;
@@ -201,9 +206,23 @@ impl<'w, O: Observer> Pool<'w, O> {
             let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
             let Aboard { row, slots } = &mut self.rows[kind.index()];
             run.board(row, i);
+            row.watched = run.is_watched();
             row.taken |= 1 << i;
             slots[i] = Some((slot, run.laws()));
         }
+    }
+
+    /// Shows a step that was kept in a lane to whoever watches the run.
+    fn show(&mut self, kind: LaneKind, i: usize) {
+        let Aboard { row, slots } = &mut self.rows[kind.index()];
+        let Some((slot, _)) = slots[i] else { return };
+        let Some((_, run)) = &mut self.slots[slot] else { return };
+        if run.is_watched_on(row, i) {
+            return;
+        }
+        slots[i] = None;
+        row.taken &= !(1 << i);
+        self.queue_step(slot);
     }
 
     /// Goes through what happened to the run in a lane, and lets it or another one board there.

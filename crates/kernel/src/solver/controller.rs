@@ -136,9 +136,8 @@ impl ErrorRow {
     pub fn of<S: Simd>(&self, position: [f64x4<S>; 2], velocity: [f64x4<S>; 2], h: f64x4<S>) -> f64x4<S> {
         let of = |numbers: &Numbers| from_row(h.simd, numbers);
         let time_s = of(&self.time_s);
-        let along = |i: usize| {
-            position[i].abs().max_precise(velocity[i].abs() * time_s) * of(&self.per_position[i])
-        };
+        let along =
+            |i: usize| position[i].abs().max_precise(velocity[i].abs() * time_s) * of(&self.per_position[i]);
         along(0).max_precise(along(1)) * (h * of(&self.fastest_rate_per_s)).min_precise(1.0)
     }
 

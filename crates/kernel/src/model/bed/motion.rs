@@ -13,7 +13,6 @@
 //! - γ_A = A'' ω_1²,
 //! - γ_B = γ_A - R(θ_1) q ω_1² + 2 ω_1 φ' (R(θ_1) q')^⊥ + R(θ_1) q'' φ'².
 
-
 use super::super::contact::{Contact, Joint, Pivot};
 use super::super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
 use super::super::joint_forces::{Masses, Reactions};

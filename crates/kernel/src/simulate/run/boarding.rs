@@ -2,14 +2,19 @@
 
 use super::super::history::Observer;
 use super::super::row::{Row, put};
-use super::{Run, Task};
-use crate::model::{Contact, Joint, Regime};
-use crate::solver::STAGES;
+use super::{Run, Stop, Task};
+use crate::model::{Contact, Joint, Kink, Regime};
+use crate::solver::{Point, STAGES};
 
 impl<O: Observer> Run<O> {
     /// What its motion depends on beside the wall: the contact state, and the branch of the laws at the top.
     pub fn laws(&self) -> (Contact, Regime) {
         (self.contact, self.wall.regime())
+    }
+
+    /// Whether anybody watches it.
+    pub fn is_watched(&self) -> bool {
+        self.observer.watches()
     }
 
     /// The samples of its record.
@@ -20,8 +25,7 @@ impl<O: Observer> Run<O> {
 
     /// Whether steps without an event are the same for it as for any other run.
     fn is_plain(&self) -> bool {
-        let smooth = self.wall.piecewise_laws().is_none() && !self.wall.formulas().have_switches();
-        smooth && !self.wall.wall().gives() && !self.observer.watches()
+        !self.wall.formulas().have_switches() && !self.wall.wall().gives() && !self.wall.is_held()
     }
 
     /// Puts all that the next step needs in a lane.
@@ -30,7 +34,30 @@ impl<O: Observer> Run<O> {
         row.errors.put(i, &self.controller);
         self.board_ground(row, i);
         self.board_limits(row, i);
+        self.board_kinks(row, i);
         self.board_again(row, i);
+    }
+
+    fn board_kinks(&self, row: &mut Row, i: usize) {
+        let kinks = &mut row.kinks;
+        let [mut least_m, mut most_m] = [-f64::MAX, f64::MAX];
+        let mut stops = [0.0; 2];
+        if let Some(laws) = self.wall.piecewise_laws() {
+            kinks.any = true;
+            let regime = self.wall.regime();
+            for kink in laws.kinks(&regime) {
+                match kink {
+                    Kink::Passes { limit_m, sign, .. } if sign > 0.0 => most_m = most_m.min(limit_m),
+                    Kink::Passes { limit_m, .. } => least_m = least_m.max(limit_m),
+                    Kink::Stops { .. } | Kink::Turns { .. } => {}
+                }
+            }
+            stops = [regime.yields.sign(), regime.slides.sign()];
+        }
+        (kinks.least_m[i], kinks.most_m[i]) = (least_m, most_m);
+        put(&mut kinks.stops, i, stops);
+        let parameters = self.wall.wall().parameters();
+        (kinks.thickness_m[i], kinks.height_m[i]) = (parameters.thickness_m, parameters.height_m);
     }
 
     fn board_ground(&self, row: &mut Row, i: usize) {
@@ -65,6 +92,11 @@ impl<O: Observer> Run<O> {
         put(&mut limits.tension, i, totals.in_tension.map(|tension| f64::from(u8::from(tension))));
         limits.corner_force[i] = self.corner_force.unwrap_or_default();
         limits.top_velocity_m_s[i] = self.top_velocity_m_s;
+        if self.wall.piecewise_laws().is_some() {
+            let Point { position, velocity, acceleration } = self.now;
+            let [top_m, _, top_m_s2] = self.wall.top(self.contact, position, velocity, acceleration);
+            (row.kinks.top_m[i], row.kinks.top_m_s2[i]) = (top_m, top_m_s2);
+        }
         let sums = &mut row.sums;
         sums.theta_max[i] = totals.theta_max;
         sums.top_m[i] = totals.top_max.value;
@@ -76,6 +108,23 @@ impl<O: Observer> Run<O> {
         sums.effect_loss_j[i] = totals.energy.effect_loss_j;
         sums.passed_through_j[i] = totals.energy.passed_through_j;
         (sums.steps[i], sums.tolerance_steps[i]) = (0.0, 0.0);
+    }
+
+    /// Shows whoever watches the step that was kept in a lane. False where they have seen enough; the run has alighted
+    /// then.
+    pub fn is_watched_on(&mut self, row: &Row, i: usize) -> bool {
+        let (start_s, motion) = row.moved(i);
+        self.observer.moved(start_s, self.contact, &motion);
+        let new_piece = row.ground.offset_s[i] == 0.0;
+        if !new_piece || !self.observer.seen_enough() {
+            return true;
+        }
+        self.alight(row, i);
+        // The step that would have followed is not taken.
+        let would_be_short = row.moving.h[i] < row.ground.length_s[i];
+        self.totals.work.tolerance_steps -= u64::from(would_be_short);
+        self.stopped = Some(Stop::SeenEnough);
+        false
     }
 
     /// Takes over what became of it in a lane.
