@@ -10,9 +10,10 @@ use fearless_simd::Level;
 /// made of other instructions, lanes save none of the time.
 pub(crate) fn lanes_pay(level: Level) -> bool {
     #[cfg(target_arch = "x86_64")]
-    return level.as_avx2().is_some();
+    let pay = level.as_avx2().is_some();
     #[cfg(not(target_arch = "x86_64"))]
-    return !level.is_fallback();
+    let pay = !level.is_fallback();
+    pay
 }
 
 /// Does an operation by the best of these instructions that the processor has.

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Simd, SimdFrom, f64x4};
 
-/// Walls side by side; eight do not fit the registers of every x86-64 and take longer.
+/// Walls side by side; eight do not fit the registers of every processor that has vector instructions.
 pub(crate) const LANES: usize = 4;
 
 /// One number of every wall of a row, in memory.

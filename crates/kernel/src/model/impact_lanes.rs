@@ -20,9 +20,17 @@ struct Candidates<'a, S: Simd> {
     simd: S,
     wall: &'a RockingWall,
     to: &'a [Contact; LANES],
+    /// Sides on which the joint at the ground and that at the crack are open.
+    sides: [F<S>; 2],
 }
 
-impl<S: Simd> Candidates<'_, S> {
+impl<'a, S: Simd> Candidates<'a, S> {
+    #[inline(always)]
+    fn new(simd: S, wall: &'a RockingWall, to: &'a [Contact; LANES]) -> Self {
+        let sides = [lanes(simd, |i| to[i].ground.sign()), lanes(simd, |i| to[i].crack.sign())];
+        Self { simd, wall, to, sides }
+    }
+
     #[inline(always)]
     fn all(&self, value: f64) -> F<S> {
         F::splat(self.simd, value)
@@ -33,15 +41,10 @@ impl<S: Simd> Candidates<'_, S> {
         Vector::new(self.all(of.x), self.all(of.y))
     }
 
+    /// The lanes in which a joint is closed.
     #[inline(always)]
-    fn side(&self, joint: Joint) -> F<S> {
-        lanes(self.simd, |i| self.to[i].at(joint).sign())
-    }
-
-    /// The lanes in which these rotations are free.
-    #[inline(always)]
-    fn are(&self, freedom: Freedom) -> mask64x4<S> {
-        lanes(self.simd, |i| f64::from(u8::from(Freedom::of(self.to[i]) == freedom))).simd_eq(1.0)
+    fn closed(&self, joint: Joint) -> mask64x4<S> {
+        self.sides[joint as usize].simd_eq(0.0)
     }
 
     #[inline(always)]
@@ -97,12 +100,15 @@ impl<S: Simd> Candidates<'_, S> {
     /// As [`MassMatrix::solve`] in the rotations that each state leaves free.
     #[inline(always)]
     fn solved(&self, mass: &MassMatrix<F<S>>, momenta: [F<S>; 2]) -> [F<S>; 2] {
-        let mut omega = [self.all(0.0); 2];
-        for freedom in [Freedom::Monolithic, Freedom::Upper, Freedom::Both] {
-            let (here, solved) = (self.are(freedom), mass.solve(freedom, momenta));
-            omega = [here.select(solved[0], omega[0]), here.select(solved[1], omega[1])];
-        }
-        omega
+        let whole = mass.solve(Freedom::Monolithic, momenta);
+        let upper = mass.solve(Freedom::Upper, momenta);
+        let both = mass.solve(Freedom::Both, momenta);
+        let (ground, crack) = (self.closed(Joint::Ground), self.closed(Joint::Crack));
+        let still = self.all(0.0);
+        [
+            ground.select(still, crack.select(whole[0], both[0])),
+            ground.select(crack.select(still, upper[1]), crack.select(whole[1], both[1])),
+        ]
     }
 
     /// Smallest separation of the joints that touched and are open now; infinite where none is.
@@ -111,8 +117,8 @@ impl<S: Simd> Candidates<'_, S> {
         let mut least = self.all(f64::INFINITY);
         for (joint, opening) in [(Joint::Ground, w1), (Joint::Crack, w2 - w1)] {
             if collision.touching.at(joint) {
-                let side = self.side(joint);
-                let separates = side.simd_eq(0.0).select(self.all(f64::INFINITY), side * opening);
+                let open = self.sides[joint as usize] * opening;
+                let separates = self.closed(joint).select(self.all(f64::INFINITY), open);
                 least = least.min_precise(separates);
             }
         }
@@ -128,7 +134,7 @@ impl<S: Simd> Candidates<'_, S> {
             let (half, lever) = (*normal / 2.0, *moment / self.wall.width_m(joint));
             let corners = [half + lever, half - lever];
             let smallest = least.min_precise(corners[0]).min_precise(corners[1]);
-            least = self.side(joint).simd_eq(0.0).select(smallest, least);
+            least = self.closed(joint).select(smallest, least);
         }
         least
     }
@@ -143,7 +149,7 @@ impl RockingWall {
         to: &[Contact; LANES],
         collision: &Collision,
     ) -> [(f64, Pair); LANES] {
-        let candidates = Candidates { simd, wall: self, to };
+        let candidates = Candidates::new(simd, self, to);
         let turns = collision.rotations.0.map(|(sin, cos)| (candidates.all(sin), candidates.all(cos)));
         let arms = TurnedArms::new(&candidates.arms(), turns);
         let (masses, before) = (candidates.masses(), candidates.velocities(&collision.v_before));

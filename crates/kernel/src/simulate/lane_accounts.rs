@@ -254,23 +254,9 @@ impl Row {
         let h = from_row(simd, &self.moving.h);
         let error = self.errors.of(landed.position_error, landed.velocity_error, h);
         let to = self.ground.onwards(simd, h);
-        // Walls that turn as one have a closed crack, or none. Others have the ground closed, or nothing.
-        let closed = if AS_ONE { landed.reactions.crack } else { landed.reactions.ground };
-        let (corner_force, stays_closed) = self.limits.corner_force(closed);
-        let cracked = from_row(simd, &self.limits.cracked).simd_eq(1.0);
-        let none = F::splat(simd, 0.0);
-        let normals = [landed.reactions.ground[1], cracked.select(landed.reactions.crack[1], none)];
         let paths = self.limits.paths::<S, AS_ONE>(&self.moving, landed, h);
-        let mut done = from_row(simd, &self.limits.advances).simd_eq(1.0)
-            & error.simd_le(1.0)
-            & paths.clear
-            & stays_closed
-            & self.limits.same_tension(normals)
-            & to.goes_on;
-        if self.kinks.any {
-            let before_m_s = from_row(simd, &self.limits.top_velocity_m_s);
-            done = done & self.kinks.far(&self.moving, before_m_s, landed, h);
-        }
+        let kept = error.simd_le(1.0) & paths.clear & to.goes_on & self.far_from_kinks(landed, h);
+        let done = kept & self.stay_closed::<S, AS_ONE>(kept, landed);
         if self.watched {
             self.remember();
         }
@@ -279,22 +265,52 @@ impl Row {
             self.landed.store_motion(landed);
             self.raise_rotations(rises.to_bitmask());
         }
-        keep(done, &mut self.limits.corner_force, corner_force);
-        self.account(done, landed, normals, h);
+        self.account(done, landed, h);
         self.turn_top(done, motions, landed, h);
         self.moving_on(done, landed);
         self.errors.propose(done, error, h);
         let left_s = self.ground.move_on(done, &to, samples);
         let next = self.errors.next_s(left_s);
         keep(done, &mut self.moving.h, next);
-        let shorter = next.simd_lt(left_s).select(F::splat(simd, 1.0), none);
+        let shorter = next.simd_lt(left_s).select(F::splat(simd, 1.0), F::splat(simd, 0.0));
         SumRow::add(done, &mut self.sums.tolerance_steps, shorter);
         done
     }
 
+    #[inline(always)]
+    fn far_from_kinks<S: Simd>(&self, landed: &Landed<S>, h: F<S>) -> Mask<S> {
+        let advances = from_row(h.simd, &self.limits.advances).simd_eq(1.0);
+        if !self.kinks.any {
+            return advances;
+        }
+        let before_m_s = from_row(h.simd, &self.limits.top_velocity_m_s);
+        advances & self.kinks.far(&self.moving, before_m_s, landed, h)
+    }
+
+    /// Whether closed joints surely stay closed, and the pivots are under tension as they were; the smallest corner
+    /// forces of the lanes of which both hold are kept.
+    #[inline(always)]
+    fn stay_closed<S: Simd, const AS_ONE: bool>(&mut self, kept: Mask<S>, landed: &Landed<S>) -> Mask<S> {
+        // Walls that turn as one have a closed crack, or none. Others have the ground closed, or nothing.
+        let closed = if AS_ONE { landed.reactions.crack } else { landed.reactions.ground };
+        let (corner_force, stays) = self.limits.corner_force(closed);
+        let stays = stays & self.limits.same_tension(self.normals(landed));
+        keep(kept & stays, &mut self.limits.corner_force, corner_force);
+        stays
+    }
+
+    /// Normal forces through the ground and the crack, 0 where there is none.
+    #[inline(always)]
+    fn normals<S: Simd>(&self, landed: &Landed<S>) -> [F<S>; 2] {
+        let normal = landed.reactions.crack[1];
+        let cracked = from_row(normal.simd, &self.limits.cracked).simd_eq(1.0);
+        [landed.reactions.ground[1], cracked.select(normal, F::splat(normal.simd, 0.0))]
+    }
+
     /// Adds the steps of some lanes up.
     #[inline(always)]
-    fn account<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>, normals: [F<S>; 2], h: F<S>) {
+    fn account<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>, h: F<S>) {
+        let normals = self.normals(landed);
         let (simd, sums, ground) = (h.simd, &mut self.sums, &self.ground);
         let start_s = from_row(simd, &ground.start_s) + from_row(simd, &ground.offset_s);
         SumRow::add(done, &mut sums.steps, F::splat(simd, 1.0));

@@ -1,19 +1,15 @@
-//! The steps of several runs at once, in vector lanes: packed, taken together, unpacked.
+//! The steps of a row of runs on sharp edges, in vector lanes.
 
 use std::ops::Mul;
 
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4};
 
 use super::row::{GroundRow, Row};
-use super::run::StepRequest;
 use crate::fused::fused_lanes;
 use crate::instructions::dispatch_lanes;
-use crate::lanes::{LANES, Numbers, from_row, lanes};
-use crate::model::{
-    BeddedMotion, ConfigurationLanes, JointLanes, LaneKind, LawLanes, Motions, RateLanes, ReactionLanes,
-    Reactions, Vector,
-};
-use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
+use crate::lanes::{LANES, Numbers, from_row};
+use crate::model::{ConfigurationLanes, LaneKind, Motions, RateLanes, ReactionLanes, Vector};
+use crate::solver::{Field, Nystrom, Rate, Values};
 
 type F<S> = f64x4<S>;
 
@@ -22,7 +18,7 @@ type F<S> = f64x4<S>;
 struct OneRotation<S: Simd>(F<S>);
 
 #[derive(Clone, Copy)]
-struct TwoRotations<S: Simd>([F<S>; 2]);
+pub(super) struct TwoRotations<S: Simd>(pub [F<S>; 2]);
 
 impl<S: Simd> Mul<f64> for OneRotation<S> {
     type Output = Self;
@@ -80,7 +76,7 @@ impl<S: Simd> Values for TwoRotations<S> {
 /// are longer than ones that are everywhere: six times over they would fill the cache of instructions, and the
 /// compiler's time.
 #[inline(always)]
-fn apart<S: Simd, R>(simd: S, stage: impl FnOnce() -> R) -> R {
+pub(super) fn apart<S: Simd, R>(simd: S, stage: impl FnOnce() -> R) -> R {
     simd.vectorize(stage)
 }
 
@@ -98,23 +94,13 @@ pub(super) struct Landed<S: Simd> {
 }
 
 /// The ground acceleration under every run.
-struct GroundLanes<S: Simd> {
-    from: [F<S>; 2],
-    slope: [F<S>; 2],
-    from_s: F<S>,
+pub(super) struct GroundLanes<S: Simd> {
+    pub from: [F<S>; 2],
+    pub slope: [F<S>; 2],
+    pub from_s: F<S>,
 }
 
 impl<S: Simd> GroundLanes<S> {
-    #[inline(always)]
-    fn new(simd: S, requests: &[StepRequest; LANES]) -> Self {
-        let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
-        Self {
-            from: [lanes(|a| a.piece.from.x), lanes(|a| a.piece.from.y)],
-            slope: [lanes(|a| a.piece.slope.x), lanes(|a| a.piece.slope.y)],
-            from_s: lanes(|a| a.from_s),
-        }
-    }
-
     #[inline(always)]
     fn of_row(simd: S, row: &GroundRow) -> Self {
         Self {
@@ -125,7 +111,7 @@ impl<S: Simd> GroundLanes<S> {
     }
 
     #[inline(always)]
-    fn at(&self, after_s: F<S>) -> [F<S>; 2] {
+    pub fn at(&self, after_s: F<S>) -> [F<S>; 2] {
         let offset_s = self.from_s + after_s;
         [self.from[0] + self.slope[0] * offset_s, self.from[1] + self.slope[1] * offset_s]
     }
@@ -149,65 +135,6 @@ impl<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'a, S, A
     fn landed(self) -> ReactionLanes<S> {
         let Some(reactions) = self.reactions else { unreachable!("a step that was taken has landed") };
         reactions
-    }
-}
-
-/// Walls on beds.
-struct BeddedShaken<S: Simd> {
-    equations: BeddedMotion<F<S>, JointLanes<S>>,
-    laws: LawLanes<S>,
-    ground: GroundLanes<S>,
-    reactions: Option<ReactionLanes<S>>,
-}
-
-impl<S: Simd> BeddedShaken<S> {
-    /// `None` unless every wall stands on beds.
-    #[inline(always)]
-    fn new(simd: S, requests: &[StepRequest; LANES]) -> Option<Self> {
-        let m = requests.each_ref().map(|request| request.motion);
-        let walls = [m[0].on_beds()?, m[1].on_beds()?, m[2].on_beds()?, m[3].on_beds()?];
-        Some(Self {
-            equations: BeddedMotion::of_lanes(simd, &walls),
-            laws: LawLanes::new(simd, m),
-            ground: GroundLanes::new(simd, requests),
-            reactions: None,
-        })
-    }
-
-    #[inline(always)]
-    fn rate_at(&self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
-        let [x, y] = self.ground.at(after_s);
-        let balance = self.equations.balance(&self.laws, false, [theta, omega], Vector { x, y });
-        RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
-    }
-}
-
-impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<S> {
-    #[inline(always)]
-    fn rate(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
-        as_rate(apart(
-            after_s.simd,
-            #[inline(always)]
-            || self.rate_at(after_s, theta.0, omega.0),
-        ))
-    }
-
-    #[inline(always)]
-    fn land(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
-        let [x, y] = self.ground.at(after_s);
-        let balance = self.equations.balance(&self.laws, false, [theta.0, omega.0], Vector { x, y });
-        self.reactions = Some(ReactionLanes::of(&self.equations.reactions_by(&balance, balance.theta_dd)));
-        as_rate(RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w })
     }
 }
 
@@ -280,7 +207,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
 }
 
 #[inline(always)]
-fn as_rate<S: Simd>(rate: RateLanes<S>) -> Rate<TwoRotations<S>> {
+pub(super) fn as_rate<S: Simd>(rate: RateLanes<S>) -> Rate<TwoRotations<S>> {
     Rate { acceleration: TwoRotations(rate.theta_dd), quadrature: TwoRotations(rate.powers_w) }
 }
 
@@ -398,47 +325,4 @@ pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row, samples: &[&[
         }
         LaneKind::Bedded(_) => unreachable!("walls on beds take their steps by request"),
     }
-}
-
-/// The steps of walls on beds.
-#[inline(always)]
-fn bedded_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    let Some(mut shaken) = BeddedShaken::new(simd, requests) else { unreachable!("walls of a kind on beds") };
-    let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
-    let start = Rate {
-        acceleration: TwoRotations([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
-        quadrature: TwoRotations([lanes(|a| a.quadrature_rate[0]), lanes(|a| a.quadrature_rate[1])]),
-    };
-    let x = TwoRotations([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
-    let v = TwoRotations([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
-    let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
-    let reactions = shaken.reactions.as_ref().map_or([Reactions::default(); LANES], ReactionLanes::unpacked);
-    let [x, v, a, rate, gained, e_x, e_v] = [
-        stride.position,
-        stride.velocity,
-        stride.end.acceleration,
-        stride.end.quadrature,
-        stride.quadrature,
-        stride.position_error,
-        stride.velocity_error,
-    ]
-    .map(|of| of.0.map(<[f64; LANES]>::from));
-    std::array::from_fn(|i| {
-        let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
-        let step = Step {
-            h: requests[i].h,
-            start: *requests[i].now,
-            end: Point { position: both(&x), velocity: both(&v), acceleration: both(&a) },
-            quadrature: both(&gained),
-            end_quadrature_rate: both(&rate),
-            position_error: both(&e_x),
-            velocity_error: both(&e_v),
-        };
-        (step, reactions[i])
-    })
-}
-
-/// The steps that walls on beds request.
-pub(super) fn steps(level: Level, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    dispatch_lanes!(level, simd => bedded_steps(simd, requests))
 }

@@ -7,6 +7,7 @@ mod events;
 mod ground_path;
 mod history;
 mod lane_accounts;
+mod lane_beds;
 mod lane_kinks;
 mod lane_steps;
 mod response;

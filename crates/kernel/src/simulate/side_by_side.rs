@@ -6,7 +6,8 @@
 use fearless_simd::Level;
 
 use super::history::Observer;
-use super::lane_steps::{advance, steps};
+use super::lane_beds::steps;
+use super::lane_steps::advance;
 use super::response::Response;
 use super::row::Row;
 use super::run::Run;
