@@ -63,6 +63,8 @@
 
 pub mod accelerogram;
 mod fused;
+mod instructions;
+mod lanes;
 pub mod model;
 pub mod simulate;
 pub mod solver;

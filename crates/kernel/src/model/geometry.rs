@@ -10,19 +10,19 @@ pub type Pair = [f64; 2];
 
 /// Arms of one contact state in the axes of the bodies, at zero rotation, m.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Arms {
+pub(crate) struct Arms<N = f64> {
     /// Pivot at the ground, x of O.
-    pub o_x: f64,
+    pub o_x: N,
     /// G1 - O.
-    pub g1: Vector,
+    pub g1: Vector<N>,
     /// Q - O, with Q the pivot at the crack.
-    pub q: Vector,
+    pub q: Vector<N>,
     /// G2 - Q.
-    pub g2: Vector,
+    pub g2: Vector<N>,
     /// C - Q.
-    pub c: Vector,
+    pub c: Vector<N>,
     /// Pivot at the crack, from the middle of the joint along the joint: s_2 b_2/2.
-    pub q_x: f64,
+    pub q_x: N,
 }
 
 impl Arms {
@@ -73,22 +73,21 @@ impl Rotations {
     }
 }
 
-impl TurnedArms {
+impl<N: Number> TurnedArms<N> {
+    /// By the sines and cosines of both rotations.
     #[inline(always)]
-    pub fn new(arms: &Arms, Rotations([turn_1, turn_2]): Rotations) -> Self {
+    pub fn new(arms: &Arms<N>, [turn_1, turn_2]: [(N, N); 2]) -> Self {
         Self {
             o_x: arms.o_x,
             r_1: arms.g1.rotated(turn_1),
             r_q: arms.q.rotated(turn_1),
             r_2: arms.g2.rotated(turn_2),
             r_c: arms.c.rotated(turn_2),
-            q_from_middle: Vector::new(arms.q_x, 0.0).rotated(turn_1),
+            q_from_middle: Vector::new(arms.q_x, arms.q_x.constant(0.0)).rotated(turn_1),
             turn_1,
         }
     }
-}
 
-impl<N: Number> TurnedArms<N> {
     /// Velocities J θ' of the mass points.
     #[inline(always)]
     pub fn velocities(&self, omega: [N; 2]) -> PointVelocities<N> {

@@ -4,7 +4,7 @@
 //! onto the velocities that the new contact state allows. The coefficient of the change of pattern then
 //! scales them.
 
-use fearless_simd::dispatch;
+use fearless_simd::Simd;
 
 use super::MechanicsError;
 use super::Table2Change;
@@ -12,9 +12,11 @@ use super::contact::{Contact, Pivot, Touching};
 use super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
 use super::parameters::ImpactLaw;
 use super::rocking::{RockingWall, State, opening};
+use crate::instructions::dispatch;
+use crate::lanes::LANES;
 
 /// Separations and impulses within this share of the motion before count as zero: some hundred roundings.
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 
 /// What came of an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,14 +53,14 @@ impl Table2Change {
 }
 
 /// An impact while it is worked out: the rotations, and the velocities of the mass points before.
-struct Collision {
-    touching: Touching,
-    rotations: Rotations,
-    v_before: PointVelocities,
+pub(super) struct Collision {
+    pub touching: Touching,
+    pub rotations: Rotations,
+    pub v_before: PointVelocities,
     /// The faster of both bodies before, rad/s; not zero.
-    speed: f64,
+    pub speed: f64,
     /// What impulses at corners are small beside, N s; not zero.
-    impulse_size: f64,
+    pub impulse_size: f64,
 }
 
 impl RockingWall {
@@ -67,19 +69,20 @@ impl RockingWall {
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
-        dispatch!(self.motion(from).level, _ => self.plastic_impact(from, touching, state))
+        dispatch!(self.motion(from).level, simd => self.plastic_impact(simd, from, touching, state))
     }
 
     #[inline(always)]
-    fn plastic_impact(
+    fn plastic_impact<S: Simd>(
         &self,
+        simd: S,
         from: Contact,
         touching: Touching,
         state: &State,
     ) -> Result<Impact, MechanicsError> {
         let collision = self.collision(from, touching, state);
         let (mut count, mut plastic) = (0, None);
-        self.admissible(from, &collision, |to, omega| {
+        self.admissible(simd, from, &collision, |to, omega| {
             count += 1;
             plastic = Some((to, omega));
         });
@@ -105,8 +108,9 @@ impl RockingWall {
         state: &State,
     ) -> [Option<Contact>; 9] {
         let mut outcomes = [None; 9];
-        self.admissible(from, &self.collision(from, touching, state), |to, _| {
-            outcomes[to.index()] = Some(to)
+        let collision = self.collision(from, touching, state);
+        dispatch!(self.motion(from).level, simd => {
+            self.admissible(simd, from, &collision, |to, _| outcomes[to.index()] = Some(to));
         });
         outcomes
     }
@@ -124,21 +128,44 @@ impl RockingWall {
 
     /// Tells the admissible contact states, with the velocities in them.
     #[inline(always)]
-    fn admissible(&self, from: Contact, collision: &Collision, mut report: impl FnMut(Contact, Pair)) {
-        let (mut any, mut tie) = (false, None::<(Contact, Pair)>);
+    fn admissible<S: Simd>(
+        &self,
+        simd: S,
+        from: Contact,
+        collision: &Collision,
+        mut report: impl FnMut(Contact, Pair),
+    ) {
+        let (mut candidates, mut count) = ([from; 9], 0);
         for to in self.states_touching(from, collision.touching) {
-            let (margin, omega) = self.margin(to, collision);
-            if margin > ROUNDING {
-                any = true;
-                report(to, omega);
-            } else if margin >= -ROUNDING && tie.is_none_or(|(tied, _)| to.open_joints() < tied.open_joints())
-            {
-                tie = Some((to, omega));
+            candidates[count] = to;
+            count += 1;
+        }
+        let (mut any, mut tie) = (false, None::<(Contact, Pair)>);
+        for four in candidates[..count].chunks(LANES) {
+            for (&to, (margin, omega)) in four.iter().zip(self.margins(simd, four, collision)) {
+                let fewer = |(tied, _): (Contact, Pair)| to.open_joints() < tied.open_joints();
+                if margin > ROUNDING {
+                    any = true;
+                    report(to, omega);
+                } else if margin >= -ROUNDING && tie.is_none_or(fewer) {
+                    tie = Some((to, omega));
+                }
             }
         }
         if let (false, Some((to, omega))) = (any, tie) {
             report(to, omega);
         }
+    }
+
+    /// By how much up to four contact states are admissible, and the velocities in them.
+    #[inline(always)]
+    fn margins<S: Simd>(&self, simd: S, four: &[Contact], collision: &Collision) -> [(f64, Pair); LANES] {
+        let last = four.len() - 1;
+        let to = [four[0], four[last.min(1)], four[last.min(2)], four[last]];
+        if self.wall().gives() {
+            return to.map(|to| self.margin(to, collision));
+        }
+        self.margins_on_edges(simd, &to, collision)
     }
 
     /// By how much a contact state is admissible, and the velocities in it. The margin is the smallest corner

@@ -3,7 +3,6 @@
 //! Impulses are balanced over the mass points. Forces, which a run needs after every step, are balanced in
 //! the static moments of [`super::motion`].
 
-use fearless_simd::dispatch;
 use wide::f64x2;
 
 use super::contact::Joint;
@@ -13,6 +12,7 @@ use super::number::Number;
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
 use crate::fused::{fused, fused_pair};
+use crate::instructions::dispatch;
 
 /// Force through a joint and its moment about the joint's middle: newtons and newton metres,
 /// or their impulses.

@@ -7,8 +7,8 @@ use super::effect::Lanes;
 use super::laws::Laws;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
-use super::side_by_side::{LANES, lanes};
 use crate::fused::fused_lanes as fused;
+use crate::lanes::{LANES, Numbers, from_row};
 
 type F<S> = f64x4<S>;
 
@@ -34,6 +34,9 @@ impl LaneKind {
         Self::Bedded(Freedom::Upper),
         Self::Bedded(Freedom::Both),
     ];
+
+    /// How many of them, the first ones, are of walls on sharp edges.
+    pub const ON_EDGES: usize = 4;
 
     /// Position among all kinds.
     #[inline]
@@ -71,8 +74,8 @@ impl Motion {
 
 /// The laws of which the lanes do the sums.
 #[derive(Clone, Copy)]
-pub(super) struct LaneLaws {
-    pub m_dp: f64,
+struct LaneLaws {
+    m_dp: f64,
     stiffness: f64,
     offset: f64,
     cubic: f64,
@@ -85,7 +88,7 @@ impl LaneLaws {
     /// Every law by its name, so that a new one does not compile here at first. Either the lanes do its sums,
     /// or the catalogue says of its effect that they do not.
     #[inline(always)]
-    pub fn of(motion: &Motion) -> Self {
+    fn of(motion: &Motion) -> Self {
         let Laws {
             carriage_mass_kg: m_dp,
             stiffness_n_per_m: stiffness,
@@ -102,6 +105,42 @@ impl LaneLaws {
     }
 }
 
+/// The laws of the walls of a row, one after another.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct LawRow {
+    pub(super) m_dp: Numbers,
+    stiffness: Numbers,
+    offset: Numbers,
+    cubic: Numbers,
+    viscous: Numbers,
+    drag: Numbers,
+    joint_damping: [Numbers; 2],
+    damped: Numbers,
+}
+
+impl LawRow {
+    fn of(m: [&Motion; LANES]) -> Self {
+        let mut row = Self::default();
+        m.iter().enumerate().for_each(|(i, motion)| row.put(i, motion));
+        row
+    }
+
+    /// The laws of the wall in a lane.
+    #[inline(always)]
+    pub fn put(&mut self, i: usize, motion: &Motion) {
+        let LaneLaws { m_dp, stiffness, offset, cubic, viscous, drag, joint_damping } = LaneLaws::of(motion);
+        self.m_dp[i] = m_dp;
+        self.stiffness[i] = stiffness;
+        self.offset[i] = offset;
+        self.cubic[i] = cubic;
+        self.viscous[i] = viscous;
+        self.drag[i] = drag;
+        self.joint_damping[0][i] = joint_damping[0];
+        self.joint_damping[1][i] = joint_damping[1];
+        self.damped[i] = f64::from(u8::from(motion.damped));
+    }
+}
+
 /// The linear spring at the top, and what else is constant there.
 #[derive(Clone, Copy)]
 pub(super) struct SpringLanes<S: Simd> {
@@ -111,9 +150,8 @@ pub(super) struct SpringLanes<S: Simd> {
 
 impl<S: Simd> SpringLanes<S> {
     #[inline(always)]
-    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
-        Self { stiffness: lanes(|m| LaneLaws::of(m).stiffness), offset: lanes(|m| LaneLaws::of(m).offset) }
+    pub fn new(simd: S, row: &LawRow) -> Self {
+        Self { stiffness: from_row(simd, &row.stiffness), offset: from_row(simd, &row.offset) }
     }
 
     /// As [`Laws::spring_force_n`] of a linear spring.
@@ -132,7 +170,8 @@ pub(crate) struct LawLanes<S: Simd> {
 impl<S: Simd> LawLanes<S> {
     #[inline(always)]
     pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        Self { spring: SpringLanes::new(simd, m), further: FurtherLanes::new(simd, m) }
+        let row = LawRow::of(m);
+        Self { spring: SpringLanes::new(simd, &row), further: FurtherLanes::new(simd, &row) }
     }
 }
 
@@ -166,17 +205,16 @@ pub(super) struct FurtherLanes<S: Simd> {
 
 impl<S: Simd> FurtherLanes<S> {
     #[inline(always)]
-    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
-        let cubic = lanes(|m| LaneLaws::of(m).cubic);
+    pub fn new(simd: S, row: &LawRow) -> Self {
+        let cubic = from_row(simd, &row.cubic);
         Self {
             cubic,
             linear: cubic.simd_eq(0.0),
-            viscous: lanes(|m| LaneLaws::of(m).viscous),
-            drag: lanes(|m| LaneLaws::of(m).drag),
-            at_ground: lanes(|m| LaneLaws::of(m).joint_damping[0]),
-            at_crack: lanes(|m| LaneLaws::of(m).joint_damping[1]),
-            damped: lanes(|m| f64::from(u8::from(m.damped))).simd_eq(1.0),
+            viscous: from_row(simd, &row.viscous),
+            drag: from_row(simd, &row.drag),
+            at_ground: from_row(simd, &row.joint_damping[0]),
+            at_crack: from_row(simd, &row.joint_damping[1]),
+            damped: from_row(simd, &row.damped).simd_eq(1.0),
         }
     }
 

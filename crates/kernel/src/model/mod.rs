@@ -12,6 +12,7 @@ mod effect;
 mod formula;
 mod geometry;
 mod impact;
+mod impact_lanes;
 mod joint_forces;
 mod lane_laws;
 mod laws;
@@ -47,7 +48,7 @@ pub(crate) use regime::Kink;
 pub use regime::{Regime, Side};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
-pub(crate) use side_by_side::{ConfigurationLanes, LANES, Motions, RateLanes, ReactionLanes, lanes};
+pub(crate) use side_by_side::{ConfigurationLanes, MotionRow, Motions, RateLanes, ReactionLanes};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpossibleWall, Wall, crushed_widths_m};
 

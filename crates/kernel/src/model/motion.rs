@@ -10,7 +10,8 @@
 //! Here κ = Y_Q U_x - X_Q U_y and a_dp = a_x - X_Q ω_1² - X_C ω_2². The latter is the part of the carriage's
 //! acceleration that is known before θ''.
 
-use fearless_simd::{Level, dispatch};
+use fearless_simd::Level;
+
 use wide::f64x2;
 
 use super::bed::{Acting, BeddedMotion, BeddedRate};
@@ -22,6 +23,7 @@ use super::mass_matrix::{Freedom, MassMatrix};
 use super::vector::{Vector, sin_cos, sin_cos_pair};
 use super::wall::{G_M_S2, Wall};
 use crate::fused::{fused, fused_pair};
+use crate::instructions::dispatch;
 
 /// What the equations of motion give at a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -170,6 +172,13 @@ impl Motion {
             bedded,
             level: Level::new(),
         }
+    }
+
+    /// I_1O and I_2Q, kg m², and U at zero rotation, kg m.
+    #[inline(always)]
+    pub(super) fn inertias_and_moment(&self) -> [f64; 4] {
+        let [i_1, i_2] = self.inertias.to_array();
+        [i_1, i_2, self.u.x, self.u.y]
     }
 
     /// The laws beyond weight and inertia.

@@ -7,9 +7,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4};
 
-use super::side_by_side::{LANES, lanes, sin_cos_lanes};
+use super::side_by_side::sin_cos_lanes;
 use super::vector::sin_cos;
 use crate::fused::{fused, fused_lanes};
+use crate::lanes::{LANES, lanes};
 
 /// What laws calculate with.
 pub trait Number:

@@ -1,5 +1,7 @@
 //! The nine contact states of one wall, each with its arms and equations of motion.
 
+use fearless_simd::Level;
+
 use super::MechanicsError;
 use super::bed::Bed;
 use super::contact::{Contact, Joint, Pivot, Touching};
@@ -82,6 +84,12 @@ impl RockingWall {
         rocking
     }
 
+    /// Moves by these vector instructions, which change nothing but the time it takes.
+    pub(crate) fn set_level(&mut self, level: Level) {
+        self.motions.iter_mut().for_each(|motion| motion.level = level);
+        self.edges.iter_mut().for_each(|edges| edges.set_level(level));
+    }
+
     /// The wall.
     pub fn wall(&self) -> &Wall {
         &self.wall
@@ -96,7 +104,7 @@ impl RockingWall {
     pub(super) fn turned_arms(&self, contact: Contact, rotations: Rotations) -> TurnedArms {
         match &self.motion(contact).bedded {
             Some(bedded) => bedded.turned_arms(rotations),
-            None => TurnedArms::new(&self.arms[contact.index()], rotations),
+            None => TurnedArms::new(&self.arms[contact.index()], rotations.0),
         }
     }
 
@@ -176,7 +184,7 @@ impl RockingWall {
         if contact.ground.is_open() && contact.crack.is_open() {
             return None;
         }
-        let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
+        let weight = self.weight_n();
         let mut smallest = None;
         for joint in self.joints() {
             if contact.at(joint).is_closed() && self.bed(joint).is_none() {
@@ -186,6 +194,12 @@ impl RockingWall {
             }
         }
         smallest
+    }
+
+    /// Weight of all that rests on the ground, N.
+    #[inline]
+    pub(crate) fn weight_n(&self) -> f64 {
+        (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2
     }
 
     /// The bed of a joint that gives.
@@ -262,7 +276,11 @@ impl RockingWall {
         state: &State,
         ground: Vector,
     ) -> Result<(Contact, Option<(MotionRate, Reactions)>), MechanicsError> {
-        for opened in 0..=2 {
+        // The one state in which no further joint opens.
+        if let Some(carried) = self.admissible_motion(contact, contact, state, ground) {
+            return Ok((contact, Some(carried)));
+        }
+        for opened in 1..=2 {
             for candidate in self.states_opening(contact, opened) {
                 if let Some(carried) = self.admissible_motion(contact, candidate, state, ground) {
                     return Ok((candidate, Some(carried)));

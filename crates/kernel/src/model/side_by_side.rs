@@ -10,24 +10,64 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
 use super::joint_forces::{JointForce, JointForces, Reactions};
-use super::lane_laws::{FurtherLanes, LaneLaws, SpringLanes};
+use super::lane_laws::{FurtherLanes, LawRow, SpringLanes};
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
 use super::vector::{COS, SIN, sin_cos};
 use super::wall::G_M_S2;
 use crate::fused::fused_lanes as fused;
+use crate::lanes::{LANES, Numbers, from_row, lanes};
 
-/// Walls side by side; eight do not fit the registers of every x86-64 and take longer.
-pub(crate) const LANES: usize = 4;
 type F<S> = f64x4<S>;
 
-/// One number of every lane.
-#[inline(always)]
-pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> F<S> {
-    F::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
+/// The motions of the walls of a row, number by number as registers take them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct MotionRow {
+    upper: Numbers,
+    o_x: Numbers,
+    o_c: Numbers,
+    q_x: Numbers,
+    q: [Numbers; 2],
+    c: [Numbers; 2],
+    v: [Numbers; 2],
+    u: [Numbers; 2],
+    whole_arm: [Numbers; 2],
+    whole_moment: [Numbers; 2],
+    whole_inertia: Numbers,
+    inertias: [Numbers; 2],
+    lower_mass: Numbers,
+    upper_mass: Numbers,
+    lower_inertia: Numbers,
+    laws: LawRow,
+}
+
+impl MotionRow {
+    /// Puts a motion in a lane.
+    pub fn put(&mut self, i: usize, m: &Motion) {
+        let put = |to: &mut [Numbers; 2], [first, second]: [f64; 2]| {
+            to[0][i] = first;
+            to[1][i] = second;
+        };
+        self.upper[i] = f64::from(u8::from(m.freedom == Freedom::Upper));
+        self.o_x[i] = m.o_x;
+        self.o_c[i] = m.o_c;
+        self.q_x[i] = m.q_x;
+        put(&mut self.q, [m.q.x, m.q.y]);
+        put(&mut self.c, [m.c.x, m.c.y]);
+        put(&mut self.v, [m.v.x, m.v.y]);
+        put(&mut self.u, [m.u.x, m.u.y]);
+        put(&mut self.whole_arm, [m.whole_arm.x, m.whole_arm.y]);
+        put(&mut self.whole_moment, [m.whole_moment.x, m.whole_moment.y]);
+        self.whole_inertia[i] = m.whole_inertia;
+        put(&mut self.inertias, m.inertias.to_array());
+        self.lower_mass[i] = m.lower_mass;
+        self.upper_mass[i] = m.upper_mass;
+        self.lower_inertia[i] = m.lower_inertia;
+        self.laws.put(i, m);
+    }
 }
 
 /// The motions of several contact states side by side, all of one [`LaneKind`].
@@ -89,9 +129,11 @@ struct Equations<S: Simd> {
 /// [`Reactions`] of every lane.
 #[derive(Clone, Copy)]
 pub(crate) struct ReactionLanes<S: Simd> {
-    ground: [F<S>; 3],
-    crack: [F<S>; 3],
-    top: [F<S>; 3],
+    /// Shear, normal force and moment of both joints.
+    pub ground: [F<S>; 3],
+    pub crack: [F<S>; 3],
+    /// Displacement, velocity and acceleration.
+    pub top: [F<S>; 3],
 }
 
 /// As [`super::vector::Vector::moment_of`].
@@ -138,29 +180,30 @@ fn library_sin_cos<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
 
 impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHER> {
     #[inline(always)]
-    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        let lanes = |of: fn(&Motion) -> f64| lanes(simd, |i| of(m[i]));
-        let upper = lanes(|m| f64::from(u8::from(m.freedom == Freedom::Upper))).simd_eq(1.0);
+    pub fn new(simd: S, row: &MotionRow) -> Self {
+        let one = |of: &Numbers| from_row(simd, of);
+        let two = |of: &[Numbers; 2]| [from_row(simd, &of[0]), from_row(simd, &of[1])];
+        let upper = one(&row.upper).simd_eq(1.0);
         Self {
             upper,
             any_upper: upper.any_true(),
-            o_x: lanes(|m| m.o_x),
-            o_c: lanes(|m| m.o_c),
-            q_x: lanes(|m| m.q_x),
-            q: [lanes(|m| m.q.x), lanes(|m| m.q.y)],
-            c: [lanes(|m| m.c.x), lanes(|m| m.c.y)],
-            v: [lanes(|m| m.v.x), lanes(|m| m.v.y)],
-            u: [lanes(|m| m.u.x), lanes(|m| m.u.y)],
-            whole_arm: [lanes(|m| m.whole_arm.x), lanes(|m| m.whole_arm.y)],
-            whole_moment: [lanes(|m| m.whole_moment.x), lanes(|m| m.whole_moment.y)],
-            whole_inertia: lanes(|m| m.whole_inertia),
-            inertias: [lanes(|m| m.inertias.to_array()[0]), lanes(|m| m.inertias.to_array()[1])],
-            lower_mass: lanes(|m| m.lower_mass),
-            upper_mass: lanes(|m| m.upper_mass),
-            lower_inertia: lanes(|m| m.lower_inertia),
-            m_dp: lanes(|m| LaneLaws::of(m).m_dp),
-            spring: SpringLanes::new(simd, m),
-            further: if FURTHER { Some(FurtherLanes::new(simd, m)) } else { None },
+            o_x: one(&row.o_x),
+            o_c: one(&row.o_c),
+            q_x: one(&row.q_x),
+            q: two(&row.q),
+            c: two(&row.c),
+            v: two(&row.v),
+            u: two(&row.u),
+            whole_arm: two(&row.whole_arm),
+            whole_moment: two(&row.whole_moment),
+            whole_inertia: one(&row.whole_inertia),
+            inertias: two(&row.inertias),
+            lower_mass: one(&row.lower_mass),
+            upper_mass: one(&row.upper_mass),
+            lower_inertia: one(&row.lower_inertia),
+            m_dp: one(&row.laws.m_dp),
+            spring: SpringLanes::new(simd, &row.laws),
+            further: if FURTHER { Some(FurtherLanes::new(simd, &row.laws)) } else { None },
         }
     }
 
@@ -176,6 +219,12 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
             v: rotated(self.v, sin_1, cos_1),
             u: rotated(self.u, sin_2, cos_2),
         }
+    }
+
+    /// As [`Motion::top_displacement_m`].
+    #[inline(always)]
+    pub fn top_displacement_m(&self, t: &ConfigurationLanes<S>) -> F<S> {
+        (t.q[0] + t.c[0]) + self.o_c
     }
 
     /// As [`Laws::spring_force_n`].
@@ -227,7 +276,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     ) -> Equations<S> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let squares = [w1 * w1, w2 * w2];
-        let x_c = (t.q[0] + t.c[0]) + self.o_c;
+        let x_c = self.top_displacement_m(t);
         let v_c = t.q[1] * w1 + t.c[1] * w2;
         let spring = self.spring_force_n(x_c);
         let none = F::splat(x_c.simd, 0.0);

@@ -101,10 +101,10 @@ pub struct Ensemble {
 }
 
 /// Members of an ensemble where nothing else is said: as many as there are vector lanes.
-pub const MEMBERS: usize = crate::model::LANES;
+pub const MEMBERS: usize = crate::lanes::LANES;
 
 /// Members of the ensemble of a chaotic run.
-pub const MEMBERS_IN_CHAOS: usize = 3 * crate::model::LANES;
+pub const MEMBERS_IN_CHAOS: usize = 3 * crate::lanes::LANES;
 
 /// Digits of the largest rotations to which the members of a run agree that is not chaotic. One digit lets them part
 /// by a quarter of the rotation.

@@ -44,7 +44,7 @@ pub(super) const ROUNDINGS: f64 = 8.0;
 /// Corner forces are looked at inside a step where one at an end is small beside its size and change. Between
 /// ends that are farther away a smooth force cannot dip below zero. The motion turns by less than a tenth of
 /// a radian of its own period within a step.
-const NEAR_ZERO: f64 = 0.05;
+pub(super) const NEAR_ZERO: f64 = 0.05;
 
 /// The first event inside a step and the share of the step at which it happens.
 ///

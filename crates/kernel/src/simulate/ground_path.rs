@@ -11,6 +11,9 @@ pub const FREE_RELEASE_STEP_S: f64 = 0.005;
 /// A lag this near a whole number of steps, as a share of one, is that number. A quotient has roundings.
 const NEAR_WHOLE: f64 = 1e-9;
 
+/// What is left after the last whole step may be a rounding: a share of a step that is no piece of its own.
+pub(super) const LEAST_PIECE: f64 = 1e-9;
+
 /// Piecewise linear ground acceleration; cheap to clone, for the samples are shared.
 #[derive(Debug, Clone)]
 pub(crate) struct GroundPath {
@@ -74,6 +77,17 @@ impl GroundPath {
         Self { samples, origin_s, end_s: self.end_s + lag_s.max(0.0), step_s: self.step_s }
     }
 
+    /// The samples, one zero appended; none of a free release.
+    #[inline]
+    pub fn samples(&self) -> &[Vector] {
+        &self.samples
+    }
+
+    /// Time of the first sample, s.
+    pub fn origin_s(&self) -> f64 {
+        self.origin_s
+    }
+
     /// Time between samples, s.
     pub fn step_s(&self) -> f64 {
         self.step_s
@@ -128,8 +142,7 @@ impl GroundPath {
     pub fn piece(&self, k: usize) -> Option<Piece> {
         let start_s = self.start_s(k);
         let left_s = self.end_s - start_s;
-        // What is left after the last whole step may be a rounding.
-        if left_s <= 1e-9 * self.step_s {
+        if left_s <= LEAST_PIECE * self.step_s {
             return None;
         }
         let zero = Vector::default();

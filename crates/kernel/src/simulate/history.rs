@@ -11,6 +11,10 @@ pub trait Observer {
     fn stood(&mut self, from_s: f64, to_s: f64);
     /// The run ended.
     fn ended(&mut self, time_s: f64, contact: Contact, theta: Pair);
+    /// Whether it watches at all.
+    fn watches(&self) -> bool {
+        true
+    }
     /// Whether the rest of the run is not worth its time; checked at every sample of the record. The response
     /// is then that of the part that was run.
     fn seen_enough(&self) -> bool {
@@ -31,6 +35,10 @@ impl<O: Observer + ?Sized> Observer for &mut O {
         (**self).ended(time_s, contact, theta);
     }
 
+    fn watches(&self) -> bool {
+        (**self).watches()
+    }
+
     fn seen_enough(&self) -> bool {
         (**self).seen_enough()
     }
@@ -41,6 +49,10 @@ impl Observer for () {
     fn moved(&mut self, _: f64, _: Contact, _: &Quintic) {}
     fn stood(&mut self, _: f64, _: f64) {}
     fn ended(&mut self, _: f64, _: Contact, _: Pair) {}
+
+    fn watches(&self) -> bool {
+        false
+    }
 }
 
 /// One row of a history.

@@ -1,16 +1,15 @@
-//! The steps of several runs at once, in vector lanes: packed, taken together, unpacked.
+//! The steps of a row of runs on sharp edges, in vector lanes.
 
 use std::ops::Mul;
 
-use fearless_simd::{Level, Simd, SimdBase, dispatch, f64x4};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4};
 
-use super::run::StepRequest;
+use super::row::{GroundRow, Row};
 use crate::fused::fused_lanes;
-use crate::model::{
-    BeddedMotion, ConfigurationLanes, JointLanes, LANES, LaneKind, LawLanes, Motions, RateLanes,
-    ReactionLanes, Reactions, Vector, lanes,
-};
-use crate::solver::{Field, Nystrom, Point, Rate, Step, Values};
+use crate::instructions::dispatch_lanes;
+use crate::lanes::{LANES, Numbers, from_row};
+use crate::model::{ConfigurationLanes, LaneKind, Motions, RateLanes, ReactionLanes, Vector};
+use crate::solver::{Field, Nystrom, Rate, Values};
 
 type F<S> = f64x4<S>;
 
@@ -19,7 +18,7 @@ type F<S> = f64x4<S>;
 struct OneRotation<S: Simd>(F<S>);
 
 #[derive(Clone, Copy)]
-struct TwoRotations<S: Simd>([F<S>; 2]);
+pub(super) struct TwoRotations<S: Simd>(pub [F<S>; 2]);
 
 impl<S: Simd> Mul<f64> for OneRotation<S> {
     type Output = Self;
@@ -77,141 +76,70 @@ impl<S: Simd> Values for TwoRotations<S> {
 /// are longer than ones that are everywhere: six times over they would fill the cache of instructions, and the
 /// compiler's time.
 #[inline(always)]
-fn apart<S: Simd, R>(simd: S, stage: impl FnOnce() -> R) -> R {
+pub(super) fn apart<S: Simd, R>(simd: S, stage: impl FnOnce() -> R) -> R {
     simd.vectorize(stage)
 }
 
+/// What a step gave every lane.
+pub(super) struct Landed<S: Simd> {
+    pub position: [F<S>; 2],
+    pub velocity: [F<S>; 2],
+    pub acceleration: [F<S>; 2],
+    /// What the quadratures gained, and their rates at the end, W.
+    pub quadrature: [F<S>; 2],
+    pub powers_w: [F<S>; 2],
+    pub position_error: [F<S>; 2],
+    pub velocity_error: [F<S>; 2],
+    pub reactions: ReactionLanes<S>,
+}
+
 /// The ground acceleration under every run.
-struct GroundLanes<S: Simd> {
-    from: [F<S>; 2],
-    slope: [F<S>; 2],
-    from_s: F<S>,
+pub(super) struct GroundLanes<S: Simd> {
+    pub from: [F<S>; 2],
+    pub slope: [F<S>; 2],
+    pub from_s: F<S>,
 }
 
 impl<S: Simd> GroundLanes<S> {
     #[inline(always)]
-    fn new(simd: S, requests: &[StepRequest; LANES]) -> Self {
-        let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
+    fn of_row(simd: S, row: &GroundRow) -> Self {
         Self {
-            from: [lanes(|a| a.piece.from.x), lanes(|a| a.piece.from.y)],
-            slope: [lanes(|a| a.piece.slope.x), lanes(|a| a.piece.slope.y)],
-            from_s: lanes(|a| a.from_s),
+            from: [from_row(simd, &row.from[0]), from_row(simd, &row.from[1])],
+            slope: [from_row(simd, &row.slope[0]), from_row(simd, &row.slope[1])],
+            from_s: from_row(simd, &row.offset_s),
         }
     }
 
     #[inline(always)]
-    fn at(&self, after_s: F<S>) -> [F<S>; 2] {
+    pub fn at(&self, after_s: F<S>) -> [F<S>; 2] {
         let offset_s = self.from_s + after_s;
         [self.from[0] + self.slope[0] * offset_s, self.from[1] + self.slope[1] * offset_s]
     }
 }
 
-/// Motions under that of the ground, and the reactions once they have landed.
-trait Shaken<S: Simd> {
-    fn reactions(&self) -> Option<&ReactionLanes<S>>;
-
-    /// The reactions of every lane at the end of the step.
-    #[inline(always)]
-    fn landed(&self) -> [Reactions; LANES] {
-        self.reactions().map_or([Reactions::default(); LANES], ReactionLanes::unpacked)
-    }
-}
-
-/// Walls on sharp edges.
-struct ShakenMotion<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
-    motions: Motions<S, AS_ONE, FURTHER>,
+/// Walls on sharp edges under the ground's motion, and the reactions once they have landed.
+struct ShakenMotion<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> {
+    motions: &'a Motions<S, AS_ONE, FURTHER>,
     ground: GroundLanes<S>,
     configuration: Option<ConfigurationLanes<S>>,
     reactions: Option<ReactionLanes<S>>,
 }
 
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<S, AS_ONE, FURTHER> {
+impl<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'a, S, AS_ONE, FURTHER> {
     #[inline(always)]
-    fn new(simd: S, requests: &[StepRequest; LANES]) -> Self {
-        Self {
-            motions: Motions::new(simd, std::array::from_fn(|i| requests[i].motion)),
-            ground: GroundLanes::new(simd, requests),
-            configuration: None,
-            reactions: None,
-        }
-    }
-}
-
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Shaken<S> for ShakenMotion<S, AS_ONE, FURTHER> {
-    #[inline(always)]
-    fn reactions(&self) -> Option<&ReactionLanes<S>> {
-        self.reactions.as_ref()
-    }
-}
-
-/// Walls on beds.
-struct BeddedShaken<S: Simd> {
-    equations: BeddedMotion<F<S>, JointLanes<S>>,
-    laws: LawLanes<S>,
-    ground: GroundLanes<S>,
-    reactions: Option<ReactionLanes<S>>,
-}
-
-impl<S: Simd> BeddedShaken<S> {
-    /// `None` unless every wall stands on beds.
-    #[inline(always)]
-    fn new(simd: S, requests: &[StepRequest; LANES]) -> Option<Self> {
-        let m = requests.each_ref().map(|request| request.motion);
-        let walls = [m[0].on_beds()?, m[1].on_beds()?, m[2].on_beds()?, m[3].on_beds()?];
-        Some(Self {
-            equations: BeddedMotion::of_lanes(simd, &walls),
-            laws: LawLanes::new(simd, m),
-            ground: GroundLanes::new(simd, requests),
-            reactions: None,
-        })
+    fn new(motions: &'a Motions<S, AS_ONE, FURTHER>, ground: GroundLanes<S>) -> Self {
+        Self { motions, ground, configuration: None, reactions: None }
     }
 
     #[inline(always)]
-    fn rate_at(&self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
-        let [x, y] = self.ground.at(after_s);
-        let balance = self.equations.balance(&self.laws, false, [theta, omega], Vector { x, y });
-        RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
-    }
-}
-
-impl<S: Simd> Shaken<S> for BeddedShaken<S> {
-    #[inline(always)]
-    fn reactions(&self) -> Option<&ReactionLanes<S>> {
-        self.reactions.as_ref()
-    }
-}
-
-impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<S> {
-    #[inline(always)]
-    fn rate(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
-        as_rate(apart(
-            after_s.simd,
-            #[inline(always)]
-            || self.rate_at(after_s, theta.0, omega.0),
-        ))
-    }
-
-    #[inline(always)]
-    fn land(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
-        let [x, y] = self.ground.at(after_s);
-        let balance = self.equations.balance(&self.laws, false, [theta.0, omega.0], Vector { x, y });
-        self.reactions = Some(ReactionLanes::of(&self.equations.reactions_by(&balance, balance.theta_dd)));
-        as_rate(RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w })
+    fn landed(self) -> ReactionLanes<S> {
+        let Some(reactions) = self.reactions else { unreachable!("a step that was taken has landed") };
+        reactions
     }
 }
 
 /// The one rotation and the power of the ground, where nothing is lost.
-impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true, false> {
+impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<'_, S, true, false> {
     #[inline(always)]
     fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
         let (theta_dd, [power, _]) = self.motions.monolithic_rate(theta.0, omega.0, self.ground.at(after_s));
@@ -228,7 +156,7 @@ impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<S, true, false> {
     }
 }
 
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<S, AS_ONE, FURTHER> {
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'_, S, AS_ONE, FURTHER> {
     #[inline(always)]
     fn rate_at(&mut self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
         let ground = self.ground.at(after_s);
@@ -245,7 +173,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<S, AS_ONE, F
 
 /// Both rotations, equal where walls turn as one, and both powers.
 impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
-    for ShakenMotion<S, AS_ONE, FURTHER>
+    for ShakenMotion<'_, S, AS_ONE, FURTHER>
 {
     #[inline(always)]
     fn rate(
@@ -279,118 +207,122 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
 }
 
 #[inline(always)]
-fn as_rate<S: Simd>(rate: RateLanes<S>) -> Rate<TwoRotations<S>> {
+pub(super) fn as_rate<S: Simd>(rate: RateLanes<S>) -> Rate<TwoRotations<S>> {
     Rate { acceleration: TwoRotations(rate.theta_dd), quadrature: TwoRotations(rate.powers_w) }
 }
 
-/// The steps of walls that turn as one and lose nothing between impacts.
+/// A step of walls that turn as one and lose nothing between impacts.
 #[inline(always)]
-fn monolithic_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    let mut shaken = ShakenMotion::<S, true, false>::new(simd, requests);
-    let lanes = |of: fn(&StepRequest) -> f64| OneRotation(lanes(simd, |i| of(&requests[i])));
-    let start =
-        Rate { acceleration: lanes(|a| a.now.acceleration[0]), quadrature: lanes(|a| a.quadrature_rate[0]) };
-    let h = lanes(|a| a.h).0;
-    let stride =
-        Nystrom::stride(lanes(|a| a.now.position[0]), lanes(|a| a.now.velocity[0]), start, h, &mut shaken);
-    let reactions = shaken.landed();
-    let [x, v, a, rate, gained, e_x, e_v] = [
-        stride.position,
-        stride.velocity,
-        stride.end.acceleration,
-        stride.end.quadrature,
-        stride.quadrature,
-        stride.position_error,
-        stride.velocity_error,
-    ]
-    .map(|of| <[f64; LANES]>::from(of.0));
-    std::array::from_fn(|i| {
-        let step = Step {
-            h: requests[i].h,
-            start: *requests[i].now,
-            end: Point { position: [x[i]; 2], velocity: [v[i]; 2], acceleration: [a[i]; 2] },
-            quadrature: [gained[i], 0.0],
-            end_quadrature_rate: [rate[i], 0.0],
-            position_error: [e_x[i]; 2],
-            velocity_error: [e_v[i]; 2],
-        };
-        (step, reactions[i])
-    })
+fn monolithic_step<S: Simd>(simd: S, motions: &Motions<S, true, false>, row: &Row) -> Landed<S> {
+    let mut shaken = ShakenMotion::new(motions, GroundLanes::of_row(simd, &row.ground));
+    let of = |numbers: &[Numbers; 2]| OneRotation(from_row(simd, &numbers[0]));
+    let moving = &row.moving;
+    let start = Rate { acceleration: of(&moving.acceleration), quadrature: of(&moving.powers_w) };
+    let h = from_row(simd, &moving.h);
+    let stride = Nystrom::stride(of(&moving.position), of(&moving.velocity), start, h, &mut shaken);
+    let none = F::splat(simd, 0.0);
+    Landed {
+        position: [stride.position.0; 2],
+        velocity: [stride.velocity.0; 2],
+        acceleration: [stride.end.acceleration.0; 2],
+        quadrature: [stride.quadrature.0, none],
+        powers_w: [stride.end.quadrature.0, none],
+        position_error: [stride.position_error.0; 2],
+        velocity_error: [stride.velocity_error.0; 2],
+        reactions: shaken.landed(),
+    }
 }
 
-/// The steps of walls on sharp edges by both rotations.
+/// A step of walls on sharp edges by both rotations.
 #[inline(always)]
-fn two_body_steps<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+fn two_body_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
     simd: S,
-    requests: &[StepRequest; LANES],
-) -> [(Step, Reactions); LANES] {
-    steps_of(simd, requests, ShakenMotion::<S, AS_ONE, FURTHER>::new(simd, requests))
+    motions: &Motions<S, AS_ONE, FURTHER>,
+    row: &Row,
+) -> Landed<S> {
+    let mut shaken = ShakenMotion::new(motions, GroundLanes::of_row(simd, &row.ground));
+    let of =
+        |numbers: &[Numbers; 2]| TwoRotations([from_row(simd, &numbers[0]), from_row(simd, &numbers[1])]);
+    let moving = &row.moving;
+    let start = Rate { acceleration: of(&moving.acceleration), quadrature: of(&moving.powers_w) };
+    let h = from_row(simd, &moving.h);
+    let stride = Nystrom::stride(of(&moving.position), of(&moving.velocity), start, h, &mut shaken);
+    Landed {
+        position: stride.position.0,
+        velocity: stride.velocity.0,
+        acceleration: stride.end.acceleration.0,
+        quadrature: stride.quadrature.0,
+        powers_w: stride.end.quadrature.0,
+        position_error: stride.position_error.0,
+        velocity_error: stride.velocity_error.0,
+        reactions: shaken.landed(),
+    }
 }
 
-/// The steps of walls on beds.
-#[inline(always)]
-fn bedded_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    let Some(shaken) = BeddedShaken::new(simd, requests) else { unreachable!("walls of a kind on beds") };
-    steps_of(simd, requests, shaken)
+/// The motions of a row, as they take their step.
+trait Stepping<S: Simd> {
+    fn step(&self, simd: S, row: &Row) -> Landed<S>;
 }
 
+impl<S: Simd> Stepping<S> for Motions<S, true, false> {
+    #[inline(always)]
+    fn step(&self, simd: S, row: &Row) -> Landed<S> {
+        monolithic_step(simd, self, row)
+    }
+}
+
+impl<S: Simd> Stepping<S> for Motions<S, false, false> {
+    #[inline(always)]
+    fn step(&self, simd: S, row: &Row) -> Landed<S> {
+        two_body_step(simd, self, row)
+    }
+}
+
+impl<S: Simd, const AS_ONE: bool> Stepping<S> for Motions<S, AS_ONE, true> {
+    #[inline(always)]
+    fn step(&self, simd: S, row: &Row) -> Landed<S> {
+        two_body_step(simd, self, row)
+    }
+}
+
+/// Steps of a row until something happens to one of the runs in it: gives its lane, and those of others to which
+/// something does at once.
 #[inline(always)]
-fn steps_of<S: Simd>(
+fn steps_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
     simd: S,
-    requests: &[StepRequest; LANES],
-    mut shaken: impl Field<TwoRotations<S>> + Shaken<S>,
-) -> [(Step, Reactions); LANES] {
-    let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
-    let start = Rate {
-        acceleration: TwoRotations([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
-        quadrature: TwoRotations([lanes(|a| a.quadrature_rate[0]), lanes(|a| a.quadrature_rate[1])]),
-    };
-    let x = TwoRotations([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
-    let v = TwoRotations([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
-    let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
-    let reactions = shaken.landed();
-    let [x, v, a, rate, gained, e_x, e_v] = [
-        stride.position,
-        stride.velocity,
-        stride.end.acceleration,
-        stride.end.quadrature,
-        stride.quadrature,
-        stride.position_error,
-        stride.velocity_error,
-    ]
-    .map(|of| of.0.map(<[f64; LANES]>::from));
-    std::array::from_fn(|i| {
-        let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
-        let step = Step {
-            h: requests[i].h,
-            start: *requests[i].now,
-            end: Point { position: both(&x), velocity: both(&v), acceleration: both(&a) },
-            quadrature: both(&gained),
-            end_quadrature_rate: both(&rate),
-            position_error: both(&e_x),
-            velocity_error: both(&e_v),
-        };
-        (step, reactions[i])
-    })
+    row: &mut Row,
+    samples: &[&[Vector]; LANES],
+) -> u64
+where
+    Motions<S, AS_ONE, FURTHER>: Stepping<S>,
+{
+    let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &row.motions);
+    loop {
+        let landed = motions.step(simd, row);
+        let done = row.settle(&motions, &landed, samples);
+        let left = row.taken & !done.to_bitmask();
+        if left != 0 || row.watched {
+            row.landed.store(&landed);
+            return left;
+        }
+    }
 }
 
-/// The steps of walls of one kind.
-pub(super) fn steps(
-    level: Level,
-    kind: LaneKind,
-    requests: &[StepRequest; LANES],
-) -> [(Step, Reactions); LANES] {
+/// The steps of walls of one kind on sharp edges until something happens to some of them: the bits of their lanes.
+pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row, samples: &[&[Vector]; LANES]) -> u64 {
     match kind {
-        LaneKind::AsOne { further: false } => dispatch!(level, simd => monolithic_steps(simd, requests)),
+        LaneKind::AsOne { further: false } => {
+            dispatch_lanes!(level, simd => steps_until::<_, true, false>(simd, row, samples))
+        }
         LaneKind::Apart { further: false } => {
-            dispatch!(level, simd => two_body_steps::<_, false, false>(simd, requests))
+            dispatch_lanes!(level, simd => steps_until::<_, false, false>(simd, row, samples))
         }
         LaneKind::AsOne { further: true } => {
-            dispatch!(level, simd => two_body_steps::<_, true, true>(simd, requests))
+            dispatch_lanes!(level, simd => steps_until::<_, true, true>(simd, row, samples))
         }
         LaneKind::Apart { further: true } => {
-            dispatch!(level, simd => two_body_steps::<_, false, true>(simd, requests))
+            dispatch_lanes!(level, simd => steps_until::<_, false, true>(simd, row, samples))
         }
-        LaneKind::Bedded(_) => dispatch!(level, simd => bedded_steps(simd, requests)),
+        LaneKind::Bedded(_) => unreachable!("walls on beds take their steps by request"),
     }
 }

@@ -7,8 +7,12 @@
 //! some λ. A λ that suits all corners exists while every bound from below lies below every bound from above.
 //! These conditions are linear in the ground acceleration again.
 
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4};
+
 use super::ground_path::Piece;
-use crate::model::{Contact, RockingWall, State, Vector};
+use crate::instructions::dispatch;
+use crate::lanes::{LANES, lanes};
+use crate::model::{Contact, G_M_S2, RockingWall, State, Vector};
 
 /// Corner forces at rest: `x` times a_x plus `y` times a_y plus `constant`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -81,7 +85,7 @@ impl RestLimits {
         let mut sideways_over_down = [0.0; 2];
         for joint in wall.joints() {
             let force = pushed.at(joint);
-            sideways_over_down[joint as usize] = force.shear / force.normal * crate::model::G_M_S2;
+            sideways_over_down[joint as usize] = force.shear / force.normal * G_M_S2;
         }
         Self { corners, sideways_over_down, with_friction: Vec::new() }
     }
@@ -90,6 +94,32 @@ impl RestLimits {
     #[inline]
     pub fn holds(&self, ground: Vector) -> bool {
         self.corners.iter().all(|corner| corner.at(ground) >= 0.0) && self.friction_holds(ground)
+    }
+
+    /// Over how many of the first samples every corner stays pressed, and the largest friction over them. Four samples
+    /// at a time; what the last ones are is for [`RestLimits::holds`] to say.
+    pub fn holds_over(&self, level: Level, samples: &[Vector]) -> (usize, f64) {
+        if !self.with_friction.is_empty() {
+            return (0, 0.0);
+        }
+        dispatch!(level, simd => self.lanes_hold_over(simd, samples))
+    }
+
+    #[inline(always)]
+    fn lanes_hold_over<S: Simd>(&self, simd: S, samples: &[Vector]) -> (usize, f64) {
+        let constant = |value: f64| f64x4::splat(simd, value);
+        let corners = self.corners.map(|corner| [corner.x, corner.y, corner.constant].map(constant));
+        let (mut count, mut friction) = (0, constant(0.0));
+        for four in samples.chunks_exact(LANES) {
+            let (x, y) = (lanes(simd, |i| four[i].x), lanes(simd, |i| four[i].y));
+            let at = |[per_x, per_y, still]: [f64x4<S>; 3]| (per_x * x + per_y * y + still).simd_ge(0.0);
+            if !(at(corners[0]) & at(corners[1]) & at(corners[2]) & at(corners[3])).all_true() {
+                break;
+            }
+            friction = friction.max_precise(x.abs() / (y + G_M_S2));
+            count += LANES;
+        }
+        (count, <[f64; LANES]>::from(friction).into_iter().fold(0.0, f64::max))
     }
 
     #[inline]
@@ -125,7 +155,7 @@ impl RestLimits {
     /// Share |a_x| / (g + a_y) of a ground acceleration; times its factor it is |H|/N at a joint at rest.
     #[inline]
     pub fn friction(&self, ground: Vector) -> f64 {
-        ground.x.abs() / (crate::model::G_M_S2 + ground.y)
+        ground.x.abs() / (G_M_S2 + ground.y)
     }
 
     /// Factors from [`RestLimits::friction`] to the demand at each joint.

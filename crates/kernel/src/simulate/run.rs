@@ -1,9 +1,12 @@
 //! The loop of one run: rest, motion, openings and impacts, until the end.
 
 mod bed;
+mod boarding;
 mod event;
 mod rest;
 mod step;
+
+use fearless_simd::Level;
 
 use super::events::Event;
 use super::ground_path::{GroundPath, Piece};
@@ -23,7 +26,8 @@ type NextContact = (Contact, Option<(MotionRate, Reactions)>);
 
 /// A run between two of its steps.
 pub(super) struct Run<O> {
-    wall: RockingWall,
+    /// Apart, because runs are handed on before they begin.
+    wall: Box<RockingWall>,
     ground: GroundPath,
     rest: RestLimits,
     collapse_rad: Pair,
@@ -77,7 +81,7 @@ enum Stop {
 impl<O: Observer> Run<O> {
     /// A run that starts as it is placed and ends where its ground path does.
     pub fn new(simulator: &Simulator, placed: &Placed, ground: GroundPath, observer: O) -> Self {
-        let mut wall = simulator.wall.clone();
+        let mut wall = Box::new(simulator.wall.clone());
         wall.enter_regime_of_state(placed.contact, &placed.state, placed.plastic_displacement_m);
         Self {
             rest: simulator.rest.clone(),
@@ -120,6 +124,11 @@ impl<O: Observer> Run<O> {
         self.piece = self.ground.piece(self.k);
     }
 
+    /// Goes by these vector instructions.
+    pub fn set_level(&mut self, level: Level) {
+        self.wall.set_level(level);
+    }
+
     /// Ends the run before it starts.
     pub fn refuse(&mut self, time_s: f64, reason: String) {
         self.stopped = Some(Stop::Failed { time_s, reason });
@@ -144,16 +153,22 @@ impl<O: Observer> Run<O> {
     /// The step that is to be taken.
     #[inline]
     pub fn step_request(&self) -> StepRequest<'_> {
-        let (Task::Advance { h } | Task::ReachEvent { h, .. } | Task::RefineEvent { h, .. }) = self.task;
         let Some(piece) = &self.piece else { unreachable!("a step is asked for within a piece") };
         StepRequest {
             motion: self.wall.motion(self.contact),
             piece,
             from_s: self.offset_s,
-            h,
+            h: self.requested_s(),
             now: &self.now,
             quadrature_rate: self.quadrature_rate,
         }
+    }
+
+    /// Length of the step that is to be taken, s.
+    #[inline]
+    fn requested_s(&self) -> f64 {
+        let (Task::Advance { h } | Task::ReachEvent { h, .. } | Task::RefineEvent { h, .. }) = self.task;
+        h
     }
 
     /// Continues with the step that was requested.

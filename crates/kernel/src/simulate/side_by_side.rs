@@ -6,10 +6,14 @@
 use fearless_simd::Level;
 
 use super::history::Observer;
-use super::lane_steps::steps;
+use super::lane_beds::steps;
+use super::lane_steps::advance;
 use super::response::Response;
+use super::row::Row;
 use super::run::Run;
-use crate::model::{LANES, LaneKind, Reactions};
+use crate::instructions::lanes_pay;
+use crate::lanes::LANES;
+use crate::model::{Contact, LaneKind, Reactions, Regime};
 
 /// Runs in the pool at once: enough that mostly there are as many of a kind as lanes.
 const AT_ONCE: usize = 6 * LANES;
@@ -73,10 +77,26 @@ struct Pool<'w, O> {
     next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
     done: &'w mut dyn FnMut(usize, Response),
     slots: Vec<Option<(usize, Run<O>)>>,
-    /// Slots that request a step, by its kind.
+    /// Slots that wait for a step, by its kind.
     queues: [Vec<usize>; LaneKind::ALL.len()],
-    /// Vector instructions that this processor has.
+    /// Walls on sharp edges that step together, by the kind of their step.
+    rows: [Aboard; LaneKind::ON_EDGES],
+    /// Vector instructions that this processor has, and whether walls go side by side by them.
     level: Level,
+    lanes_pay: bool,
+}
+
+/// A row and the slots of the runs in it, with the laws by which they boarded.
+#[derive(Default)]
+struct Aboard {
+    row: Box<Row>,
+    slots: [Option<(usize, (Contact, Regime))>; LANES],
+}
+
+impl Aboard {
+    fn count(&self) -> usize {
+        self.slots.iter().flatten().count()
+    }
 }
 
 impl<'w, O: Observer> Pool<'w, O> {
@@ -86,7 +106,8 @@ impl<'w, O: Observer> Pool<'w, O> {
         done: &'w mut dyn FnMut(usize, Response),
     ) -> Self {
         let queues = LaneKind::ALL.map(|_| Vec::with_capacity(AT_ONCE));
-        Self { next, done, slots: Vec::with_capacity(AT_ONCE), queues, level }
+        let (slots, lanes_pay) = (Vec::with_capacity(AT_ONCE), lanes_pay(level));
+        Self { next, done, slots, queues, rows: Default::default(), level, lanes_pay }
     }
 
     fn all(&mut self) {
@@ -95,24 +116,39 @@ impl<'w, O: Observer> Pool<'w, O> {
             self.slots.push(Some(run));
             self.queue_step(self.slots.len() - 1);
         }
-        while self.step() {}
+        while let Some(kind) = self.most_wanted() {
+            match self.rows.get(kind.index()) {
+                Some(_) => self.step_row(kind),
+                None => self.step_on_request(kind),
+            }
+        }
     }
 
     #[inline(never)]
     fn begin_next(&mut self) -> Option<(usize, Run<O>)> {
-        let (number, prepared) = (self.next)()?;
+        let (number, mut prepared) = (self.next)()?;
+        if !self.lanes_pay {
+            prepared.run.set_level(self.level);
+        }
         Some((number, prepared.begun()))
     }
 
-    /// Brings the run in a slot, or the next one there, to a request that others may share.
     fn queue_step(&mut self, slot: usize) {
+        if let Some(kind) = self.next_kind(slot) {
+            self.queues[kind.index()].push(slot);
+        }
+    }
+
+    /// Brings the run in a slot, or the next one there, to a request that others may share: its kind. `None` where no run is left.
+    fn next_kind(&mut self, slot: usize) -> Option<LaneKind> {
         while let Some((_, run)) = &mut self.slots[slot] {
             if !run.needs_step() {
                 self.replace(slot);
                 continue;
             }
-            match run.step_request().motion.side_by_side() {
-                Some(kind) => return self.queues[kind.index()].push(slot),
+            let kind = if self.lanes_pay { run.step_request().motion.side_by_side() } else { None };
+            match kind {
+                Some(kind) => return Some(kind),
                 None => {
                     let mut reactions = Reactions::default();
                     let step = run.step_request().take(&mut reactions);
@@ -120,6 +156,7 @@ impl<'w, O: Observer> Pool<'w, O> {
                 }
             }
         }
+        None
     }
 
     /// Ends the run in a slot and begins the next one there.
@@ -131,16 +168,102 @@ impl<'w, O: Observer> Pool<'w, O> {
         self.slots[slot] = self.begin_next();
     }
 
-    /// Takes the steps of the kind that most slots request; false when there is no request.
-    fn step(&mut self) -> bool {
-        let lengths = self.queues.each_ref().map(Vec::len);
-        let longer = |most: LaneKind, kind: LaneKind| lengths[kind.index()] > lengths[most.index()];
-        let kind =
-            LaneKind::ALL.into_iter().reduce(|most, kind| if longer(most, kind) { kind } else { most });
-        let Some(kind) = kind else { return false };
+    /// The kind of step that most runs wait for, those aboard counted; `None` when none does.
+    fn most_wanted(&self) -> Option<LaneKind> {
+        let wanted = |kind: &LaneKind| {
+            self.queues[kind.index()].len() + self.rows.get(kind.index()).map_or(0, Aboard::count)
+        };
+        LaneKind::ALL.into_iter().filter(|kind| wanted(kind) > 0).max_by_key(wanted)
+    }
+
+    /// Steps the row of a kind for as long as it is full, or once.
+    fn step_row(&mut self, kind: LaneKind) {
+        loop {
+            self.fill(kind);
+            let Aboard { row, slots } = &mut self.rows[kind.index()];
+            let run = |i: usize| slots[i].and_then(|(slot, _)| self.slots[slot].as_ref());
+            let samples = std::array::from_fn(|i| run(i).map_or(&[][..], |(_, run)| run.samples()));
+            let left = advance(self.level, kind, row, &samples);
+            for i in 0..LANES {
+                if left >> i & 1 == 1 {
+                    self.attend(kind, i);
+                } else if self.rows[kind.index()].row.watched {
+                    self.show(kind, i);
+                }
+            }
+            if self.rows[kind.index()].count() + self.queues[kind.index()].len() < LANES {
+                return;
+            }
+        }
+    }
+
+    /// Lets runs that wait board the free lanes of a row.
+    fn fill(&mut self, kind: LaneKind) {
+        for i in 0..LANES {
+            if self.rows[kind.index()].slots[i].is_some() {
+                continue;
+            }
+            let Some(slot) = self.queues[kind.index()].pop() else { return };
+            let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
+            let Aboard { row, slots } = &mut self.rows[kind.index()];
+            run.board(row, i);
+            row.watched = run.is_watched();
+            row.taken |= 1 << i;
+            slots[i] = Some((slot, run.laws()));
+        }
+    }
+
+    /// Shows a step that was kept in a lane to whoever watches the run.
+    fn show(&mut self, kind: LaneKind, i: usize) {
+        let Aboard { row, slots } = &mut self.rows[kind.index()];
+        let Some((slot, _)) = slots[i] else { return };
+        let Some((_, run)) = &mut self.slots[slot] else { return };
+        if run.is_watched_on(row, i) {
+            return;
+        }
+        slots[i] = None;
+        row.taken &= !(1 << i);
+        self.queue_step(slot);
+    }
+
+    /// Goes through what happened to the run in a lane, and lets it or another one board there.
+    fn attend(&mut self, kind: LaneKind, i: usize) {
+        let Aboard { row, slots } = &mut self.rows[kind.index()];
+        let Some((slot, boarded)) = slots[i] else { return };
+        if let Some((_, run)) = &mut self.slots[slot] {
+            if row.limits.advances[i] == 1.0 && run.approaches_event_in(row, i) {
+                return;
+            }
+            slots[i] = None;
+            run.alight(row, i);
+            run.finish_step(&row.step(i), &row.landed.reactions(i));
+        }
+        let number = |pool: &Self| pool.slots[slot].as_ref().map(|(number, _)| *number);
+        let before = number(self);
+        let next = self.next_kind(slot);
+        let same = number(self) == before;
+        let Aboard { row, slots } = &mut self.rows[kind.index()];
+        row.taken &= !(1 << i);
+        match (next, &self.slots[slot]) {
+            (Some(next), Some((_, run))) if next == kind => {
+                if same && run.laws() == boarded {
+                    run.board_again(row, i);
+                } else {
+                    run.board(row, i);
+                }
+                row.taken |= 1 << i;
+                slots[i] = Some((slot, run.laws()));
+            }
+            (Some(next), _) => self.queues[next.index()].push(slot),
+            (None, _) => {}
+        }
+    }
+
+    /// Takes the steps that walls on beds request.
+    fn step_on_request(&mut self, kind: LaneKind) {
         let queue = &mut self.queues[kind.index()];
         let from = queue.len().saturating_sub(LANES);
-        let Some(&last) = queue.last() else { return false };
+        let Some(&last) = queue.last() else { return };
         // A lane without a run does the work of another once more.
         let mut of = [last; LANES];
         let count = queue.len() - from;
@@ -150,13 +273,12 @@ impl<'w, O: Observer> Pool<'w, O> {
             let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
             run.step_request()
         });
-        let taken = steps(self.level, kind, &requests);
+        let taken = steps(self.level, &requests);
         for (slot, (step, reactions)) in of.into_iter().zip(&taken).take(count) {
             if let Some((_, run)) = &mut self.slots[slot] {
                 run.finish_step(step, reactions);
             }
             self.queue_step(slot);
         }
-        true
     }
 }

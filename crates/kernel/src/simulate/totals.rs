@@ -2,7 +2,7 @@
 
 use super::response::{EnergyLedger, Impacts, JointDemand, Openings, Peak, Work};
 use crate::model::{Contact, Impact, JointForces};
-use crate::solver::Quintic;
+use crate::solver::{Bernstein, Quintic};
 
 /// Everything a run adds up.
 #[derive(Debug, Clone, Default)]
@@ -15,9 +15,34 @@ pub(crate) struct Totals {
     pub energy: EnergyLedger,
     pub demand: [JointDemand; 2],
     pub work: Work,
-    in_tension: [bool; 2],
+    pub in_tension: [bool; 2],
     /// Joints the wall has: one, or two where it is cracked.
-    joints: usize,
+    pub joints: usize,
+}
+
+/// Raises the largest rotations by what happens inside a step.
+#[inline]
+pub(super) fn raise_rotations(theta_max: &mut [Peak; 2], start_s: f64, motion: &Quintic) {
+    for (i, bound) in motion.bounds().into_iter().enumerate() {
+        if bound > theta_max[i].value.abs() {
+            raise(&mut theta_max[i], start_s, &motion.coordinate(i), motion.h());
+        }
+    }
+}
+
+fn raise(peak: &mut Peak, start_s: f64, theta: &Bernstein<6>, h: f64) {
+    // A step may cross zero; both sides count.
+    for sign in [1.0, -1.0] {
+        let theta = theta.times(sign);
+        let so_far = peak.value.abs();
+        if theta.0.iter().all(|c| *c <= so_far) {
+            continue;
+        }
+        let (value, share) = theta.maximum();
+        if value > so_far {
+            *peak = Peak { value: sign * value, time_s: start_s + share * h };
+        }
+    }
 }
 
 impl Totals {
@@ -29,26 +54,7 @@ impl Totals {
     /// Raises the largest rotations by what happens inside a step.
     #[inline]
     pub fn rotations(&mut self, start_s: f64, motion: &Quintic) {
-        for (i, bound) in motion.bounds().into_iter().enumerate() {
-            if bound > self.theta_max[i].value.abs() {
-                self.raise_rotation(i, start_s, motion);
-            }
-        }
-    }
-
-    fn raise_rotation(&mut self, i: usize, start_s: f64, motion: &Quintic) {
-        // A step may cross zero; both sides count.
-        for sign in [1.0, -1.0] {
-            let theta = motion.coordinate(i).times(sign);
-            let so_far = self.theta_max[i].value.abs();
-            if theta.0.iter().all(|c| *c <= so_far) {
-                continue;
-            }
-            let (value, share) = theta.maximum();
-            if value > so_far {
-                self.theta_max[i] = Peak { value: sign * value, time_s: start_s + share * motion.h() };
-            }
-        }
+        raise_rotations(&mut self.theta_max, start_s, motion);
     }
 
     /// Raises the largest top displacement.

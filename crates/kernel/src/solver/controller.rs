@@ -1,8 +1,12 @@
 //! Choosing the step: as long as the estimated error of the positions allows.
 
+use std::ops::Mul;
+
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f64x4, mask64x4};
 use wide::f64x2;
 
 use super::nystrom::Step;
+use crate::lanes::{LANES, Numbers, from_row};
 
 /// What an error is measured against.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +36,19 @@ const LEAST_FACTOR: f64 = 0.2;
 const MOST_FACTOR: f64 = 5.0;
 /// The estimate falls with this power of the step: the fifth of the embedded method, and one more (see `error`).
 const ESTIMATE_ORDER: i32 = 6;
+
+/// The power with which the estimate falls.
+#[inline(always)]
+fn to_estimate_order<N: Copy + Mul<Output = N>>(ratio: N) -> N {
+    let square = ratio * ratio;
+    square * (square * square)
+}
+
+/// The length proposed after a step that was kept, s.
+#[inline]
+fn longer_s(h: f64, error: f64) -> f64 {
+    h * (SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER))).min(MOST_FACTOR)
+}
 
 impl Controller {
     /// Keeps the scaled error of a step below `bound`, starting from a proposed step.
@@ -76,10 +93,9 @@ impl Controller {
             // A step cut short by a sample or an event says nothing against a longer one. It may speak for
             // one, up to the most that would be trusted anyhow.
             let longer = self.proposed_s < MOST_FACTOR * step.h
-                && error < (SAFETY * step.h / self.proposed_s).powi(ESTIMATE_ORDER);
+                && error < to_estimate_order(SAFETY * step.h / self.proposed_s);
             if whole || longer {
-                self.proposed_s =
-                    step.h * (SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER))).min(MOST_FACTOR);
+                self.proposed_s = longer_s(step.h, error);
             }
             return true;
         }
@@ -87,5 +103,69 @@ impl Controller {
         let factor = SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER));
         self.proposed_s = step.h * if factor.is_nan() { LEAST_FACTOR } else { factor.max(LEAST_FACTOR) };
         false
+    }
+}
+
+/// The controllers of several motions, number by number; the same sums as in [`Controller`].
+#[derive(Debug, Default)]
+pub(crate) struct ErrorRow {
+    per_position: [Numbers; 2],
+    time_s: Numbers,
+    fastest_rate_per_s: Numbers,
+    proposed_s: Numbers,
+}
+
+impl ErrorRow {
+    /// Puts a controller in a lane.
+    pub fn put(&mut self, i: usize, controller: &Controller) {
+        let [first, second] = controller.per_position.to_array();
+        self.per_position[0][i] = first;
+        self.per_position[1][i] = second;
+        self.time_s[i] = controller.time_s;
+        self.fastest_rate_per_s[i] = controller.fastest_rate_per_s;
+        self.proposed_s[i] = controller.proposed_s;
+    }
+
+    /// Tells a controller what its lane proposes by now.
+    pub fn tell(&self, i: usize, controller: &mut Controller) {
+        controller.proposed_s = self.proposed_s[i];
+    }
+
+    /// As [`Controller::error`].
+    #[inline(always)]
+    pub fn of<S: Simd>(&self, position: [f64x4<S>; 2], velocity: [f64x4<S>; 2], h: f64x4<S>) -> f64x4<S> {
+        let of = |numbers: &Numbers| from_row(h.simd, numbers);
+        let time_s = of(&self.time_s);
+        let along =
+            |i: usize| position[i].abs().max_precise(velocity[i].abs() * time_s) * of(&self.per_position[i]);
+        along(0).max_precise(along(1)) * (h * of(&self.fastest_rate_per_s)).min_precise(1.0)
+    }
+
+    /// As [`Controller::accepts`] proposes, of steps that it does accept.
+    #[inline(always)]
+    pub fn propose<S: Simd>(&mut self, accepted: mask64x4<S>, error: f64x4<S>, h: f64x4<S>) {
+        let proposed_s = from_row(h.simd, &self.proposed_s);
+        let whole = h.simd_ge(proposed_s * 0.99);
+        let ratio = h * SAFETY / proposed_s;
+        let longer = proposed_s.simd_lt(h * MOST_FACTOR) & error.simd_lt(to_estimate_order(ratio));
+        let changes = accepted & (whole | longer);
+        if changes.any_true() {
+            self.propose_longer(changes.to_bitmask(), error.into(), h.into());
+        }
+    }
+
+    #[cold]
+    fn propose_longer(&mut self, which: u64, error: Numbers, h: Numbers) {
+        for i in (0..LANES).filter(|i| which >> i & 1 == 1) {
+            self.proposed_s[i] = longer_s(h[i], error[i]);
+        }
+    }
+
+    /// As [`Controller::next_s`].
+    #[inline(always)]
+    pub fn next_s<S: Simd>(&self, remaining_s: f64x4<S>) -> f64x4<S> {
+        let proposed_s = from_row(remaining_s.simd, &self.proposed_s);
+        let parts = (remaining_s / proposed_s).ceil();
+        remaining_s.simd_le(proposed_s).select(remaining_s, remaining_s / parts)
     }
 }

@@ -10,6 +10,7 @@ mod nystrom;
 mod quintic;
 
 pub use bernstein::Bernstein;
+pub(crate) use controller::ErrorRow;
 pub use controller::{Controller, ErrorScale};
 pub use nystrom::{Field, Nystrom, Rate, STAGES, Step, Stride, Values};
 pub use quintic::{Point, Quintic, hermite};

@@ -92,14 +92,28 @@ impl Quintic {
     }
 
     /// Positions at a share of the step.
+    #[inline]
     pub fn position(&self, share: f64) -> [f64; 2] {
-        [0, 1].map(|i| self.coordinate(i).value(share))
+        values(self.both, share).to_array()
     }
 
     /// Velocities at a share of the step.
+    #[inline]
     pub fn velocity(&self, share: f64) -> [f64; 2] {
-        [0, 1].map(|i| self.coordinate(i).derivative().value(share) / self.h)
+        let slopes: [f64x2; 5] = std::array::from_fn(|i| (self.both[i + 1] - self.both[i]) * 5.0);
+        (values(slopes, share) / self.h).to_array()
     }
+}
+
+/// Values of two polynomials at a share of the step, as [`Bernstein::value`] has that of one.
+#[inline(always)]
+fn values<const N: usize>(mut c: [f64x2; N], share: f64) -> f64x2 {
+    for width in (1..N).rev() {
+        for i in 0..width {
+            c[i] += (c[i + 1] - c[i]) * share;
+        }
+    }
+    c[0]
 }
 
 /// Bernstein form of the quintics with these positions, velocities and accelerations at both ends.

@@ -4,10 +4,10 @@
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
 use super::super::joint_forces::Masses;
-use super::super::side_by_side::{LANES, lanes};
 use super::super::vector::Vector;
 use super::motion::{BeddedMotion, JointShape, Rolls};
 use super::roll::{Roll, RollingBed};
+use crate::lanes::{LANES, lanes};
 
 type F<S> = f64x4<S>;
 

@@ -13,8 +13,6 @@
 //! - γ_A = A'' ω_1²,
 //! - γ_B = γ_A - R(θ_1) q ω_1² + 2 ω_1 φ' (R(θ_1) q')^⊥ + R(θ_1) q'' φ'².
 
-use fearless_simd::dispatch;
-
 use super::super::contact::{Contact, Joint, Pivot};
 use super::super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
 use super::super::joint_forces::{Masses, Reactions};
@@ -25,6 +23,7 @@ use super::super::vector::{Vector, sin_cos};
 use super::super::wall::{G_M_S2, Wall};
 use super::law::Bed;
 use super::roll::{Roll, RollingBed, across};
+use crate::instructions::dispatch;
 
 /// What a joint does as it turns by φ.
 pub(crate) trait Rolls<N> {

@@ -4,9 +4,10 @@ use super::super::bed_events::first_bed_change;
 use super::super::events::{Event, first_event, first_kink, left_to_kink};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
+use super::super::row::Row;
 use super::{Run, Stop, Task, failed};
 use crate::model::{Joint, Kink, Reactions, Touching, Vector, opening};
-use crate::solver::{Point, Quintic, Step};
+use crate::solver::{Point, Quintic, STAGES, Step};
 
 /// An opening is placed this share of a sample step after the instant its corner force vanishes. So the joint
 /// does accelerate apart, and nothing moves by more than roundings.
@@ -41,11 +42,8 @@ impl<O: Observer> Run<O> {
         let from_s = self.offset_s;
         let motion = Quintic::new(&step.start, &step.end, step.h);
         let end_force = self.wall.smallest_reserve(self.contact, reactions);
-        let force_at =
-            |share: f64| self.corner_force_within(&motion, share, piece.at(from_s + share * step.h));
         let corner_force = (self.corner_force, end_force);
-        let event =
-            first_event(self.wall.edges_of(self.contact), &motion, self.collapse_rad, corner_force, force_at);
+        let event = self.first_event(&motion, corner_force, piece, from_s);
         let kink = first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
         let event = earlier(event, kink).map(|(event, share)| (self.on_edges(event), share));
         let change = first_bed_change(&self.wall, self.contact, self.opened, &motion);
@@ -61,6 +59,46 @@ impl<O: Observer> Run<O> {
             }
             Some((event, share)) => self.approach_event(event, share, piece, step.h),
         }
+    }
+
+    /// What happens first to the joints, and a collapse.
+    #[inline]
+    fn first_event(
+        &self,
+        motion: &Quintic,
+        corner_force: (Option<f64>, Option<f64>),
+        piece: &Piece,
+        from_s: f64,
+    ) -> Option<(Event, f64)> {
+        let force_at =
+            |share: f64| self.corner_force_within(motion, share, piece.at(from_s + share * motion.h()));
+        first_event(self.wall.edges_of(self.contact), motion, self.collapse_rad, corner_force, force_at)
+    }
+
+    /// Requests a step up to the first event inside the one that a row has taken in a lane, without alighting. False
+    /// where there is none, or the step may not be kept.
+    pub fn approaches_event_in(&mut self, row: &mut Row, i: usize) -> bool {
+        let (step, piece, from_s) = (row.step(i), row.ground.at(i), row.ground.offset_s[i]);
+        if self.wall.piecewise_laws().is_some() {
+            return false;
+        }
+        let mut controller = self.controller;
+        row.errors.tell(i, &mut controller);
+        if !controller.accepts(&step) {
+            return false;
+        }
+        let motion = Quintic::new(&step.start, &step.end, step.h);
+        let end_force = self.wall.smallest_reserve(self.contact, &row.landed.reactions(i));
+        let corner_force = (self.corner_force.map(|_| row.limits.corner_force[i]), end_force);
+        let Some((event, share)) = self.first_event(&motion, corner_force, &piece, from_s) else {
+            return false;
+        };
+        self.totals.work.evaluations += STAGES;
+        row.errors.put(i, &controller);
+        self.request_up_to(event, share, step.h);
+        row.limits.advances[i] = 0.0;
+        row.moving.h[i] = self.requested_s();
+        true
     }
 
     /// An event as far as sharp edges go: joints on beds take no part in their impacts.
@@ -92,12 +130,16 @@ impl<O: Observer> Run<O> {
             let from_s = self.offset_s;
             return self.pass_kink(kink, piece.at(from_s), piece.start_s + from_s);
         }
+        self.request_up_to(event, share, whole_s);
+        Ok(())
+    }
+
+    fn request_up_to(&mut self, event: Event, share: f64, whole_s: f64) {
         let mut h = share * whole_s;
         if matches!(event, Event::Opening) {
             h = (h + AFTER_OPENING * self.ground.step_s()).min(whole_s);
         }
         self.task = Task::ReachEvent { event, h, most_s: whole_s };
-        Ok(())
     }
 
     /// Applies the event at the end of a step.

@@ -9,8 +9,9 @@ use crate::model::Contact;
 impl<O: Observer> Run<O> {
     /// Rests through all pieces from the `k`-th on at whose ends no corner has lifted; gives the first other.
     pub(super) fn rest_through_pieces(&mut self, k: usize) -> usize {
-        let mut friction = 0.0_f64;
-        let next = self.ground.first_end_against(k, |ground| {
+        let ends = self.ground.samples().get(k + 1..).unwrap_or(&[]);
+        let (held, mut friction) = self.rest.holds_over(self.wall.motion(Contact::REST).level, ends);
+        let next = self.ground.first_end_against(k + held, |ground| {
             let holds = self.rest.holds(ground);
             if holds {
                 friction = friction.max(self.rest.friction(ground));

@@ -1,9 +1,9 @@
 //! The step that a run requests, and how it is taken alone; [`super::super::side_by_side`] takes several.
 
-use fearless_simd::dispatch;
 use wide::f64x2;
 
 use super::super::ground_path::Piece;
+use crate::instructions::dispatch;
 use crate::model::{Configuration, Motion, MotionRate, Pair, RatePair, Reactions};
 use crate::solver::{Field, Nystrom, Point, Rate, Step};
 

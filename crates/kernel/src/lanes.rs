@@ -1,0 +1,21 @@
+//! Numbers of several walls side by side, in the lanes of vector registers and in memory.
+
+use fearless_simd::{Simd, SimdFrom, f64x4};
+
+/// Walls side by side; eight do not fit the registers of every processor that has vector instructions.
+pub(crate) const LANES: usize = 4;
+
+/// One number of every wall of a row, in memory.
+pub(crate) type Numbers = [f64; LANES];
+
+/// One number of every lane.
+#[inline(always)]
+pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> f64x4<S> {
+    f64x4::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
+}
+
+/// Numbers of a row in a register.
+#[inline(always)]
+pub(crate) fn from_row<S: Simd>(simd: S, numbers: &Numbers) -> f64x4<S> {
+    f64x4::simd_from(simd, *numbers)
+}

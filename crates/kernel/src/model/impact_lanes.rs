@@ -1,0 +1,167 @@
+//! The contact states that may follow an impact side by side, in the lanes of vector registers.
+//!
+//! The same sums in the same order as in [`super::impact`], state by state.
+
+use fearless_simd::{Select, Simd, SimdBase, f64x4, mask64x4};
+
+use super::contact::{Contact, Joint};
+use super::geometry::{Arms, Pair, PointVelocities, TurnedArms};
+use super::impact::{Collision, ROUNDING};
+use super::joint_forces::{JointForce, Masses};
+use super::mass_matrix::{Freedom, MassMatrix};
+use super::rocking::RockingWall;
+use super::vector::Vector;
+use crate::lanes::{LANES, lanes};
+
+type F<S> = f64x4<S>;
+
+/// Contact states of a wall on sharp edges.
+struct Candidates<'a, S: Simd> {
+    simd: S,
+    wall: &'a RockingWall,
+    to: &'a [Contact; LANES],
+    /// Sides on which the joint at the ground and that at the crack are open.
+    sides: [F<S>; 2],
+}
+
+impl<'a, S: Simd> Candidates<'a, S> {
+    #[inline(always)]
+    fn new(simd: S, wall: &'a RockingWall, to: &'a [Contact; LANES]) -> Self {
+        let sides = [lanes(simd, |i| to[i].ground.sign()), lanes(simd, |i| to[i].crack.sign())];
+        Self { simd, wall, to, sides }
+    }
+
+    #[inline(always)]
+    fn all(&self, value: f64) -> F<S> {
+        F::splat(self.simd, value)
+    }
+
+    #[inline(always)]
+    fn vector(&self, of: Vector) -> Vector<F<S>> {
+        Vector::new(self.all(of.x), self.all(of.y))
+    }
+
+    /// The lanes in which a joint is closed.
+    #[inline(always)]
+    fn closed(&self, joint: Joint) -> mask64x4<S> {
+        self.sides[joint as usize].simd_eq(0.0)
+    }
+
+    #[inline(always)]
+    fn arms(&self) -> Arms<F<S>> {
+        let arms = self.to.map(|to| &self.wall.arms[to.index()]);
+        let one = |of: fn(&Arms) -> f64| lanes(self.simd, |i| of(arms[i]));
+        Arms {
+            o_x: one(|arms| arms.o_x),
+            g1: Vector::new(one(|arms| arms.g1.x), one(|arms| arms.g1.y)),
+            q: Vector::new(one(|arms| arms.q.x), one(|arms| arms.q.y)),
+            g2: Vector::new(one(|arms| arms.g2.x), one(|arms| arms.g2.y)),
+            c: Vector::new(one(|arms| arms.c.x), one(|arms| arms.c.y)),
+            q_x: one(|arms| arms.q_x),
+        }
+    }
+
+    #[inline(always)]
+    fn masses(&self) -> Masses<F<S>> {
+        let Masses { m, i, m_d, m_dp } = self.wall.masses;
+        Masses {
+            m: [self.all(m[0]), self.all(m[1])],
+            i: [self.all(i[0]), self.all(i[1])],
+            m_d: self.all(m_d),
+            m_dp: self.all(m_dp),
+        }
+    }
+
+    #[inline(always)]
+    fn velocities(&self, v: &PointVelocities) -> PointVelocities<F<S>> {
+        PointVelocities {
+            g1: self.vector(v.g1),
+            g2: self.vector(v.g2),
+            c: self.vector(v.c),
+            theta: [self.all(v.theta[0]), self.all(v.theta[1])],
+        }
+    }
+
+    /// As [`super::motion::Motion::mass_matrix`], by the arms and the static moment U.
+    #[inline(always)]
+    fn mass_matrix(&self, arms: &TurnedArms<F<S>>, turn_2: (F<S>, F<S>)) -> MassMatrix<F<S>> {
+        let motions = self.to.map(|to| self.wall.motion(to));
+        let one = |of: usize| lanes(self.simd, |i| motions[i].inertias_and_moment()[of]);
+        let u = Vector::new(one(2), one(3)).rotated(turn_2);
+        let m_dp = self.all(self.wall.masses.m_dp);
+        let (q, c) = (arms.r_q, arms.r_c);
+        MassMatrix {
+            m11: one(0) + q.y * q.y * m_dp,
+            m12: (q.x * u.x + q.y * u.y) + m_dp * q.y * c.y,
+            m22: one(1) + c.y * c.y * m_dp,
+        }
+    }
+
+    /// As [`MassMatrix::solve`] in the rotations that each state leaves free.
+    #[inline(always)]
+    fn solved(&self, mass: &MassMatrix<F<S>>, momenta: [F<S>; 2]) -> [F<S>; 2] {
+        let whole = mass.solve(Freedom::Monolithic, momenta);
+        let upper = mass.solve(Freedom::Upper, momenta);
+        let both = mass.solve(Freedom::Both, momenta);
+        let (ground, crack) = (self.closed(Joint::Ground), self.closed(Joint::Crack));
+        let still = self.all(0.0);
+        [
+            ground.select(still, crack.select(whole[0], both[0])),
+            ground.select(crack.select(still, upper[1]), crack.select(whole[1], both[1])),
+        ]
+    }
+
+    /// Smallest separation of the joints that touched and are open now; infinite where none is.
+    #[inline(always)]
+    fn separation(&self, collision: &Collision, [w1, w2]: [F<S>; 2]) -> F<S> {
+        let mut least = self.all(f64::INFINITY);
+        for (joint, opening) in [(Joint::Ground, w1), (Joint::Crack, w2 - w1)] {
+            if collision.touching.at(joint) {
+                let open = self.sides[joint as usize] * opening;
+                let separates = self.closed(joint).select(self.all(f64::INFINITY), open);
+                least = least.min_precise(separates);
+            }
+        }
+        least
+    }
+
+    /// Smallest corner impulse of the joints that are closed; infinite where none is.
+    #[inline(always)]
+    fn impulse(&self, through: [&JointForce<F<S>>; 2]) -> F<S> {
+        let mut least = self.all(f64::INFINITY);
+        for joint in self.wall.joints() {
+            let JointForce { normal, moment, .. } = through[joint as usize];
+            let (half, lever) = (*normal / 2.0, *moment / self.wall.width_m(joint));
+            let corners = [half + lever, half - lever];
+            let smallest = least.min_precise(corners[0]).min_precise(corners[1]);
+            least = self.closed(joint).select(smallest, least);
+        }
+        least
+    }
+}
+
+impl RockingWall {
+    /// As [`RockingWall::margin`] of four contact states of a wall on sharp edges.
+    #[inline(always)]
+    pub(super) fn margins_on_edges<S: Simd>(
+        &self,
+        simd: S,
+        to: &[Contact; LANES],
+        collision: &Collision,
+    ) -> [(f64, Pair); LANES] {
+        let candidates = Candidates::new(simd, self, to);
+        let turns = collision.rotations.0.map(|(sin, cos)| (candidates.all(sin), candidates.all(cos)));
+        let arms = TurnedArms::new(&candidates.arms(), turns);
+        let (masses, before) = (candidates.masses(), candidates.velocities(&collision.v_before));
+        let mass = candidates.mass_matrix(&arms, turns[1]);
+        let omega = candidates.solved(&mass, masses.momenta(&arms, &before));
+        let separation = candidates.separation(collision, omega) / collision.speed;
+        let jump = arms.velocities(omega).minus(before);
+        let through = masses.through_joints(&arms, &jump, candidates.all(0.0));
+        let impulse = candidates.impulse([&through.ground, &through.crack]) / collision.impulse_size;
+        let smaller = separation.min_precise(impulse);
+        let margin = separation.simd_lt(-ROUNDING).select(separation, smaller);
+        let [margin, first, second] = [margin, omega[0], omega[1]].map(<[f64; LANES]>::from);
+        std::array::from_fn(|i| (margin[i], [first[i], second[i]]))
+    }
+}

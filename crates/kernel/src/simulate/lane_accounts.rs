@@ -1,0 +1,363 @@
+//! The accounts of the steps of a row: which of them nothing happened in, what these add up to, and what follows.
+//!
+//! The same sums in the same order as in [`super::run`] and [`super::totals`], lane by lane. A step in which something
+//! may have happened is left to the run, which goes through it by itself.
+
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
+
+use super::events::NEAR_ZERO;
+use super::ground_path::LEAST_PIECE;
+use super::lane_steps::Landed;
+use super::row::{GroundRow, LimitRow, MovingRow, Row, SumRow};
+use crate::lanes::{LANES, Numbers, from_row, lanes};
+use crate::model::{Motions, Vector};
+
+type F<S> = f64x4<S>;
+type Mask<S> = mask64x4<S>;
+
+/// Keeps new numbers of some lanes.
+#[inline(always)]
+pub(super) fn keep<S: Simd>(which: Mask<S>, numbers: &mut Numbers, new: F<S>) {
+    *numbers = which.select(new, from_row(new.simd, numbers)).into();
+}
+
+#[inline(always)]
+fn keep_both<S: Simd>(which: Mask<S>, numbers: &mut [Numbers; 2], new: [F<S>; 2]) {
+    keep(which, &mut numbers[0], new[0]);
+    keep(which, &mut numbers[1], new[1]);
+}
+
+/// Bernstein coefficients of the quintics through both ends of the steps, as [`crate::solver::Quintic`] has them.
+#[inline(always)]
+pub(super) fn hermite<S: Simd>(
+    [x0, v0, a0]: [F<S>; 3],
+    [x1, v1, a1]: [F<S>; 3],
+    [h_5, hh_20]: [F<S>; 2],
+) -> [F<S>; 6] {
+    let (v0, v1) = (v0 * h_5, v1 * h_5);
+    [x0, x0 + v0, x0 + v0 * 2.0 + a0 * hh_20, x1 - v1 * 2.0 + a1 * hh_20, x1 - v1, x1]
+}
+
+#[inline(always)]
+fn bound<S: Simd>(c: &[F<S>; 6]) -> F<S> {
+    let [first, second] = [c[0].abs().max(c[1].abs()), c[2].abs().max(c[3].abs())];
+    first.max(second).max(c[4].abs().max(c[5].abs()))
+}
+
+/// Whether a gap keeps to its side for sure, as [`crate::solver::Quintic::keep_to`] says.
+#[inline(always)]
+fn keeps_to<S: Simd>(side: F<S>, c: &[F<S>; 6]) -> Mask<S> {
+    let at = [c[1] * side, c[2] * side, c[3] * side, c[4] * side, c[5] * side];
+    let least = at[0].min(at[1]).min(at[2].min(at[3])).min(at[4]) + (1.0 - side.abs());
+    least.simd_gt(0.0) & (c[0] * side).simd_ge(0.0)
+}
+
+/// Whether the paths of both bodies are surely clear of collapse and contact, and whether they may rise above the
+/// largest rotations so far.
+struct Paths<S: Simd> {
+    clear: Mask<S>,
+    rise: Mask<S>,
+}
+
+impl MovingRow {
+    /// Position, velocity and acceleration of a body.
+    #[inline(always)]
+    fn start<S: Simd>(&self, simd: S, i: usize) -> [F<S>; 3] {
+        let of = |numbers: &Numbers| from_row(simd, numbers);
+        [of(&self.position[i]), of(&self.velocity[i]), of(&self.acceleration[i])]
+    }
+}
+
+impl<S: Simd> Landed<S> {
+    #[inline(always)]
+    fn end(&self, i: usize) -> [F<S>; 3] {
+        [self.position[i], self.velocity[i], self.acceleration[i]]
+    }
+}
+
+/// By what velocities and accelerations enter the coefficients.
+#[inline(always)]
+pub(super) fn scale<S: Simd>(h: F<S>) -> [F<S>; 2] {
+    [h / 5.0, h * h / 20.0]
+}
+
+/// Value at a share of the steps, as [`crate::solver::Bernstein::value`] has it.
+#[inline(always)]
+fn value<S: Simd>(mut c: [F<S>; 6], share: F<S>) -> F<S> {
+    for width in (1..6).rev() {
+        for i in 0..width {
+            c[i] = c[i] + share * (c[i + 1] - c[i]);
+        }
+    }
+    c[0]
+}
+
+/// Where a piece of the record goes on, or the next begins.
+struct Onwards<S: Simd> {
+    offset_s: F<S>,
+    ended: Mask<S>,
+    /// Number, start and length of the next piece, s.
+    piece: F<S>,
+    start_s: F<S>,
+    length_s: F<S>,
+    /// Whether the step is followed by another in the same piece, or in one between samples.
+    goes_on: Mask<S>,
+}
+
+impl GroundRow {
+    #[inline(always)]
+    fn onwards<S: Simd>(&self, simd: S, h: F<S>) -> Onwards<S> {
+        let (length_s, offset_s) = (from_row(simd, &self.length_s), from_row(simd, &self.offset_s));
+        // The end of a piece is reached exactly, not up to a rounding.
+        let offset_s = h.simd_eq(length_s - offset_s).select(length_s, offset_s + h);
+        let ended = !offset_s.simd_lt(length_s);
+        let (piece, step_s) = (from_row(simd, &self.piece) + 1.0, from_row(simd, &self.step_s));
+        let start_s = (from_row(simd, &self.origin_s) + piece * step_s).max(F::splat(simd, 0.0));
+        let left_s = from_row(simd, &self.end_s) - start_s;
+        let between_samples = (piece + 1.0).simd_lt(from_row(simd, &self.samples));
+        let goes_on = !ended | (between_samples & left_s.simd_gt(step_s * LEAST_PIECE));
+        Onwards { offset_s, ended, piece, start_s, length_s: step_s.min(left_s), goes_on }
+    }
+
+    /// Moves on in some lanes; gives what is left of their pieces, s.
+    #[inline(always)]
+    fn move_on<S: Simd>(&mut self, done: Mask<S>, to: &Onwards<S>, samples: &[&[Vector]; LANES]) -> F<S> {
+        let simd = to.start_s.simd;
+        let ended = done & to.ended;
+        keep(done, &mut self.offset_s, to.ended.select(F::splat(simd, 0.0), to.offset_s));
+        if !ended.any_true() {
+            return from_row(simd, &self.length_s) - from_row(simd, &self.offset_s);
+        }
+        let at = self.k.map(|k| k + 1);
+        let pair = |i: usize| samples[i].get(at[i]..at[i] + 2).unwrap_or(&[Vector { x: 0.0, y: 0.0 }; 2]);
+        let pairs = [pair(0), pair(1), pair(2), pair(3)];
+        let per_step = 1.0 / from_row(simd, &self.step_s);
+        let from = [lanes(simd, |i| pairs[i][0].x), lanes(simd, |i| pairs[i][0].y)];
+        let next = [lanes(simd, |i| pairs[i][1].x), lanes(simd, |i| pairs[i][1].y)];
+        let slope = [(next[0] - from[0]) * per_step, (next[1] - from[1]) * per_step];
+        keep_both(ended, &mut self.slope, slope);
+        keep_both(ended, &mut self.from, [from[0] + slope[0] * 0.0, from[1] + slope[1] * 0.0]);
+        keep(ended, &mut self.start_s, to.start_s);
+        keep(ended, &mut self.length_s, to.length_s);
+        keep(ended, &mut self.piece, to.piece);
+        let bits = ended.to_bitmask();
+        self.k = std::array::from_fn(|i| self.k[i] + (bits >> i & 1) as usize);
+        from_row(simd, &self.length_s) - from_row(simd, &self.offset_s)
+    }
+}
+
+impl LimitRow {
+    #[inline(always)]
+    fn paths<S: Simd, const AS_ONE: bool>(
+        &self,
+        moving: &MovingRow,
+        landed: &Landed<S>,
+        h: F<S>,
+    ) -> Paths<S> {
+        let simd = h.simd;
+        let scale = scale(h);
+        let (start_1, end_1) = (moving.start(simd, 0), landed.end(0));
+        let lower = hermite(start_1, end_1, scale);
+        let stands = |i: usize, bound: F<S>| bound.simd_lt(from_row(simd, &self.collapse_rad[i]));
+        let rises = |i: usize, bound: F<S>| bound.simd_gt(from_row(simd, &self.theta_max_rad[i]));
+        let sides = [from_row(simd, &self.sides[0]), from_row(simd, &self.sides[1])];
+        // What is no number compares to nothing.
+        let sum = end_1[0] + end_1[1] + end_1[2];
+        let bound_1 = bound(&lower);
+        let clear = sum.simd_eq(sum) & stands(0, bound_1) & keeps_to(sides[0], &lower);
+        if AS_ONE {
+            return Paths { clear: clear & stands(1, bound_1), rise: rises(0, bound_1) | rises(1, bound_1) };
+        }
+        let (start_2, end_2) = (moving.start(simd, 1), landed.end(1));
+        let upper = hermite(start_2, end_2, scale);
+        let apart = |first: [F<S>; 3], second: [F<S>; 3]| {
+            [second[0] - first[0], second[1] - first[1], second[2] - first[2]]
+        };
+        let gap = hermite(apart(start_1, start_2), apart(end_1, end_2), scale);
+        let sum = end_2[0] + end_2[1] + end_2[2];
+        let bound_2 = bound(&upper);
+        let clear = clear & sum.simd_eq(sum) & stands(1, bound_2) & keeps_to(sides[1], &gap);
+        Paths { clear, rise: rises(0, bound_1) | rises(1, bound_2) }
+    }
+
+    /// Smallest corner force of the joint that is closed, over the weight, and whether it surely stays closed.
+    #[inline(always)]
+    fn corner_force<S: Simd>(&self, [_, normal, moment]: [F<S>; 3]) -> (F<S>, Mask<S>) {
+        let simd = normal.simd;
+        let (half, lever) = (normal / 2.0, moment / from_row(simd, &self.width_m));
+        let end = (half + lever).min_precise(half - lever) / from_row(simd, &self.weight_n);
+        let start = from_row(simd, &self.corner_force);
+        let size = start.abs().max(end.abs()) + (end - start).abs();
+        let stays = end.simd_ge(0.0) & start.min(end).simd_gt(size * NEAR_ZERO);
+        (end, stays | from_row(simd, &self.closed).simd_eq(0.0))
+    }
+
+    /// Whether the pivots are under tension as they were.
+    #[inline(always)]
+    fn same_tension<S: Simd>(&self, normals: [F<S>; 2]) -> Mask<S> {
+        let simd = normals[0].simd;
+        let none = F::splat(simd, 0.0);
+        let now = |normal: F<S>| normal.simd_lt(0.0).select(F::splat(simd, 1.0), none);
+        now(normals[0]).simd_eq(from_row(simd, &self.tension[0]))
+            & now(normals[1]).simd_eq(from_row(simd, &self.tension[1]))
+    }
+}
+
+impl SumRow {
+    /// As [`super::totals::Totals::forces`] of one joint.
+    #[inline(always)]
+    fn force<S: Simd>(&mut self, done: Mask<S>, i: usize, [shear, normal]: [F<S>; 2]) {
+        let friction = from_row(normal.simd, &self.friction[i]);
+        let rises = done & normal.simd_gt(0.0) & shear.abs().simd_gt(friction * normal);
+        // A division only where the demand does rise.
+        if rises.any_true() {
+            self.friction[i] = rises.select(shear.abs() / normal, friction).into();
+        }
+        let compression_n = from_row(normal.simd, &self.compression_n[i]);
+        keep(done, &mut self.compression_n[i], compression_n.max_precise(normal));
+    }
+
+    /// As [`super::totals::Totals::top`].
+    #[inline(always)]
+    fn top<S: Simd>(&mut self, done: Mask<S>, displacement_m: F<S>, time_s: F<S>) {
+        let largest_m = from_row(time_s.simd, &self.top_m);
+        let rises = done & displacement_m.abs().simd_gt(largest_m.abs());
+        keep(rises, &mut self.top_m, displacement_m);
+        keep(rises, &mut self.top_time_s, time_s);
+    }
+
+    #[inline(always)]
+    fn add<S: Simd>(done: Mask<S>, sum: &mut Numbers, more: F<S>) {
+        let new = from_row(more.simd, sum) + more;
+        keep(done, sum, new);
+    }
+
+    /// As [`super::totals::Totals::energy`].
+    #[inline(always)]
+    fn energy<S: Simd>(&mut self, done: Mask<S>, [work_j, loss_j]: [F<S>; 2]) {
+        Self::add(done, &mut self.ground_work_j, work_j);
+        Self::add(done, &mut self.effect_loss_j, loss_j);
+        Self::add(done, &mut self.passed_through_j, work_j.abs() + loss_j.abs());
+    }
+}
+
+impl Row {
+    /// Keeps the steps in which nothing happened, and requests those that follow. Gives the lanes of which it did.
+    #[inline(always)]
+    pub fn settle<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+        &mut self,
+        motions: &Motions<S, AS_ONE, FURTHER>,
+        landed: &Landed<S>,
+        samples: &[&[Vector]; LANES],
+    ) -> Mask<S> {
+        let simd = landed.position[0].simd;
+        let h = from_row(simd, &self.moving.h);
+        let error = self.errors.of(landed.position_error, landed.velocity_error, h);
+        let to = self.ground.onwards(simd, h);
+        let paths = self.limits.paths::<S, AS_ONE>(&self.moving, landed, h);
+        let kept = error.simd_le(1.0) & paths.clear & to.goes_on & self.far_from_kinks(landed, h);
+        let done = kept & self.stay_closed::<S, AS_ONE>(kept, landed);
+        if self.watched {
+            self.remember();
+        }
+        let rises = done & paths.rise;
+        if rises.any_true() {
+            self.landed.store_motion(landed);
+            self.raise_rotations(rises.to_bitmask());
+        }
+        self.account(done, landed, h);
+        self.turn_top(done, motions, landed, h);
+        self.moving_on(done, landed);
+        self.errors.propose(done, error, h);
+        let left_s = self.ground.move_on(done, &to, samples);
+        let next = self.errors.next_s(left_s);
+        keep(done, &mut self.moving.h, next);
+        let shorter = next.simd_lt(left_s).select(F::splat(simd, 1.0), F::splat(simd, 0.0));
+        SumRow::add(done, &mut self.sums.tolerance_steps, shorter);
+        done
+    }
+
+    #[inline(always)]
+    fn far_from_kinks<S: Simd>(&self, landed: &Landed<S>, h: F<S>) -> Mask<S> {
+        let advances = from_row(h.simd, &self.limits.advances).simd_eq(1.0);
+        if !self.kinks.any {
+            return advances;
+        }
+        let before_m_s = from_row(h.simd, &self.limits.top_velocity_m_s);
+        advances & self.kinks.far(&self.moving, before_m_s, landed, h)
+    }
+
+    /// Whether closed joints surely stay closed, and the pivots are under tension as they were; the smallest corner
+    /// forces of the lanes of which both hold are kept.
+    #[inline(always)]
+    fn stay_closed<S: Simd, const AS_ONE: bool>(&mut self, kept: Mask<S>, landed: &Landed<S>) -> Mask<S> {
+        // Walls that turn as one have a closed crack, or none. Others have the ground closed, or nothing.
+        let closed = if AS_ONE { landed.reactions.crack } else { landed.reactions.ground };
+        let (corner_force, stays) = self.limits.corner_force(closed);
+        let stays = stays & self.limits.same_tension(self.normals(landed));
+        keep(kept & stays, &mut self.limits.corner_force, corner_force);
+        stays
+    }
+
+    /// Normal forces through the ground and the crack, 0 where there is none.
+    #[inline(always)]
+    fn normals<S: Simd>(&self, landed: &Landed<S>) -> [F<S>; 2] {
+        let normal = landed.reactions.crack[1];
+        let cracked = from_row(normal.simd, &self.limits.cracked).simd_eq(1.0);
+        [landed.reactions.ground[1], cracked.select(normal, F::splat(normal.simd, 0.0))]
+    }
+
+    /// Adds the steps of some lanes up.
+    #[inline(always)]
+    fn account<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>, h: F<S>) {
+        let normals = self.normals(landed);
+        let (simd, sums, ground) = (h.simd, &mut self.sums, &self.ground);
+        let start_s = from_row(simd, &ground.start_s) + from_row(simd, &ground.offset_s);
+        SumRow::add(done, &mut sums.steps, F::splat(simd, 1.0));
+        SumRow::add(done, &mut sums.pattern_time_s, h);
+        sums.top(done, landed.reactions.top[0], start_s + h);
+        sums.force(done, 0, [landed.reactions.ground[0], normals[0]]);
+        sums.force(done, 1, [landed.reactions.crack[0], normals[1]]);
+        sums.energy(done, landed.quadrature);
+    }
+
+    /// Raises the largest displacement of tops that turn back inside the step, as [`super::run`] does.
+    #[inline(always)]
+    fn turn_top<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+        &mut self,
+        done: Mask<S>,
+        motions: &Motions<S, AS_ONE, FURTHER>,
+        landed: &Landed<S>,
+        h: F<S>,
+    ) {
+        let (simd, now) = (h.simd, landed.reactions.top[1]);
+        let before = from_row(simd, &self.limits.top_velocity_m_s);
+        let turns = done & (before * now).simd_lt(0.0);
+        if !turns.any_true() {
+            return;
+        }
+        let share = turns.select(before / (before - now), F::splat(simd, 0.0));
+        let scale = scale(h);
+        let lower = value(hermite(self.moving.start(simd, 0), landed.end(0), scale), share);
+        let upper = match AS_ONE {
+            true => lower,
+            false => value(hermite(self.moving.start(simd, 1), landed.end(1), scale), share),
+        };
+        let x_c = motions.top_displacement_m(&motions.configuration([lower, upper]));
+        let start_s = from_row(simd, &self.ground.start_s) + from_row(simd, &self.ground.offset_s);
+        self.sums.top(turns, x_c, start_s + share * h);
+    }
+
+    /// Makes the ends of the steps of some lanes the present.
+    #[inline(always)]
+    fn moving_on<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>) {
+        keep_both(done, &mut self.moving.position, landed.position);
+        keep_both(done, &mut self.moving.velocity, landed.velocity);
+        keep_both(done, &mut self.moving.acceleration, landed.acceleration);
+        keep_both(done, &mut self.moving.powers_w, landed.powers_w);
+        keep(done, &mut self.limits.top_velocity_m_s, landed.reactions.top[1]);
+        if self.kinks.any {
+            self.kinks.move_on(done, landed);
+        }
+    }
+}

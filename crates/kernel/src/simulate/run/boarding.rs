@@ -1,0 +1,159 @@
+//! A run boards a lane of a row, and alights from it.
+
+use super::super::history::Observer;
+use super::super::row::{Row, put};
+use super::{Run, Stop, Task};
+use crate::model::{Contact, Joint, Kink, Regime};
+use crate::solver::{Point, STAGES};
+
+impl<O: Observer> Run<O> {
+    /// What its motion depends on beside the wall: the contact state, and the branch of the laws at the top.
+    pub fn laws(&self) -> (Contact, Regime) {
+        (self.contact, self.wall.regime())
+    }
+
+    /// Whether anybody watches it.
+    pub fn is_watched(&self) -> bool {
+        self.observer.watches()
+    }
+
+    /// The samples of its record.
+    #[inline]
+    pub fn samples(&self) -> &[crate::model::Vector] {
+        self.ground.samples()
+    }
+
+    /// Whether steps without an event are the same for it as for any other run.
+    fn is_plain(&self) -> bool {
+        !self.wall.formulas().have_switches() && !self.wall.wall().gives() && !self.wall.is_held()
+    }
+
+    /// Puts all that the next step needs in a lane.
+    pub fn board(&self, row: &mut Row, i: usize) {
+        row.motions.put(i, self.wall.motion(self.contact));
+        row.errors.put(i, &self.controller);
+        self.board_ground(row, i);
+        self.board_limits(row, i);
+        self.board_kinks(row, i);
+        self.board_again(row, i);
+    }
+
+    fn board_kinks(&self, row: &mut Row, i: usize) {
+        let kinks = &mut row.kinks;
+        let [mut least_m, mut most_m] = [-f64::MAX, f64::MAX];
+        let mut stops = [0.0; 2];
+        if let Some(laws) = self.wall.piecewise_laws() {
+            kinks.any = true;
+            let regime = self.wall.regime();
+            for kink in laws.kinks(&regime) {
+                match kink {
+                    Kink::Passes { limit_m, sign, .. } if sign > 0.0 => most_m = most_m.min(limit_m),
+                    Kink::Passes { limit_m, .. } => least_m = least_m.max(limit_m),
+                    Kink::Stops { .. } | Kink::Turns { .. } => {}
+                }
+            }
+            stops = [regime.yields.sign(), regime.slides.sign()];
+        }
+        (kinks.least_m[i], kinks.most_m[i]) = (least_m, most_m);
+        put(&mut kinks.stops, i, stops);
+        let parameters = self.wall.wall().parameters();
+        (kinks.thickness_m[i], kinks.height_m[i]) = (parameters.thickness_m, parameters.height_m);
+    }
+
+    fn board_ground(&self, row: &mut Row, i: usize) {
+        row.ground.samples[i] = self.ground.samples().len() as f64;
+        row.ground.step_s[i] = self.ground.step_s();
+        row.ground.origin_s[i] = self.ground.origin_s();
+        row.ground.end_s[i] = self.ground.end_s();
+    }
+
+    fn board_limits(&self, row: &mut Row, i: usize) {
+        let limits = &mut row.limits;
+        let Contact { ground, crack } = self.contact;
+        put(&mut limits.sides, i, [ground.sign(), crack.sign()]);
+        put(&mut limits.collapse_rad, i, self.collapse_rad);
+        let closed = self.wall.joints().find(|joint| self.contact.at(*joint).is_closed());
+        limits.closed[i] = f64::from(u8::from(closed.is_some()));
+        limits.width_m[i] = self.wall.width_m(closed.unwrap_or(Joint::Ground));
+        limits.weight_n[i] = self.wall.weight_n();
+        limits.cracked[i] = f64::from(u8::from(self.wall.wall().is_cracked()));
+    }
+
+    /// The same of a run that comes back with the laws with which it alighted.
+    pub fn board_again(&self, row: &mut Row, i: usize) {
+        let Some(piece) = &self.piece else { unreachable!("a step is asked for within a piece") };
+        row.moving.put(i, &self.now, self.quadrature_rate, self.requested_s());
+        row.ground.put(i, piece, self.k, self.offset_s);
+        row.errors.put(i, &self.controller);
+        let advances = matches!(self.task, Task::Advance { .. }) && self.is_plain();
+        let (limits, totals) = (&mut row.limits, &self.totals);
+        limits.advances[i] = f64::from(u8::from(advances));
+        limits.put_rotations(i, &totals.theta_max);
+        put(&mut limits.tension, i, totals.in_tension.map(|tension| f64::from(u8::from(tension))));
+        limits.corner_force[i] = self.corner_force.unwrap_or_default();
+        limits.top_velocity_m_s[i] = self.top_velocity_m_s;
+        if self.wall.piecewise_laws().is_some() {
+            let Point { position, velocity, acceleration } = self.now;
+            let [top_m, _, top_m_s2] = self.wall.top(self.contact, position, velocity, acceleration);
+            (row.kinks.top_m[i], row.kinks.top_m_s2[i]) = (top_m, top_m_s2);
+        }
+        let sums = &mut row.sums;
+        sums.theta_max[i] = totals.theta_max;
+        sums.top_m[i] = totals.top_max.value;
+        sums.top_time_s[i] = totals.top_max.time_s;
+        sums.pattern_time_s[i] = totals.pattern_time_s[self.contact.index()];
+        put(&mut sums.friction, i, totals.demand.map(|demand| demand.friction));
+        put(&mut sums.compression_n, i, totals.demand.map(|demand| demand.compression_n));
+        sums.ground_work_j[i] = totals.energy.ground_work_j;
+        sums.effect_loss_j[i] = totals.energy.effect_loss_j;
+        sums.passed_through_j[i] = totals.energy.passed_through_j;
+        (sums.steps[i], sums.tolerance_steps[i]) = (0.0, 0.0);
+    }
+
+    /// Shows whoever watches the step that was kept in a lane. False where they have seen enough; the run has alighted
+    /// then.
+    pub fn is_watched_on(&mut self, row: &Row, i: usize) -> bool {
+        let (start_s, motion) = row.moved(i);
+        self.observer.moved(start_s, self.contact, &motion);
+        let new_piece = row.ground.offset_s[i] == 0.0;
+        if !new_piece || !self.observer.seen_enough() {
+            return true;
+        }
+        self.alight(row, i);
+        // The step that would have followed is not taken.
+        let would_be_short = row.moving.h[i] < row.ground.length_s[i];
+        self.totals.work.tolerance_steps -= u64::from(would_be_short);
+        self.stopped = Some(Stop::SeenEnough);
+        false
+    }
+
+    /// Takes over what became of it in a lane.
+    pub fn alight(&mut self, row: &Row, i: usize) {
+        row.errors.tell(i, &mut self.controller);
+        let steps = row.sums.steps[i] as u64;
+        if steps == 0 {
+            return;
+        }
+        (self.now, self.quadrature_rate) = row.moving.at(i);
+        (self.piece, self.k, self.offset_s) =
+            (Some(row.ground.at(i)), row.ground.k[i], row.ground.offset_s[i]);
+        self.corner_force = self.corner_force.map(|_| row.limits.corner_force[i]);
+        self.top_velocity_m_s = row.limits.top_velocity_m_s[i];
+        self.stalled = 0;
+        let (sums, totals) = (&row.sums, &mut self.totals);
+        totals.theta_max = sums.theta_max[i];
+        totals.top_max.value = sums.top_m[i];
+        totals.top_max.time_s = sums.top_time_s[i];
+        totals.pattern_time_s[self.contact.index()] = sums.pattern_time_s[i];
+        for (j, demand) in totals.demand.iter_mut().enumerate() {
+            demand.friction = sums.friction[j][i];
+            demand.compression_n = sums.compression_n[j][i];
+        }
+        totals.energy.ground_work_j = sums.ground_work_j[i];
+        totals.energy.effect_loss_j = sums.effect_loss_j[i];
+        totals.energy.passed_through_j = sums.passed_through_j[i];
+        totals.work.steps += steps;
+        totals.work.evaluations += STAGES * steps;
+        totals.work.tolerance_steps += sums.tolerance_steps[i] as u64;
+    }
+}
