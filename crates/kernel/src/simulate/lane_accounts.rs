@@ -131,7 +131,7 @@ impl GroundRow {
         let at = self.k.map(|k| k + 1);
         let pair = |i: usize| samples[i].get(at[i]..at[i] + 2).unwrap_or(&[Vector { x: 0.0, y: 0.0 }; 2]);
         let pairs = [pair(0), pair(1), pair(2), pair(3)];
-        let per_step = 1.0 / from_row(simd, &self.step_s);
+        let per_step = from_row(simd, &self.samples_per_s);
         let from = [lanes(simd, |i| pairs[i][0].x), lanes(simd, |i| pairs[i][0].y)];
         let next = [lanes(simd, |i| pairs[i][1].x), lanes(simd, |i| pairs[i][1].y)];
         let slope = [(next[0] - from[0]) * per_step, (next[1] - from[1]) * per_step];
@@ -270,11 +270,18 @@ impl Row {
         self.moving_on(done, landed);
         self.errors.propose(done, error, h);
         let left_s = self.ground.move_on(done, &to, samples);
+        self.request(done, left_s);
+        done
+    }
+
+    /// Requests the next steps of some lanes, with so much left of their pieces in s.
+    #[inline(always)]
+    fn request<S: Simd>(&mut self, done: Mask<S>, left_s: F<S>) {
+        let simd = left_s.simd;
         let next = self.errors.next_s(left_s);
         keep(done, &mut self.moving.h, next);
         let shorter = next.simd_lt(left_s).select(F::splat(simd, 1.0), F::splat(simd, 0.0));
         SumRow::add(done, &mut self.sums.tolerance_steps, shorter);
-        done
     }
 
     #[inline(always)]

@@ -56,6 +56,7 @@ pub(super) struct GroundRow {
     pub piece: Numbers,
     pub samples: Numbers,
     pub step_s: Numbers,
+    pub samples_per_s: Numbers,
     pub origin_s: Numbers,
     pub end_s: Numbers,
 }

@@ -146,8 +146,11 @@ impl ErrorRow {
     pub fn propose<S: Simd>(&mut self, accepted: mask64x4<S>, error: f64x4<S>, h: f64x4<S>) {
         let proposed_s = from_row(h.simd, &self.proposed_s);
         let whole = h.simd_ge(proposed_s * 0.99);
-        let ratio = h * SAFETY / proposed_s;
-        let longer = proposed_s.simd_lt(h * MOST_FACTOR) & error.simd_lt(to_estimate_order(ratio));
+        let below_most = proposed_s.simd_lt(h * MOST_FACTOR);
+        if !(accepted & (whole | below_most)).any_true() {
+            return;
+        }
+        let longer = below_most & error.simd_lt(to_estimate_order(h * SAFETY / proposed_s));
         let changes = accepted & (whole | longer);
         if changes.any_true() {
             self.propose_longer(changes.to_bitmask(), error.into(), h.into());
@@ -165,7 +168,11 @@ impl ErrorRow {
     #[inline(always)]
     pub fn next_s<S: Simd>(&self, remaining_s: f64x4<S>) -> f64x4<S> {
         let proposed_s = from_row(remaining_s.simd, &self.proposed_s);
+        let fits = remaining_s.simd_le(proposed_s);
+        if fits.all_true() {
+            return remaining_s;
+        }
         let parts = (remaining_s / proposed_s).ceil();
-        remaining_s.simd_le(proposed_s).select(remaining_s, remaining_s / parts)
+        fits.select(remaining_s, remaining_s / parts)
     }
 }

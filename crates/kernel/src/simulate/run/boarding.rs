@@ -63,6 +63,7 @@ impl<O: Observer> Run<O> {
     fn board_ground(&self, row: &mut Row, i: usize) {
         row.ground.samples[i] = self.ground.samples().len() as f64;
         row.ground.step_s[i] = self.ground.step_s();
+        row.ground.samples_per_s[i] = 1.0 / self.ground.step_s();
         row.ground.origin_s[i] = self.ground.origin_s();
         row.ground.end_s[i] = self.ground.end_s();
     }
