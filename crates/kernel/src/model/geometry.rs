@@ -28,16 +28,25 @@ pub(crate) struct Arms<N = f64> {
 impl Arms {
     /// Arms of the reference positions of model section 1 about the pivots of `contact`.
     pub fn new(wall: &Wall, contact: Contact) -> Self {
-        let p = wall.parameters();
+        let crack = if wall.is_cracked() { contact.crack.sign() } else { 0.0 };
+        Self::about(wall, [contact.ground.sign(), crack])
+    }
+}
+
+impl<N: Number> Arms<N> {
+    /// About the corners on these sides of the ground and the crack, ±1, or 0 where a joint is closed.
+    #[inline(always)]
+    pub fn about(wall: &Wall, [ground, crack]: [N; 2]) -> Self {
         let [h1, h2] = wall.height_m;
-        let o_x = contact.ground.sign() * wall.width_m[0] / 2.0;
-        let q_x = if wall.is_cracked() { contact.crack.sign() * wall.width_m[1] / 2.0 } else { 0.0 };
+        let all = |value: f64| ground.constant(value);
+        let o_x = ground * all(wall.width_m[0]) / all(2.0);
+        let q_x = crack * all(wall.width_m[1]) / all(2.0);
         Self {
             o_x,
-            g1: Vector::new(-o_x, h1 / 2.0),
-            q: Vector::new(q_x - o_x, h1),
-            g2: Vector::new(-q_x, h2 / 2.0),
-            c: Vector::new(p.eccentricity_m - q_x, h2),
+            g1: Vector::new(-o_x, all(h1 / 2.0)),
+            q: Vector::new(q_x - o_x, all(h1)),
+            g2: Vector::new(-q_x, all(h2 / 2.0)),
+            c: Vector::new(all(wall.parameters().eccentricity_m) - q_x, all(h2)),
             q_x,
         }
     }

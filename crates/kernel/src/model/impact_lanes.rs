@@ -19,16 +19,15 @@ type F<S> = f64x4<S>;
 struct Candidates<'a, S: Simd> {
     simd: S,
     wall: &'a RockingWall,
-    to: &'a [Contact; LANES],
     /// Sides on which the joint at the ground and that at the crack are open.
     sides: [F<S>; 2],
 }
 
 impl<'a, S: Simd> Candidates<'a, S> {
     #[inline(always)]
-    fn new(simd: S, wall: &'a RockingWall, to: &'a [Contact; LANES]) -> Self {
+    fn new(simd: S, wall: &'a RockingWall, to: &[Contact; LANES]) -> Self {
         let sides = [lanes(simd, |i| to[i].ground.sign()), lanes(simd, |i| to[i].crack.sign())];
-        Self { simd, wall, to, sides }
+        Self { simd, wall, sides }
     }
 
     #[inline(always)]
@@ -45,20 +44,6 @@ impl<'a, S: Simd> Candidates<'a, S> {
     #[inline(always)]
     fn closed(&self, joint: Joint) -> mask64x4<S> {
         self.sides[joint as usize].simd_eq(0.0)
-    }
-
-    #[inline(always)]
-    fn arms(&self) -> Arms<F<S>> {
-        let arms = self.to.map(|to| &self.wall.arms[to.index()]);
-        let one = |of: fn(&Arms) -> f64| lanes(self.simd, |i| of(arms[i]));
-        Arms {
-            o_x: one(|arms| arms.o_x),
-            g1: Vector::new(one(|arms| arms.g1.x), one(|arms| arms.g1.y)),
-            q: Vector::new(one(|arms| arms.q.x), one(|arms| arms.q.y)),
-            g2: Vector::new(one(|arms| arms.g2.x), one(|arms| arms.g2.y)),
-            c: Vector::new(one(|arms| arms.c.x), one(|arms| arms.c.y)),
-            q_x: one(|arms| arms.q_x),
-        }
     }
 
     #[inline(always)]
@@ -82,18 +67,22 @@ impl<'a, S: Simd> Candidates<'a, S> {
         }
     }
 
-    /// As [`super::motion::Motion::mass_matrix`], by the arms and the static moment U.
+    /// As [`super::motion::Motion::mass_matrix`].
     #[inline(always)]
-    fn mass_matrix(&self, arms: &TurnedArms<F<S>>, turn_2: (F<S>, F<S>)) -> MassMatrix<F<S>> {
-        let motions = self.to.map(|to| self.wall.motion(to));
-        let one = |of: usize| lanes(self.simd, |i| motions[i].inertias_and_moment()[of]);
-        let u = Vector::new(one(2), one(3)).rotated(turn_2);
-        let m_dp = self.all(self.wall.masses.m_dp);
-        let (q, c) = (arms.r_q, arms.r_c);
+    fn mass_matrix(
+        &self,
+        masses: &Masses<F<S>>,
+        arms: &Arms<F<S>>,
+        turned: &TurnedArms<F<S>>,
+        turn_2: (F<S>, F<S>),
+    ) -> MassMatrix<F<S>> {
+        let (_, inertias, u) = masses.about_pivots(arms);
+        let (u, m_dp) = (u.rotated(turn_2), masses.m_dp);
+        let (q, c) = (turned.r_q, turned.r_c);
         MassMatrix {
-            m11: one(0) + q.y * q.y * m_dp,
+            m11: inertias[0] + q.y * q.y * m_dp,
             m12: (q.x * u.x + q.y * u.y) + m_dp * q.y * c.y,
-            m22: one(1) + c.y * c.y * m_dp,
+            m22: inertias[1] + c.y * c.y * m_dp,
         }
     }
 
@@ -151,9 +140,10 @@ impl RockingWall {
     ) -> [(f64, Pair); LANES] {
         let candidates = Candidates::new(simd, self, to);
         let turns = collision.rotations.0.map(|(sin, cos)| (candidates.all(sin), candidates.all(cos)));
-        let arms = TurnedArms::new(&candidates.arms(), turns);
+        let still = Arms::about(self.wall(), candidates.sides);
+        let arms = TurnedArms::new(&still, turns);
         let (masses, before) = (candidates.masses(), candidates.velocities(&collision.v_before));
-        let mass = candidates.mass_matrix(&arms, turns[1]);
+        let mass = candidates.mass_matrix(&masses, &still, &arms, turns[1]);
         let omega = candidates.solved(&mass, masses.momenta(&arms, &before));
         let separation = candidates.separation(collision, omega) / collision.speed;
         let jump = arms.velocities(omega).minus(before);

@@ -6,7 +6,7 @@
 use wide::f64x2;
 
 use super::contact::Joint;
-use super::geometry::{Pair, PointVelocities, TurnedArms};
+use super::geometry::{Arms, Pair, PointVelocities, TurnedArms};
 use super::motion::{Configuration, Equations, Motion, MotionRate, RatePair};
 use super::number::Number;
 use super::vector::Vector;
@@ -87,6 +87,17 @@ impl Masses {
 }
 
 impl<N: Number> Masses<N> {
+    /// I_1O and I_2Q, the moments of inertia of everything but the carriage about the pivots, kg m², and U at zero
+    /// rotation, kg m. I_1O is that of the lower body about O, which is given too, and of what it carries.
+    #[inline(always)]
+    pub fn about_pivots(&self, arms: &Arms<N>) -> (N, [N; 2], Vector<N>) {
+        let Self { m: [m1, m2], i: [i1, i2], m_d, .. } = *self;
+        let lower = i1 + m1 * arms.g1.dot(arms.g1);
+        let first = lower + (m2 + m_d) * arms.q.dot(arms.q);
+        let second = i2 + m2 * arms.g2.dot(arms.g2) + m_d * arms.c.dot(arms.c);
+        (lower, [first, second], arms.g2 * m2 + arms.c * m_d)
+    }
+
     /// Forces through the joints at these accelerations of the mass points, gravity's in them, m/s², beside a
     /// horizontal force at the top, N. Or impulses by jumps of their velocities.
     #[inline(always)]

@@ -18,6 +18,7 @@ use super::bed::{Acting, BeddedMotion, BeddedRate};
 use super::contact::Contact;
 use super::formula::FormulaLaws;
 use super::geometry::{Arms, Pair, Rotations};
+use super::joint_forces::Masses;
 use super::laws::Laws;
 use super::mass_matrix::{Freedom, MassMatrix};
 use super::vector::{Vector, sin_cos, sin_cos_pair};
@@ -142,11 +143,9 @@ impl Motion {
         let [m1, m2] = wall.mass_kg;
         let m_d = wall.parameters().diaphragm_mass_kg;
         let upper_mass = m2 + m_d;
-        let lower_inertia = wall.inertia_kg_m2[0] + m1 * arms.g1.dot(arms.g1);
-        let inertia_1 = lower_inertia + upper_mass * arms.q.dot(arms.q);
-        let inertia_2 = wall.inertia_kg_m2[1] + m2 * arms.g2.dot(arms.g2) + m_d * arms.c.dot(arms.c);
+        let masses = Masses::new(wall, laws.carriage_mass_kg);
+        let (lower_inertia, [inertia_1, inertia_2], u) = masses.about_pivots(&arms);
         let v = arms.g1 * m1 + arms.q * upper_mass;
-        let u = arms.g2 * m2 + arms.c * m_d;
         let bedded = wall.gives().then(|| Box::new(BeddedMotion::new(wall, contact, laws.carriage_mass_kg)));
         Self {
             freedom: bedded.as_ref().map_or(Freedom::of(contact), |bedded| bedded.freedom()),
@@ -172,13 +171,6 @@ impl Motion {
             bedded,
             level: Level::new(),
         }
-    }
-
-    /// I_1O and I_2Q, kg m², and U at zero rotation, kg m.
-    #[inline(always)]
-    pub(super) fn inertias_and_moment(&self) -> [f64; 4] {
-        let [i_1, i_2] = self.inertias.to_array();
-        [i_1, i_2, self.u.x, self.u.y]
     }
 
     /// The laws beyond weight and inertia.
