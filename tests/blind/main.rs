@@ -13,6 +13,7 @@ mod cases;
 mod compliant;
 mod diagnose;
 mod score;
+mod twins;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -52,6 +53,9 @@ struct Options {
     /// Make the cases and stop.
     #[arg(long)]
     make_only: bool,
+    /// Calibrate twins, and score their intervals, instead of diagnosing cases.
+    #[arg(long)]
+    calibrations: bool,
     /// Score what has been diagnosed and stop.
     #[arg(long, conflicts_with = "make_only")]
     score_only: bool,
@@ -59,7 +63,8 @@ struct Options {
 
 fn main() -> ExitCode {
     let options = Options::parse();
-    match go(&options) {
+    let done = if options.calibrations { twins::go(&options) } else { go(&options) };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("blind: {message}");
