@@ -9,6 +9,7 @@
 //! Half of the cases come from the library's own simulator, half from one of another formulation ([`compliant`]), so that
 //! a diagnosis is not judged by inverting its own model alone. Tune on the set `tune`; freeze; report on `report`.
 
+mod calibrate;
 mod cases;
 mod compliant;
 mod diagnose;
@@ -63,7 +64,7 @@ struct Options {
 
 fn main() -> ExitCode {
     let options = Options::parse();
-    let done = if options.calibrations { twins::go(&options) } else { go(&options) };
+    let done = if options.calibrations { calibrate::go(&options) } else { go(&options) };
     match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {

@@ -102,7 +102,11 @@ fn analytic_the_first_example_of_a_new_user_has_intervals_that_hold_the_truth() 
     assert!(told.len() >= 4, "{table}");
     for (name, [low, high]) in told {
         let l = name.strip_prefix("C_").and_then(|l| l.parse::<usize>().ok()).expect("a coefficient");
-        assert!(low <= TRUE[l - 1] && TRUE[l - 1] <= high, "{name}: {low} to {high}, and it is {}", TRUE[l - 1]);
+        assert!(
+            low <= TRUE[l - 1] && TRUE[l - 1] <= high,
+            "{name}: {low} to {high}, and it is {}",
+            TRUE[l - 1]
+        );
         assert!(high - low < 0.05, "{name}: {low} to {high}");
     }
 }
@@ -122,7 +126,10 @@ fn regress_where_the_model_is_not_the_wall_nothing_is_identified() {
     assert!(identified(&out).is_empty(), "{csv}");
     for text in [table, csv] {
         let said = text.lines().filter(|line| line.contains("identified"));
-        assert!(said.clone().count() >= 4 && said.clone().all(|line| line.contains("not identified")), "{text}");
+        assert!(
+            said.clone().count() >= 4 && said.clone().all(|line| line.contains("not identified")),
+            "{text}"
+        );
     }
 }
 

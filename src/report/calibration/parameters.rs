@@ -11,10 +11,13 @@ pub fn section(stored: &Calibration) -> Section {
     Section {
         id: "parameters".into(),
         title: "What the tests tell".into(),
-        text: vec![format!(
-            "The vector for all tests is that of the search “{}”. An interval as wide as its bounds says that the tests do not tell the value.",
-            stored.joint_from
-        ), likelihood(stored.likelihood.as_ref())],
+        text: vec![
+            format!(
+                "The vector for all tests is that of the search “{}”. An interval as wide as its bounds says that the tests do not tell the value.",
+                stored.joint_from
+            ),
+            likelihood(stored.likelihood.as_ref()),
+        ],
         figures,
         tables: vec![table(stored)],
         ..Section::default()

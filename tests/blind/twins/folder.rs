@@ -27,7 +27,7 @@ fn put(folder: &Path, name: &str, text: &str) -> Result<(), String> {
     std::fs::write(folder.join(name), text).map_err(|e| format!("{}: {e}", folder.join(name).display()))
 }
 
-/// The example of `mrbd init` as it is; every second with the program's own budgets.
+/// The example of `mrbd init` as it is, or with the program's own budgets.
 fn example(twin: &Twin, to: &Path) -> Result<serde_json::Value, String> {
     mrbd::starter::write_starter(to, None).map_err(|e| e.to_string())?;
     let path = to.join("experiment.toml");
@@ -45,12 +45,7 @@ fn truth(coefficients: &[f64; 8], stiffness_n_per_m: Option<f64>) -> serde_json:
     all.into()
 }
 
-fn drawn(
-    twin: &Twin,
-    case: &Case,
-    motions: &[Vec<f64>],
-    to: &Path,
-) -> Result<serde_json::Value, String> {
+fn drawn(twin: &Twin, case: &Case, motions: &[Vec<f64>], to: &Path) -> Result<serde_json::Value, String> {
     let tests = tests(case, &lengthened(motions, twin.length_s, STEP_S), to)?;
     let k_d = case.actual.stiffness_n_per_m;
     let told = twin.stiffness_over_true.unwrap_or(1.0);

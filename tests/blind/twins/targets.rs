@@ -31,7 +31,8 @@ pub fn table(rows: &[Row]) -> String {
     add("– every interval that is given", "", holds(&numbers).told());
     let coefficients = identified(&all).into_iter().filter(|n| n.name.starts_with("C_"));
     let errors = coefficients.map(|n| n.error()).collect::<Vec<_>>();
-    let percent = |share: Option<f64>| share.map_or("–".to_owned(), |share| format!("{:.2} %", 100.0 * share));
+    let percent =
+        |share: Option<f64>| share.map_or("–".to_owned(), |share| format!("{:.2} %", 100.0 * share));
     let count = errors.len();
     let middle = percent(median(errors.iter().copied()));
     add("error of an identified coefficient, median", "≤ 1 %", format!("{middle}, {count} of them"));

@@ -101,7 +101,10 @@ impl Judge<'_> {
     }
 
     /// What is told where the tests are followed to their noise: intervals by likelihood.
-    pub fn by_likelihood((estimates, _): (Vec<Estimate>, Matrix), fit: &ByLikelihood) -> (Vec<Estimate>, Matrix) {
+    pub fn by_likelihood(
+        (estimates, _): (Vec<Estimate>, Matrix),
+        fit: &ByLikelihood,
+    ) -> (Vec<Estimate>, Matrix) {
         let of = |(v, estimate): (usize, Estimate)| estimate.with_interval(fit.interval_95[v], TELLS_LITTLE);
         let estimates = estimates.into_iter().enumerate().map(of).collect::<Vec<_>>();
         let told = |v: usize| estimates[v].interval_95.is_some();

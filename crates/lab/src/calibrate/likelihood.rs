@@ -28,7 +28,7 @@ const FINISHED: usize = 2;
 /// Vectors drawn about what was found from which it is fitted again, so many times at most, and their distance in
 /// standard deviations.
 const DRAWN: u32 = 3;
-const ROUNDS: u32 = 2;
+const ROUNDS: u32 = 1;
 const DRAWN_SD: f64 = 3.0;
 /// A gain in cost, in squared noise, that is worth another round.
 const WORTH_A_ROUND: f64 = 2.0;
@@ -139,10 +139,8 @@ fn whole_tests(tests: &[TestData]) -> Option<Vec<Window>> {
     tests.iter().enumerate().map(whole).collect()
 }
 
-/// A fit with the windows it was made in.
+/// A fit, and how far its values may be off.
 struct Fitted {
-    windows: Vec<Window>,
-    tried: FittedHypothesis,
     variances: Vec<f64>,
     found: ByLikelihood,
 }
@@ -151,21 +149,27 @@ impl Fitted {
     /// Whether values agree with those of another fit, within what that allows.
     fn is_near(&self, other: &Self) -> bool {
         let pairs = self.found.values.iter().zip(&other.found.values).zip(&other.variances);
-        pairs.into_iter().all(|((own, theirs), variance)| (own - theirs).abs() <= CONSISTENT_SD * variance.sqrt())
+        pairs
+            .into_iter()
+            .all(|((own, theirs), variance)| (own - theirs).abs() <= CONSISTENT_SD * variance.sqrt())
     }
 }
 
 impl Likelihood<'_> {
     /// A fit in windows, and again with joints open by less than the noise where that follows windows better.
     fn opened(&self, windows: Vec<Window>, starts: &[Vec<f64>]) -> Option<Fitted> {
-        let first = self.fitted(windows, starts)?;
+        let first = self.tried(self.best_of(&self.problem(&windows), starts)?);
         let none: [Window; 0] = [];
-        let data = Data { fit: self.problem(&first.windows), held_out: self.problem(&none) };
-        let Some(([opened, _], count)) = opened_under(&data, &first.tried) else { return Some(first) };
-        if count == 0 {
-            return Some(first);
+        let data = Data { fit: self.problem(&windows), held_out: self.problem(&none) };
+        match opened_under(&data, &first) {
+            Some(([opened, _], count)) if count > 0 => self.fitted(opened, &[first.fit.values]),
+            _ => self.judged(windows, first.fit),
         }
-        self.fitted(opened, std::slice::from_ref(&first.found.values)).or(Some(first))
+    }
+
+    fn tried(&self, fit: Fit) -> FittedHypothesis {
+        let held_out = Fit { windows: Vec::new(), covariance: None, ..fit.clone() };
+        FittedHypothesis { hypothesis: self.hypothesis.clone(), fit, held_out }
     }
 
     fn problem<'w>(&'w self, windows: &'w [Window]) -> Problem<'w> {
@@ -174,9 +178,14 @@ impl Likelihood<'_> {
 
     /// The best fit in windows from vectors; `None` if none of them makes a wall.
     fn fitted(&self, windows: Vec<Window>, starts: &[Vec<f64>]) -> Option<Fitted> {
-        let whole = windows.iter().all(|window| window.measured.is_empty());
+        let best = self.best_of(&self.problem(&windows), starts)?;
+        self.judged(windows, best)
+    }
+
+    /// A fit again from about itself, as often as that gains, and what it says.
+    fn judged(&self, windows: Vec<Window>, fit: Fit) -> Option<Fitted> {
         let problem = self.problem(&windows);
-        let mut best = self.best_of(&problem, starts)?;
+        let mut best = fit;
         for round in 0..ROUNDS {
             let Some(next) = self.from_about(&problem, &best, round) else { break };
             let gain = best.cost - next.cost;
@@ -187,15 +196,15 @@ impl Likelihood<'_> {
                 break;
             }
         }
-        let empty = Fit { values: best.values.clone(), windows: Vec::new(), cost: 0.0, covariance: None };
-        let tried = FittedHypothesis { hypothesis: self.hypothesis.clone(), fit: best, held_out: empty };
+        let tried = self.tried(best);
         let none: [Window; 0] = [];
         let data = Data { fit: problem, held_out: self.problem(&none) };
         let Spread { covariance, scatter } = spread(&data, &tried)?;
         let variances = (0..scatter.len()).map(|i| covariance[(i, i)] + scatter[i]).collect::<Vec<_>>();
+        let whole = windows.iter().all(|window| window.measured.is_empty());
         let over = if whole { Over::WholeTests } else { Over::Windows };
         let found = self.found(over, &tried, &variances, &covariance);
-        Some(Fitted { windows, tried, variances, found })
+        Some(Fitted { variances, found })
     }
 
     /// The best of fits from vectors: compared at a glance, the best coarsely, the best of those to the end.
@@ -219,7 +228,8 @@ impl Likelihood<'_> {
             let normal = |v: usize| StandardNormal.sample(&mut self.draws.of(round, number, v as u32));
             let step = &root * DVector::<f64>::from_fn(best.values.len(), |v, _| normal(v)) * DRAWN_SD;
             let moved = best.values.iter().zip(step.iter()).zip(&h.unknowns);
-            let values = moved.map(|((value, step), unknown)| unknown.within(value + step)).collect::<Vec<_>>();
+            let values =
+                moved.map(|((value, step), unknown)| unknown.within(value + step)).collect::<Vec<_>>();
             problem.fit_finely(h, problem.states(h, &values, &states, 2, false)?)
         };
         lowest((0..DRAWN).into_par_iter().filter_map(drawn).collect(), 1).pop()

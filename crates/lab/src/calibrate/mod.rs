@@ -29,8 +29,8 @@ mod staged_search;
 
 pub use archive::{Address, Archive, Origin, Row};
 pub use cma_es::CmaEs;
-pub use likelihood::{ByLikelihood, Over};
 pub use flow::{Experiment, calibrate, method_names};
+pub use likelihood::{ByLikelihood, Over};
 pub use objective::{Objective, prior_factor, simulate};
 pub use paper::{F, MostSimilar, PaperDe, first_generation, most_similar, sim};
 pub use parameters::{Parameter, ParameterSpace, Target};
