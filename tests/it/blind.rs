@@ -242,7 +242,7 @@ fn regress_the_documentation_has_the_table_of_the_recorded_cases() {
 }
 
 /// The set of twins by which calibrations were judged, and its record: `make blind-calibrations SET=twins1` goes on from there.
-const TWINS: &str = "twins1";
+const TWINS: &str = "twins2";
 
 fn calibrated_twins() -> Vec<twins::row::Row> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{TWINS}.jsonl"));

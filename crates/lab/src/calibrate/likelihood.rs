@@ -107,7 +107,11 @@ pub(super) fn by_likelihood(experiment: &Experiment, starts: &[Vec<f64>]) -> Opt
     let all = [std::slice::from_ref(&short.found.values), starts].concat();
     let whole = whole_tests(&tests).and_then(|whole| likelihood.fitted(whole, &all));
     let whole = whole.filter(|whole| whole.found.followed && whole.is_near(&short));
-    Some(whole.unwrap_or(short).found)
+    Some(match whole {
+        Some(whole) if whole.tells_what(&short) => whole.found,
+        Some(whole) => whole.with_intervals_of(short),
+        None => short.found,
+    })
 }
 
 /// The wall with the numbers of an experiment.
@@ -146,6 +150,23 @@ struct Fitted {
 }
 
 impl Fitted {
+    /// Whether every number that leaves a trace in another fit leaves one in this.
+    ///
+    /// Over a long test the motion changes with a number too steeply for any slope to be told.
+    fn tells_what(&self, other: &Self) -> bool {
+        self.variances
+            .iter()
+            .zip(&other.variances)
+            .all(|(own, theirs)| own.is_finite() || theirs.is_infinite())
+    }
+
+    /// These values with the intervals of another fit, widened to hold them.
+    fn with_intervals_of(self, other: Self) -> ByLikelihood {
+        let ends = |([low, high], value): ([f64; 2], &f64)| [low.min(*value), high.max(*value)];
+        let interval_95 = other.found.interval_95.into_iter().zip(&self.found.values).map(ends).collect();
+        ByLikelihood { interval_95, correlation: other.found.correlation, ..self.found }
+    }
+
     /// Whether values agree with those of another fit, within what that allows.
     fn is_near(&self, other: &Self) -> bool {
         let pairs = self.found.values.iter().zip(&other.found.values).zip(&other.variances);
