@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mrbd::aggregate::{Medians, Middle, aggregate};
+use mrbd::aggregate::{Measure, Medians, Middle, aggregate};
 use mrbd::findings::{Conclusions, FINDINGS, Slender, View, conclusions};
 use mrbd::survey::Configuration;
 
@@ -18,7 +18,10 @@ fn medians() -> Option<Medians> {
 /// Heads of the columns, a softness each.
 fn head(first: &str, all: &[Conclusions]) -> String {
     let names = all.iter().map(|under| match under.variant.strip_prefix("bed ") {
-        Some(stiffness) => format!("{stiffness} Pa/m"),
+        Some(of) => match of.split_once(", ") {
+            Some((stiffness, damping)) => format!("{stiffness} Pa/m, {damping}"),
+            None => format!("{of} Pa/m"),
+        },
         None => "sharp edges".to_owned(),
     });
     let cells = std::iter::once(first.to_owned()).chain(names).collect::<Vec<_>>();
@@ -37,24 +40,24 @@ pub fn conclusion_block(page: &mut Page) {
     page.put_lines("beds", &(head("conclusion of the paper", &all) + &rows));
 }
 
-/// Medians of the reference façades under each softness, and how their runs ended.
+/// Medians of the lower body of the reference façades under each softness, and how all runs ended.
 pub fn median_block(page: &mut Page) {
     let Some(medians) = medians() else { return page.keep("medians on beds") };
     let all = conclusions(&medians);
-    let points = View::new(&medians, &all[0].variant).points(Slender::Any);
-    let mut table = head("median, h/b", &all);
+    let slendernesses = View::new(&medians, &all[0].variant).slendernesses(Slender::Any);
+    let mut table = head("median of θ₁/α₁, h/b", &all);
     for configuration in Configuration::ALL {
-        for &(slenderness, body) in &points {
+        for &slenderness in &slendernesses {
             let cell = |under: &Conclusions| {
-                let row = View::new(&medians, &under.variant).reference(configuration, (slenderness, body));
+                let row = View::new(&medians, &under.variant)
+                    .reference(configuration, (slenderness, Measure::LowerOwn));
                 match row.and_then(mrbd::aggregate::Median::middle) {
                     Some(Middle::Rotation(theta)) => format!("{theta:.3}"),
                     Some(Middle::Collapsed) => "falls".to_owned(),
                     None => "–".to_owned(),
                 }
             };
-            let body = if body.column().starts_with("theta1") { "θ₁/α₁" } else { "θ₂/α₂" };
-            let name = format!("{body}, {slenderness}, {} floor", configuration.name());
+            let name = format!("{slenderness}, {} floor", configuration.name());
             table += &row(&std::iter::once(name).chain(all.iter().map(cell)).collect::<Vec<_>>());
         }
     }

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 use super::archive::Archive;
 use super::evaluation::{Evaluation, capture_names, capture_study};
 use super::identifiability::{BOOTSTRAP, Judge};
-use super::likelihood::{ByLikelihood, by_likelihood};
+use super::likelihood::{ByLikelihood, Over, by_likelihood};
 use super::objective::{Objective, prior_factor};
 use super::paper::{PaperDe, most_similar};
 use super::parameters::ParameterSpace;
@@ -142,9 +142,9 @@ impl Flow<'_> {
         let evaluation = Evaluation { experiment: self.experiment, fit: &self.fit };
         let methods = evaluation.methods(&paper, &adaptive, similar, [&joint, &refined]);
         let likelihood = self.by_likelihood(&methods);
-        let (vector, joint_from) = self.vector(&methods, likelihood.as_ref(), &evaluation);
-        let vector = evaluation.without_idle(&vector);
         let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
+        let (vector, joint_from) = self.vector(&methods, likelihood.as_ref(), (&judge, &evaluation));
+        let vector = evaluation.without_idle(&vector);
         let per_test = self.better_of(&paper, &adaptive);
         let told = judge.estimates(&vector, &per_test)?;
         let (parameters, correlation) = match (&likelihood, self.why_not(&methods, &judge, &vector)) {
@@ -262,16 +262,20 @@ impl Flow<'_> {
         by_likelihood(self.experiment, &starts)
     }
 
-    /// The vector for all tests: by likelihood where that follows the tests to their noise, else the cheapest.
+    /// The vector for all tests: by likelihood where that follows the tests to their noise, else the cheapest. Where
+    /// windows alone are followed, a search that has arrived over whole tests is nearer.
     fn vector(
         &self,
         methods: &[MethodResult],
         likelihood: Option<&ByLikelihood>,
-        evaluation: &Evaluation,
+        (judge, evaluation): (&Judge, &Evaluation),
     ) -> (Vector, String) {
-        match likelihood.filter(|fit| fit.followed) {
-            Some(fit) => (evaluation.vector(&fit.values), "likelihood".to_owned()),
-            None => self.cheapest(methods),
+        let (cheapest, name) = self.cheapest(methods);
+        let Some(fit) = likelihood.filter(|fit| fit.followed) else { return (cheapest, name) };
+        let arrived = judge.has_arrived(&cheapest) && fit.is_near(&cheapest.values);
+        match fit.over {
+            Over::Windows if arrived => (cheapest, name),
+            _ => (evaluation.vector(&fit.values), "likelihood".to_owned()),
         }
     }
 

@@ -80,6 +80,17 @@ pub struct ByLikelihood {
     pub correlation: Vec<Vec<Option<f64>>>,
 }
 
+impl ByLikelihood {
+    /// Whether values lie within [`CONSISTENT_SD`] of those that were found.
+    pub(super) fn is_near(&self, values: &[f64]) -> bool {
+        let reach = CONSISTENT_SD / NINETY_FIVE_PERCENT;
+        let near = |((value, found), [low, high]): ((&f64, &f64), &[f64; 2])| {
+            (found - reach * (found - low)..=found + reach * (high - found)).contains(value)
+        };
+        values.iter().zip(&self.values).zip(&self.interval_95).all(near)
+    }
+}
+
 /// A fit of all tests that windows can be cut from.
 struct Likelihood<'a> {
     tests: &'a [TestData],
@@ -208,7 +219,7 @@ impl Likelihood<'_> {
         let problem = self.problem(&windows);
         let mut best = fit;
         for round in 0..ROUNDS {
-            let Some(next) = self.from_about(&problem, &best, round) else { break };
+            let Some(next) = self.again_about(&problem, &best, round) else { break };
             let gain = best.cost - next.cost;
             if gain > 0.0 {
                 best = next;
@@ -241,7 +252,7 @@ impl Likelihood<'_> {
     }
 
     /// The best of fits from about another one.
-    fn from_about(&self, problem: &Problem, best: &Fit, round: u32) -> Option<Fit> {
+    fn again_about(&self, problem: &Problem, best: &Fit, round: u32) -> Option<Fit> {
         let h = &self.hypothesis;
         let root = best.covariance.clone()?.cholesky()?.l();
         let states = best.windows.iter().map(|window| window.x.clone()).collect::<Vec<_>>();

@@ -186,9 +186,10 @@ impl Estimate {
         if self.acts() { Self { identifiability: why, interval_95: kept, ..self } } else { self }
     }
 
-    /// The same with another interval; over more than a share of the bounds it tells nothing.
+    /// The same with another interval, widened to hold the value; over more than a share of the bounds it tells nothing.
     #[must_use]
-    pub(super) fn with_interval(self, interval: [f64; 2], tells_nothing: f64) -> Self {
+    pub(super) fn with_interval(self, [low, high]: [f64; 2], tells_nothing: f64) -> Self {
+        let interval = [low.min(self.value), high.max(self.value)];
         let wide = interval[1] - interval[0] > tells_nothing * (self.upper_bound - self.lower_bound);
         let told = if wide { Identifiability::NotToldByTheTests } else { Identifiability::Identified };
         if self.acts() { Self { identifiability: told, interval_95: Some(interval), ..self } } else { self }
@@ -250,6 +251,7 @@ pub struct CaptureRow {
 
 #[cfg(test)]
 mod tests {
+    use super::Identifiability::{Identified, NeverActs, NotFollowed, NotToldByTheTests, SearchesDisagree};
     use super::*;
 
     #[test]
@@ -266,7 +268,6 @@ mod tests {
             spread_over_tests: None,
             profile: Vec::new(),
         };
-        use Identifiability::{Identified, NeverActs, NotFollowed, NotToldByTheTests, SearchesDisagree};
         let given = Some([0.929, 0.931]);
         for told in [Identified, NotToldByTheTests] {
             let apart = estimate(told, given).not_identified(SearchesDisagree);
