@@ -18,7 +18,7 @@ include make/python.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep suites measures variance variance-beds million monte-carlo fragility measured assess-table check readme test stranger test-browser bench blind lint docs clean
+.PHONY: help sweep beds suites measures variance variance-beds million monte-carlo fragility measured assess-table check readme test stranger test-browser bench blind blind-calibrations lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -43,6 +43,10 @@ measured: ## joints that give fitted to a wall that was measured, judged on a re
 assess-table: ## the survey's façades by the code's check and by their own dynamics: table and picture
 	cargo run --release --locked --bin mrbd -- assess-survey inputs/survey.toml --coefficients inputs/coefficients.toml \
 		--site inputs/site_mirandola.toml --records $(SUITE) --out outputs/assess_table --force > outputs/assess_table.csv
+
+beds: ## the paper's study with joints that give, from hard to soft, beside sharp edges: medians and conclusions, and its page
+	cargo run --release --locked --bin mrbd -- run pipelines/beds.toml --suite $(SUITE) --out outputs/beds --force
+	@cargo run --release --locked --quiet --bin mrbd -- report outputs/beds --site inputs/site_mirandola.toml
 
 # A suite of measured records beside those of `make suites`.
 MEASURED ?=
@@ -106,6 +110,10 @@ FIRST ?= 0
 CASES ?= 40
 SET ?= tune
 RECORDED ?= $(wildcard tests/blind/recorded/$(SET).jsonl)
+
+blind-calibrations: ## twins for mrbd calibrate, made, calibrated and scored: FIRST=0 CASES=40 SET=tune
+	cargo test --release --locked --quiet --test blind -- --calibrations --first $(FIRST) --cases $(CASES) --set $(SET) \
+		$(if $(RECORDED),--recorded $(RECORDED))
 
 blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: FIRST=0 CASES=40 SET=tune
 	cargo test --release --locked --quiet --test blind -- --first $(FIRST) --cases $(CASES) --set $(SET) \

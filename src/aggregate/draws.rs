@@ -346,8 +346,11 @@ mod tests {
             tail_s: 5.0,
             collapse_rotation_ratio: 2.0,
             vertical: false,
+            further: String::new(),
         };
         let variants = [note("base", 1e-6, 1800.0), note("tight", 1e-8, 1800.0), note("light", 1e-6, 1600.0)];
+        let soft = VariantNote { further: "bed = 1".into(), ..note("soft", 1e-6, 1800.0) };
+        let variants = [&variants[..], &[soft]].concat();
         assert_eq!(kin(&variants, 0), ["base", "tight"]);
         assert_eq!((kin(&variants, 1), kin(&variants, 2)), (vec!["tight"], vec!["light"]));
     }

@@ -162,6 +162,8 @@ pub struct VariantNote {
     pub collapse_rotation_ratio: f64,
     /// Whether vertical components act.
     pub vertical: bool,
+    /// What is assumed beside these, such as beds in the joints, as the manifest has it; empty as a rule.
+    pub further: String,
 }
 
 impl VariantNote {
@@ -169,7 +171,7 @@ impl VariantNote {
     pub(super) fn differs_in_accuracy_alone(&self, other: &Self) -> bool {
         let assumed = |note: &Self| {
             let of_wall = [note.length_m, note.density_kg_m3, note.collapse_rotation_ratio, note.tail_s];
-            (of_wall.map(f64::to_bits), note.law.clone(), note.vertical)
+            (of_wall.map(f64::to_bits), note.law.clone(), note.vertical, note.further.clone())
         };
         self.name != other.name && assumed(self) == assumed(other)
     }

@@ -183,6 +183,7 @@ mod tests {
             tail_s: 5.0,
             collapse_rotation_ratio: 2.0,
             vertical: false,
+            further: String::new(),
             energy_residual: None,
         }
     }

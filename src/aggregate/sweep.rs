@@ -10,7 +10,7 @@ use super::medians::{Case, Measure, Median, Medians};
 use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
 use super::stored::Row;
-use super::variants::{MEMBER_OF, variant_notes};
+use super::variants::{MEMBER_OF, variant_notes, with_further};
 use crate::error::{Error, Result};
 use crate::store::frame::{Frame, read};
 use crate::study::pipeline::Parameter;
@@ -37,8 +37,9 @@ const COMPARISON: Comparison = Comparison {
 pub fn aggregate(folder: &Path) -> Result<Medians> {
     let files = run_files(folder)?;
     let completeness = Completeness::of(folder)?;
+    let notes = variant_notes(&files).map_err(|e| Error::table(folder, e))?;
+    let variants = with_further(notes, folder)?;
     let read = || -> PolarsResult<Medians> {
-        let variants = variant_notes(&files)?;
         let moved = moved(&files, &variants, &COMPARISON)?;
         let draws = draws(&files, &variants)?;
         let medians = Medians::new(variants, medians(&files)?).with_moved(moved);

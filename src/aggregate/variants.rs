@@ -1,14 +1,16 @@
 //! The variants of a study, as their runs tell them.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use polars::prelude::PolarsResult;
 
 use super::group::{Group, in_plan_order};
 use super::medians::VariantNote;
 use super::stored::Row;
+use crate::error::Result;
 use crate::store::frame::read;
+use crate::study::runs::Manifest;
 
 /// What is counted over all runs.
 const COUNTED: [&str; 5] = ["run", MEMBER_OF, "variant", "outcome", "energy_residual"];
@@ -31,6 +33,24 @@ const SHARED: [&str; 12] = [
 
 /// The column that is null for runs as they are planned, and names the variant of whose ensemble others are members.
 pub(super) const MEMBER_OF: &str = "member_of";
+
+/// Assumptions that no column of the runs has.
+const FURTHER: [&str; 3] = ["bed", "crushing_stays", "floor_yield_m"];
+
+/// Variants with what the manifest of their study says of them beside the columns of the runs.
+///
+/// # Errors
+/// A manifest that cannot be read.
+pub(super) fn with_further(mut notes: Vec<VariantNote>, folder: &Path) -> Result<Vec<VariantNote>> {
+    let manifest = Manifest::read(&folder.join("manifest.json"))?;
+    let all = manifest.and_then(|manifest| manifest.variants.as_array().cloned()).unwrap_or_default();
+    for note in &mut notes {
+        let own = all.iter().find(|variant| variant["name"] == note.name.as_str());
+        let told = |key: &&str| Some(format!("{key} = {}", own?["assumptions"].get(*key)?));
+        note.further = FURTHER.iter().filter_map(told).collect::<Vec<_>>().join(", ");
+    }
+    Ok(notes)
+}
 
 /// The variants in the order of the plan.
 ///

@@ -40,11 +40,10 @@ fn lead(stored: &Calibration) -> String {
     let fit = stored.tests.iter().filter(|test| test.purpose == "fit").count();
     let held = stored.tests.len() - fit;
     let count = |is: Identifiability| stored.parameters.iter().filter(|p| p.identifiability == is).count();
-    let (told, distrusted) = (count(Identifiability::Identified), count(Identifiability::SearchesDisagree));
-    let told = if distrusted > 0 {
-        format!("the searches disagree, so {distrusted} of the values are to be distrusted.")
-    } else {
-        format!("{told} of them are told by the tests.")
+    let told = match (count(Identifiability::SearchesDisagree), count(Identifiability::NotFollowed)) {
+        (0, 0) => format!("{} of them are told by the tests.", count(Identifiability::Identified)),
+        (0, _) => "none is identified, for the tests are not followed to their noise.".to_owned(),
+        (apart, _) => format!("the searches disagree, so {apart} of the values are to be distrusted."),
     };
     format!(
         "{} numbers of a wall sought in {fit} shaking-table test{}, {held} held out; {told}",
@@ -85,7 +84,7 @@ fn notes(stored: &Calibration) -> Vec<String> {
         "Assumed: impact law “{}”, capture velocity {:e} rad/s. WME: mean absolute error of both rotations, each over its mean absolute measured rotation (Eq. 8).",
         stored.law, stored.capture_velocity_rad_s
     )];
-    notes.extend(disagreement(&stored.methods));
+    notes.extend(disagreement(&stored.methods, stored.likelihood.as_ref()));
     let on_bound: Vec<&str> =
         stored.parameters.iter().filter(|p| p.on_bound).map(|p| p.name.as_str()).collect();
     if !on_bound.is_empty() {

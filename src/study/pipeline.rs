@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::sequence::SequenceTable;
 use super::study_table::StudyTables;
 pub use super::study_table::{Cloud, Drawn, Incremental, Kind, Limit, Loading, Stripes, Study};
-pub use super::variance_table::{BedLevel, Variance};
+pub use super::variance_table::Variance;
 use crate::error::{InputError, Result};
 use crate::survey::sampling::Sampling;
 use crate::survey::{Assumptions, Changes, Configuration};

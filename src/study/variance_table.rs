@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use super::pipeline::Variant;
 use crate::error::{InputError, Result};
-use crate::survey::sampling::{Refused, Sampling};
-use mrbd_kernel::model::{Effect, ImpactLaw};
+use crate::survey::Bed;
+use crate::survey::sampling::Sampling;
+use mrbd_kernel::model::ImpactLaw;
 
 /// What is assumed in a study of variance, each level as likely as another and ranges evenly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -20,7 +21,7 @@ pub struct Variance {
     /// Density ρ of the masonry, kg/m³, from and to.
     pub density_kg_m3: [f64; 2],
     /// What lies in both joints.
-    pub beds: Vec<BedLevel>,
+    pub beds: Vec<Bed>,
     /// Factor on all records; 1 for the suite as it is.
     #[serde(default = "own_scale")]
     pub factor: f64,
@@ -30,36 +31,8 @@ fn own_scale() -> f64 {
     1.0
 }
 
-/// A bed of springs without tension in both joints, as the effect `compliant_joint` has it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BedLevel {
-    /// Pressure per indentation, Pa/m; the largest value of the effect is a sharp edge.
-    pub stiffness_pa_per_m: f64,
-    /// Time ζ of dampers beside the springs, s.
-    #[serde(default)]
-    pub damping_s: f64,
-}
-
 /// Key of the beds.
 const BEDS: &str = "variance.beds";
-
-impl BedLevel {
-    /// The effect; `None` for sharp edges, which need none.
-    ///
-    /// # Errors
-    /// [`Refused`] for values beyond those of the effect.
-    pub fn effect(&self) -> Result<Option<Effect>, Refused> {
-        let values = [self.stiffness_pa_per_m, self.damping_s];
-        let effect = Effect::with_parameters("compliant_joint.both", &values).map_err(|e| Refused {
-            key: BEDS.to_owned(),
-            found: e.to_string(),
-            allowed: "values of the effect `compliant_joint`".to_owned(),
-        })?;
-        let most = effect.entry().parameters[0].most;
-        Ok((self.stiffness_pa_per_m < most).then_some(effect))
-    }
-}
 
 impl Variance {
     /// The table, if its values are possible.
@@ -69,7 +42,8 @@ impl Variance {
     pub(super) fn checked(self, path: &Path) -> Result<Self> {
         check_levels(path, "variance.laws", &self.laws)?;
         check_levels(path, BEDS, &self.beds)?;
-        self.beds.iter().try_for_each(|bed| bed.effect().map(|_| ())).map_err(|refused| refused.at(path))?;
+        let is_possible = |bed: &Bed| bed.check(path, BEDS);
+        self.beds.iter().try_for_each(is_possible)?;
         for (key, [from, to]) in [("length_m", self.length_m), ("density_kg_m3", self.density_kg_m3)] {
             if !(from > 0.0 && from <= to && to.is_finite()) {
                 let (key, found) = (format!("variance.{key}"), format!("{from} to {to}"));
@@ -103,6 +77,10 @@ pub(super) fn check_variance(path: &Path, sampling: &Sampling, variants: &[Varia
     if own != 1 {
         let allowed = "one: laws, lengths, densities and beds are levels of [variance]";
         return Err(InputError::key(path, "variants", own.to_string(), allowed).into());
+    }
+    if variants.iter().any(|variant| variant.assumptions.bed.is_some()) {
+        let allowed = "beds as levels of [variance]";
+        return Err(InputError::key(path, "assumptions.bed", "a bed", allowed).into());
     }
     if variants.len() == own {
         let allowed = "1 to 100, or the share that no input decides is not told";

@@ -5,6 +5,7 @@
 
 use std::path::Path;
 
+use super::Bed;
 use crate::error::{InputError, Result};
 use mrbd_kernel::model::{
     Effect, EffectError, G_M_S2, ImpactLaw, ImpossibleWall, Restitution, Wall, WallParameters,
@@ -38,6 +39,9 @@ pub struct Assumptions {
     /// Whether a record of a sequence leaves corners crushed as deep as the largest compression in it asks for.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub crushing_stays: bool,
+    /// What lies in both joints; none: sharp edges.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bed: Option<Bed>,
 }
 
 /// Assumptions that differ from those they build on.
@@ -54,6 +58,7 @@ pub(crate) struct Changes {
     vertical: Option<bool>,
     floor_yield_m: Option<f64>,
     crushing_stays: Option<bool>,
+    bed: Option<Bed>,
 }
 
 impl Default for Assumptions {
@@ -70,6 +75,7 @@ impl Default for Assumptions {
             vertical: false,
             floor_yield_m: None,
             crushing_stays: false,
+            bed: None,
         }
     }
 }
@@ -87,6 +93,7 @@ impl Changes {
             vertical: self.vertical.unwrap_or(base.vertical),
             floor_yield_m: self.floor_yield_m.or(base.floor_yield_m),
             crushing_stays: self.crushing_stays.unwrap_or(base.crushing_stays),
+            bed: self.bed.or(base.bed),
         }
     }
 }
@@ -112,7 +119,7 @@ impl Assumptions {
         if let Some(yield_m) = self.floor_yield_m {
             rule("floor_yield_m", yield_m, yield_m > 0.0, above_0)?;
         }
-        Ok(())
+        self.bed.map_or(Ok(()), |bed| bed.check(path, &format!("{table}.bed")))
     }
 }
 

@@ -86,7 +86,11 @@ impl Program {
     }
 }
 
-fn copy_experiment(from: &Path, to: &Path) -> std::io::Result<()> {
+/// Copies what a laboratory would have: everything but the answer.
+///
+/// # Errors
+/// What the disk says.
+pub fn copy_experiment(from: &Path, to: &Path) -> std::io::Result<()> {
     for entry in std::fs::read_dir(from)? {
         let entry = entry?;
         let name = entry.file_name();

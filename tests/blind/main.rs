@@ -9,10 +9,12 @@
 //! Half of the cases come from the library's own simulator, half from one of another formulation ([`compliant`]), so that
 //! a diagnosis is not judged by inverting its own model alone. Tune on the set `tune`; freeze; report on `report`.
 
+mod calibrate;
 mod cases;
 mod compliant;
 mod diagnose;
 mod score;
+mod twins;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -52,6 +54,9 @@ struct Options {
     /// Make the cases and stop.
     #[arg(long)]
     make_only: bool,
+    /// Calibrate twins, and score their intervals, instead of diagnosing cases.
+    #[arg(long)]
+    calibrations: bool,
     /// Score what has been diagnosed and stop.
     #[arg(long, conflicts_with = "make_only")]
     score_only: bool,
@@ -59,7 +64,8 @@ struct Options {
 
 fn main() -> ExitCode {
     let options = Options::parse();
-    match go(&options) {
+    let done = if options.calibrations { calibrate::go(&options) } else { go(&options) };
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(message) => {
             eprintln!("blind: {message}");

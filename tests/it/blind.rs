@@ -12,6 +12,9 @@ mod diagnose;
 #[allow(dead_code)]
 #[path = "../blind/score/mod.rs"]
 mod score;
+#[allow(dead_code)]
+#[path = "../blind/twins/mod.rs"]
+mod twins;
 
 use std::path::Path;
 
@@ -236,4 +239,43 @@ fn regress_the_documentation_has_the_table_of_the_recorded_cases() {
     let text = std::fs::read_to_string(path).expect("the documentation");
     let table = score::targets::table(&recorded());
     assert!(text.contains(&table), "docs/diagnosis.md lacks the table of tests/blind/recorded:\n\n{table}");
+}
+
+/// The set of twins by which calibrations were judged, and its record: `make blind-calibrations SET=twins1` goes on from there.
+const TWINS: &str = "twins2";
+
+fn calibrated_twins() -> Vec<twins::row::Row> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{TWINS}.jsonl"));
+    twins::row::load(&path, TWINS).expect("the recorded twins")
+}
+
+#[test]
+fn regress_recorded_twins_are_what_is_drawn_under_their_numbers() {
+    for row in calibrated_twins() {
+        let twin = twins::draw::draw(TWINS, row.number);
+        let Some(case) = twin.case else {
+            assert_eq!(row.simulator, "init");
+            continue;
+        };
+        assert_eq!([&row.simulator, &row.law], [case.simulator.name(), case.actual.law]);
+        assert_eq!((row.noise_rad, row.tests), (case.noise_rad, case.fit_tests));
+        for number in row.numbers.iter().filter(|number| number.name.starts_with("C_")) {
+            let l: usize = number.name[2..].parse().expect("a coefficient");
+            assert_eq!(
+                number.truth,
+                case.actual.coefficients[l - 1],
+                "{} of twin {}",
+                number.name,
+                row.number
+            );
+        }
+    }
+}
+
+#[test]
+fn regress_the_documentation_has_the_table_of_the_calibrated_twins() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/calibration.md");
+    let text = std::fs::read_to_string(path).expect("the documentation");
+    let table = twins::targets::table(&calibrated_twins());
+    assert!(text.contains(&table), "docs/calibration.md lacks the table of recorded twins:\n\n{table}");
 }

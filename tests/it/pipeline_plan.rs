@@ -111,6 +111,7 @@ fn regress_ids_and_plan_change_with_every_input() {
         ("name = \"base\"", "name = \"base\"\nset = { tolerance = 1e-7 }"),
         ("name = \"base\"", "name = \"base\"\nset = { capture_velocity_rad_s = 1e-4 }"),
         ("name = \"base\"", "name = \"base\"\nset = { collapse_rotation_ratio = 3.0 }"),
+        ("name = \"base\"", "name = \"base\"\nset = { bed = { stiffness_pa_per_m = 1e9 } }"),
     ] {
         let changed = plan(&SMALL.replacen(from, to, 1), 1);
         assert_ne!(ids(&changed)[0], ids(&base)[0], "{to}");
@@ -121,6 +122,32 @@ fn regress_ids_and_plan_change_with_every_input() {
     let changed = try_plan(SMALL, other).expect("a valid plan");
     assert_ne!(ids(&changed)[0], ids(&base)[0], "samples");
     assert_ne!(plan_hash(&plan(SMALL, 2)), plan_hash(&base), "another record");
+}
+
+#[test]
+fn regress_a_bed_lies_in_both_joints_of_every_wall_of_its_variant() {
+    let soft = "name = \"base\"\nset = { bed = { stiffness_pa_per_m = 1e9, damping_s = 1e-2 } }";
+    let plan = plan(&SMALL.replacen("name = \"base\"", soft, 1), 1);
+    for position in 0..plan.len() {
+        let run = plan.run(position);
+        let effects = &run.wall.as_ref().expect("a wall").parameters().effects;
+        let told =
+            effects.iter().map(|effect| (effect.variant().name(), effect.parameters())).collect::<Vec<_>>();
+        let bed = ("compliant_joint.both".to_owned(), vec![1e9, 1e-2]);
+        assert_eq!(told, if run.variant.name == "base" { vec![bed] } else { Vec::new() });
+    }
+}
+
+#[test]
+fn rejects_beds_that_are_none() {
+    let refused = |bed: &str| {
+        let set = format!("name = \"base\"\nset = {{ bed = {bed} }}");
+        let text = SMALL.replacen("name = \"base\"", &set, 1);
+        Pipeline::parse(Path::new("study.toml"), text).expect_err(bed).to_string()
+    };
+    assert!(refused("{ stiffness_pa_per_m = 0.0 }").contains("variants[0].set.bed"));
+    assert!(refused("{ stiffness_pa_per_m = 1e9, damping_s = -1.0 }").contains("variants[0].set.bed"));
+    assert!(refused("{ stiffness = 1e9 }").contains("stiffness"));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 //!
 //! Marked blocks, `<!-- made by make readme: NAME -->` … `<!-- end -->`, hold them. `make readme` writes them anew.
 
+mod beds;
 mod block;
 mod conclusions;
 mod fragility;
@@ -37,7 +38,13 @@ fn regress_the_readme_is_what_the_program_gives() {
         studies::counts(page);
         conclusions::blocks(page);
         fragility::blocks(page);
+        beds::conclusion_block(page);
     });
+}
+
+#[test]
+fn regress_the_guide_tells_medians_on_beds() {
+    check("docs/how-sure.md", beds::median_block);
 }
 
 #[test]

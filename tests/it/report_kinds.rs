@@ -127,7 +127,7 @@ fn regress_a_calibration_page_draws_its_tests_again_while_they_are_the_same() {
         assert!(page.contains(part), "{part}");
     }
     // So few vectors leave the searches apart: nothing is told, and the page says so.
-    assert!(page.contains("distrusted: the searches disagree") && !page.contains("told by the tests"));
+    assert!(page.contains("not identified: the searches disagree") && !page.contains("told by the tests"));
     // Two tests of two bodies, the values, a panel a test and one for all.
     assert_eq!(panels(&page), 2 * 2 + 1 + 3);
     assert!(followed_links(&path).1 >= 8);

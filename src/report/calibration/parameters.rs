@@ -2,7 +2,7 @@
 
 use super::super::chart::{Axis, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Link, Section, Table};
-use mrbd_lab::calibrate::{Calibration, Estimate, Identifiability};
+use mrbd_lab::calibrate::{Calibration, Estimate, Identifiability, likelihood};
 
 /// The section.
 pub fn section(stored: &Calibration) -> Section {
@@ -11,10 +11,13 @@ pub fn section(stored: &Calibration) -> Section {
     Section {
         id: "parameters".into(),
         title: "What the tests tell".into(),
-        text: vec![format!(
-            "The vector for all tests is that of the search “{}”. An interval as wide as its bounds says that the tests do not tell the value.",
-            stored.joint_from
-        )],
+        text: vec![
+            format!(
+                "The vector for all tests is that of the search “{}”. An interval as wide as its bounds says that the tests do not tell the value.",
+                stored.joint_from
+            ),
+            likelihood(stored.likelihood.as_ref()),
+        ],
         figures,
         tables: vec![table(stored)],
         ..Section::default()
@@ -38,16 +41,18 @@ fn intervals(stored: &Calibration) -> Figure {
             tip: format!("{}\nbest in one test: {value:.4}", p.name),
         })
     });
-    let values = rows().filter_map(|(p, row)| {
+    let values = rows().filter(|(p, _)| p.identifiability != Identifiability::NotFollowed);
+    let values = values.filter_map(|(p, row)| {
         let [low, high] = p.interval_95?;
         let tip = format!("{} = {:.4}\n95 %: {low:.4} to {high:.4}", p.name, p.value);
         Some(Dot { x: share(p, p.value), y: row, tip })
     });
-    let distrusted = rows().filter(|(p, _)| p.identifiability == Identifiability::SearchesDisagree);
+    let doubtful = [Identifiability::SearchesDisagree, Identifiability::NotFollowed];
+    let distrusted = rows().filter(|(p, _)| doubtful.contains(&p.identifiability));
     let distrusted = distrusted.map(|(p, row)| Dot {
         x: share(p, p.value),
         y: row,
-        tip: format!("{} = {:.4}\ndistrusted: the searches disagree", p.name, p.value),
+        tip: format!("{} = {:.4}\n{}", p.name, p.value, p.identifiability.words()),
     });
     let [values, distrusted] = [values.collect::<Vec<_>>(), distrusted.collect()];
     let graph = Graph {
@@ -79,7 +84,7 @@ fn intervals(stored: &Calibration) -> Figure {
         ],
         panels: vec![graph.svg()],
         wide: true,
-        caption: "Intervals are bootstrap intervals over the tests’ samples. Hollow: the searches disagree, so the value has none and is to be distrusted. The others without one never act, or have nothing to scale, and stay at 1.".into(),
+        caption: "Intervals are by likelihood where that follows the tests to their noise, else of a bootstrap over the tests’ samples. Hollow: not identified. The others without an interval never act, or have nothing to scale, and stay at 1.".into(),
         links: vec![Link::to("calibration.json"), Link::to("candidates.parquet")],
         ..Figure::default()
     }

@@ -46,7 +46,9 @@ pub(super) struct Assumed {
 impl Assumed {
     /// As all runs of a variant have it.
     fn by(assumptions: &Assumptions) -> Self {
-        Self { law: assumptions.law, bed: None, member: 0 }
+        // Values beyond those of the effect were refused on reading.
+        let bed = assumptions.bed.and_then(|bed| bed.effect().ok().flatten());
+        Self { law: assumptions.law, bed, member: 0 }
     }
 }
 

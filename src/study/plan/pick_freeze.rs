@@ -8,11 +8,11 @@ use std::ops::Range;
 
 use super::kinds::{Assumed, Setting};
 use super::run::{Origin, Scaling};
-use crate::study::pipeline::{BedLevel, Variance};
+use crate::study::pipeline::Variance;
 use crate::survey::sampling::{FacadeSampler, Points, Refused, Sampling, Variable};
 use crate::survey::{Assumptions, Configuration};
 use mrbd_files::coefficients::CoefficientSets;
-use mrbd_kernel::model::Effect;
+use mrbd_kernel::model::{Effect, EffectError};
 
 /// Numbers of a point: seven of the façade, eight coefficients, law, length, density, bed and member.
 const NUMBERS: usize = 20;
@@ -148,11 +148,17 @@ impl PickFreeze {
         let points = Points::new(sampling.design, sampling.count, sampling.seed, 2 * NUMBERS);
         let points =
             points.map_err(|refused| Refused { key: format!("sampling.{}", refused.key), ..refused })?;
+        let beyond = |e: EffectError| Refused {
+            key: "variance.beds".to_owned(),
+            found: e.to_string(),
+            allowed: "values of the effect `compliant_joint`".to_owned(),
+        };
+        let beds = variance.beds.iter().map(|bed| bed.effect().map_err(beyond));
         Ok(Self {
             points,
+            beds: beds.collect::<Result<_, _>>()?,
             variance: variance.clone(),
             bounds: std::array::from_fn(|l| [sets.lower[l], sets.upper[l]]),
-            beds: variance.beds.iter().map(BedLevel::effect).collect::<Result<_, _>>()?,
             matrices: Matrix::of(variance),
             members,
         })
@@ -205,6 +211,7 @@ fn chosen<T>(of: &[T], u: f64) -> &T {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::survey::Bed;
     use mrbd_kernel::model::ImpactLaw;
 
     #[test]
@@ -230,7 +237,7 @@ mod tests {
 
     #[test]
     fn regress_nothing_is_run_for_what_does_not_vary() {
-        let bed = |stiffness_pa_per_m| BedLevel { stiffness_pa_per_m, damping_s: 0.0 };
+        let bed = |stiffness_pa_per_m| Bed { stiffness_pa_per_m, damping_s: 0.0 };
         let all = Variance {
             laws: vec![ImpactLaw::Whole, ImpactLaw::Contact],
             length_m: [1.0, 4.0],

@@ -67,7 +67,8 @@ fn experiment(case: &Case) -> String {
     text
 }
 
-fn record(test: &Test) -> String {
+/// The record of a test as CSV.
+pub fn record(test: &Test) -> String {
     let mut text = "time_s,acceleration_m_s2\n".to_owned();
     for (k, a) in test.record_m_s2.iter().enumerate() {
         let _ = writeln!(text, "{:.3},{a:.6}", k as f64 * STEP_S);
@@ -75,7 +76,8 @@ fn record(test: &Test) -> String {
     text
 }
 
-fn measured(test: &Test) -> String {
+/// What was measured in a test as CSV.
+pub fn measured(test: &Test) -> String {
     let mut text = "time_s,theta1_rad,theta2_rad\n".to_owned();
     for (k, [theta1, theta2]) in test.measured_rad.iter().enumerate() {
         let _ = writeln!(text, "{:.3},{theta1:.7},{theta2:.7}", k as f64 * STEP_S);

@@ -18,8 +18,10 @@ pub struct WallNumbers {
     pub diaphragm_mass_kg: f64,
     pub carriage_mass_kg: f64,
     pub stiffness_n_per_m: f64,
-    /// C_1 … C_8, law `contact`.
+    /// C_1 … C_8.
     pub coefficients: [f64; 8],
+    /// Impact law; only the library's own simulator knows `whole`.
+    pub law: &'static str,
 }
 
 /// The best fit of the paper's Table 2.
@@ -39,6 +41,7 @@ impl WallNumbers {
             carriage_mass_kg: 663.0,
             stiffness_n_per_m: 37_000.0,
             coefficients: TABLE_2,
+            law: "contact",
         }
     }
 
@@ -73,6 +76,7 @@ impl WallNumbers {
             carriage_mass_kg: rounded(dp * total_kg, 1.0),
             stiffness_n_per_m: rounded(10f64.powf(rng.random_range(4.5..5.3)), 100.0),
             coefficients,
+            law: "contact",
         }
     }
 
@@ -91,7 +95,7 @@ impl WallNumbers {
             "[wall]\nthickness_m = {:?}\nheight_m = {:?}\ncrack_height_m = {:?}\nlength_m = {:?}\nmass_kg = {:?}\n\n\
              [corners]\nlower_width_m = {b1:?}\nupper_width_m = {b2:?}\n\n\
              [diaphragm]\nmass_kg = {:?}\ncarriage_mass_kg = {:?}\nstiffness_n_per_m = {:?}\n\n\
-             [restitution]\ncoefficients = {:?}\nlaw = \"contact\"\n\n\
+             [restitution]\ncoefficients = {:?}\nlaw = {:?}\n\n\
              [collapse]\nrotation_ratio = 2.0\n",
             self.thickness_m,
             self.height_m,
@@ -102,6 +106,7 @@ impl WallNumbers {
             self.carriage_mass_kg,
             self.stiffness_n_per_m,
             self.coefficients,
+            self.law,
         );
         for effect in effects {
             let _ = write!(text, "\n[[effects]]\n{effect}");

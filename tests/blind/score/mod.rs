@@ -2,8 +2,8 @@
 
 mod columns;
 mod confusion;
-mod counted;
-mod reading;
+pub mod counted;
+pub mod reading;
 pub mod recorded;
 mod row;
 pub mod targets;

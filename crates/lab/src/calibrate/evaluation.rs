@@ -75,7 +75,7 @@ impl Evaluation<'_> {
     }
 
     /// A vector in every test.
-    fn vector(&self, values: &[f64]) -> Vector {
+    pub fn vector(&self, values: &[f64]) -> Vector {
         let wme = self.simulated(values).into_iter().map(|s| s.and_then(|s| s.wme)).collect::<Vec<_>>();
         let sum = self.fit.iter().map(|&k| wme[k]).sum::<Option<f64>>();
         let mean_wme = sum.map(|sum| sum / self.fit.len() as f64);

@@ -9,15 +9,16 @@ use sha2::{Digest, Sha256};
 use super::archive::Archive;
 use super::evaluation::{Evaluation, capture_names, capture_study};
 use super::identifiability::{BOOTSTRAP, Judge};
+use super::likelihood::{ByLikelihood, Over, by_likelihood};
 use super::objective::{Objective, prior_factor};
 use super::paper::{PaperDe, most_similar};
 use super::parameters::ParameterSpace;
 use super::report::disagreement;
-use super::result::{Calibration, Estimate, MethodResult, Vector};
+use super::result::{Calibration, Identifiability, MethodResult, Vector};
 use super::search::{Draws, Found};
 use super::staged_search::{StagedSearch, stage_names};
-use crate::experiment::file::{CalibrateTable, ExperimentFile, Purpose};
-use crate::experiment::{Test, load_tests};
+use crate::experiment::file::{CalibrateTable, ExperimentFile, Purpose, TestTable};
+use crate::experiment::{Test, TestData, load_tests};
 use mrbd_files::checksum::hexadecimal;
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::Wall;
@@ -32,6 +33,8 @@ pub struct Experiment {
     pub space: ParameterSpace,
     /// The tests, in the order of the file.
     pub tests: Vec<Test>,
+    /// Those of them that windows can be cut from, each under its number; a lost channel or no noise leaves a test out.
+    pub readable: Vec<(usize, TestData)>,
     /// The settings.
     pub settings: CalibrateTable,
     /// What was read, each file with its role.
@@ -55,8 +58,9 @@ impl Experiment {
         let accuracy = Accuracy { tolerance: settings.tolerance };
         let tests = load_tests(path, &file, &given, accuracy)?;
         let files = file.files(path);
+        let readable = readable(path, &file, &given, &tests);
         let request = request(&files, &settings)?;
-        Ok(Self { path: path.to_path_buf(), space, tests, settings, files, request })
+        Ok(Self { path: path.to_path_buf(), space, tests, readable, settings, files, request })
     }
 
     /// Numbers of the tests that the search sees.
@@ -77,6 +81,16 @@ impl Experiment {
     pub fn accuracy(&self) -> Accuracy {
         Accuracy { tolerance: self.settings.tolerance }
     }
+}
+
+/// The tests with their noise and patterns, as far as they have two channels and enough samples.
+fn readable(path: &Path, file: &ExperimentFile, wall: &Wall, tests: &[Test]) -> Vec<(usize, TestData)> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let data = |(k, (test, table)): (usize, (&Test, &TestTable))| {
+        let data = TestData::new(test, &folder.join(&table.measured), table, wall).ok()?;
+        (wall.is_cracked() && test.purpose == Purpose::Fit).then_some((k, data))
+    };
+    tests.iter().zip(&file.tests).enumerate().filter_map(data).collect()
 }
 
 /// Identifies the inputs: program, settings, and the bytes of every file.
@@ -128,18 +142,16 @@ impl Flow<'_> {
         let refined = refine.minimise(self.elsewhere(), &self.draws("refined"))?;
         let evaluation = Evaluation { experiment: self.experiment, fit: &self.fit };
         let methods = evaluation.methods(&paper, &adaptive, similar, [&joint, &refined]);
-        let (vector, joint_from) = self.cheapest(&methods);
-        let vector = evaluation.without_idle(&vector);
+        let likelihood = self.by_likelihood(&methods);
         let judge = Judge { experiment: self.experiment, archive: self.archive, fit: &self.fit };
+        let (vector, joint_from) = self.vector(&methods, likelihood.as_ref(), (&judge, &evaluation));
+        let vector = evaluation.without_idle(&vector);
         let per_test = self.better_of(&paper, &adaptive);
-        let (parameters, correlation) = judge.estimates(&vector, &per_test)?;
-        let (parameters, correlation) = match disagreement(&methods) {
-            None => (parameters, correlation),
-            // Correlations are those of the intervals, which are not given then.
-            Some(_) => (
-                parameters.into_iter().map(Estimate::distrusted).collect(),
-                vec![vec![None; correlation.len()]; correlation.len()],
-            ),
+        let told = judge.estimates(&vector, &per_test)?;
+        let (parameters, correlation) = match (&likelihood, self.why_not(&methods, &judge, &vector)) {
+            (Some(fit), _) if fit.followed => Judge::by_likelihood(told, fit),
+            (_, None) => told,
+            (_, Some(why)) => Judge::not_identified(told, why),
         };
         let capture_study = capture_study(self.experiment, self.archive, &self.fit, &vector.values)?;
         let tests = evaluation.tests(&vector, &methods);
@@ -155,6 +167,7 @@ impl Flow<'_> {
             tolerance: self.experiment.settings.tolerance,
             bounds_source: self.experiment.space.bounds_source.clone(),
             methods,
+            likelihood,
             joint: vector,
             joint_from,
             parameters,
@@ -241,6 +254,38 @@ impl Flow<'_> {
             let (test, index) = chosen.from;
             (paper[test].population[index].values.clone(), chosen.similarity)
         })
+    }
+
+    /// The numbers fitted by likelihood from every vector for all tests, and from those of single tests.
+    fn by_likelihood(&self, methods: &[MethodResult]) -> Option<ByLikelihood> {
+        let mut starts = methods.iter().map(|method| method.best.values.clone()).collect::<Vec<_>>();
+        starts.push(self.middle());
+        by_likelihood(self.experiment, &starts)
+    }
+
+    /// The vector for all tests: by likelihood where that follows the tests to their noise, else the cheapest. Where
+    /// windows alone are followed, a search that has arrived over whole tests is nearer.
+    fn vector(
+        &self,
+        methods: &[MethodResult],
+        likelihood: Option<&ByLikelihood>,
+        (judge, evaluation): (&Judge, &Evaluation),
+    ) -> (Vector, String) {
+        let (cheapest, name) = self.cheapest(methods);
+        let Some(fit) = likelihood.filter(|fit| fit.followed) else { return (cheapest, name) };
+        let arrived = judge.has_arrived(&cheapest) && fit.is_near(&cheapest.values);
+        match fit.over {
+            Over::Windows if arrived => (cheapest, name),
+            _ => (evaluation.vector(&fit.values), "likelihood".to_owned()),
+        }
+    }
+
+    /// Why the intervals of the searches alone are none to believe; `None` where they are.
+    fn why_not(&self, methods: &[MethodResult], judge: &Judge, vector: &Vector) -> Option<Identifiability> {
+        match disagreement(methods, None) {
+            Some(_) => Some(Identifiability::SearchesDisagree),
+            None => (!judge.has_arrived(vector)).then_some(Identifiability::NotFollowed),
+        }
     }
 
     /// The best of the vectors for all tests by the cost that the searches minimise, and where it comes from.

@@ -2,7 +2,9 @@
 
 use super::archive::{Archive, Row};
 use super::bootstrap::Bootstrap;
+use super::continuation::GOOD_ENOUGH;
 use super::flow::Experiment;
+use super::likelihood::ByLikelihood;
 use super::objective::{Objective, simulate};
 use super::parameters::Parameter;
 use super::result::{Estimate, Identifiability, ProfilePoint, Vector};
@@ -16,6 +18,10 @@ use mrbd_statistics::{correlation, quantile};
 
 /// An interval over more than this share of the bounds tells nothing.
 const TELLS_NOTHING: f64 = 0.9;
+/// The same of an interval by likelihood. What is called identified is known to three times better than its bounds.
+const TELLS_LITTLE: f64 = 1.0 / 3.0;
+/// A mean WME by no more than this share above that of the noise alone is the noise's.
+const ARRIVED: f64 = 0.1;
 /// A value this near a bound, as a share of the width, lies on it.
 const ON_BOUND: f64 = 0.01;
 /// The most that counts of a misfit's share above the noise: beyond, it is the model's and no search's.
@@ -75,7 +81,7 @@ impl Judge<'_> {
             vectors: self.bootstrapped(&joint.values, &free)?,
             by_test: self.by_test(per_test),
             costs: self.joint_costs(),
-            not_excluded: self.above_noise(joint.mean_wme).max(self.by_likelihood()),
+            not_excluded: self.above_noise(joint.mean_wme).max(self.by_chance()),
         };
         let parameters = space.parameters.iter().enumerate();
         let estimate = |(v, p): (usize, &Parameter)| told.estimate(v, p, joint.values[v], idle(p));
@@ -88,16 +94,53 @@ impl Judge<'_> {
         Ok((estimates, matrix))
     }
 
+    /// Whether a vector leaves no more of the tests over their whole length than the noise.
+    pub fn has_arrived(&self, vector: &Vector) -> bool {
+        let noise = self.noise_wme();
+        vector.mean_wme.is_some_and(|wme| wme <= GOOD_ENOUGH || wme <= (1.0 + ARRIVED) * noise)
+    }
+
+    /// What is told where the tests are followed to their noise: intervals by likelihood.
+    pub fn by_likelihood(
+        (estimates, _): (Vec<Estimate>, Matrix),
+        fit: &ByLikelihood,
+    ) -> (Vec<Estimate>, Matrix) {
+        let of = |(v, estimate): (usize, Estimate)| estimate.with_interval(fit.interval_95[v], TELLS_LITTLE);
+        let estimates = estimates.into_iter().enumerate().map(of).collect::<Vec<_>>();
+        let told = |v: usize| estimates[v].interval_95.is_some();
+        let both = |i: usize, j: usize| fit.correlation[i][j].filter(|_| told(i) && told(j));
+        let all = 0..estimates.len();
+        let matrix = all.clone().map(|i| all.clone().map(|j| both(i, j)).collect()).collect();
+        (estimates, matrix)
+    }
+
+    /// What is told where intervals cannot be believed.
+    pub fn not_identified(
+        (estimates, matrix): (Vec<Estimate>, Matrix),
+        why: Identifiability,
+    ) -> (Vec<Estimate>, Matrix) {
+        let estimates = estimates.into_iter().map(|estimate| estimate.not_identified(why)).collect();
+        match why {
+            // Correlations are those of the intervals, which are not given then.
+            Identifiability::SearchesDisagree => (estimates, vec![vec![None; matrix.len()]; matrix.len()]),
+            _ => (estimates, matrix),
+        }
+    }
+
+    fn noise_wme(&self) -> f64 {
+        let noise = self.fit.iter().map(|&k| self.experiment.tests[k].target.noise_wme()).sum::<f64>();
+        noise / self.fit.len() as f64
+    }
+
     /// The share of the misfit above that of the noise alone: by so much a search may have missed the lowest.
     fn above_noise(&self, mean_wme: Option<f64>) -> f64 {
-        let noise = self.fit.iter().map(|&k| self.experiment.tests[k].target.noise_wme()).sum::<f64>();
-        let noise = noise / self.fit.len() as f64;
+        let noise = self.noise_wme();
         mean_wme.map_or(0.0, |wme| (1.0 - noise / wme).clamp(0.0, MOST_ABOVE_NOISE))
     }
 
     /// The share above the lowest misfit at which a profile of the likelihood excludes a value: -ln likelihood is n ln WME,
     /// as in [`super::prior_factor`].
-    fn by_likelihood(&self) -> f64 {
+    fn by_chance(&self) -> f64 {
         let samples = |&k: &usize| self.experiment.tests[k].target.independent_samples();
         (HALF_CHI_SQUARED / self.fit.iter().map(samples).sum::<f64>()).min(MOST_ABOVE_NOISE)
     }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::search::Bounds;
+use crate::diagnose::hypothesis::Walls;
 use crate::experiment::file::{CalibrateTable, ExperimentFile, ParameterTable};
 use mrbd_files::coefficients::CoefficientSets;
 use mrbd_files::error::{InputError, Result};
@@ -162,6 +163,12 @@ impl ParameterSpace {
             }
         }
         Ok(())
+    }
+}
+
+impl Walls for ParameterSpace {
+    fn wall_of(&self, values: &[f64]) -> Option<Wall> {
+        self.wall(values).ok()
     }
 }
 

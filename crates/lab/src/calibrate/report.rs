@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 
 use super::continuation::GOOD_ENOUGH;
+use super::likelihood::ByLikelihood;
 use super::result::{Calibration, Estimate, MethodResult};
 
 /// Parameters as CSV: name, bounds, value, interval, spread over tests, and what the tests tell.
@@ -54,7 +55,8 @@ pub fn summary(c: &Calibration) -> String {
     }
     line(String::new());
     line(format!("The vector for all tests is that of `{}`.", c.joint_from));
-    disagreement(&c.methods).into_iter().for_each(&mut line);
+    line(likelihood(c.likelihood.as_ref()));
+    disagreement(&c.methods, c.likelihood.as_ref()).into_iter().for_each(&mut line);
     line(format!("{:<32}{:>11}{:>24}{:>10}  {}", "parameter", "value", "95 % interval", "by test", "told"));
     c.parameters.iter().for_each(|e| line(parameter(e)));
     line(String::new());
@@ -81,6 +83,17 @@ pub fn summary(c: &Calibration) -> String {
         c.simulations, c.seconds, c.simulations_per_second, c.paper_simulations, c.paper_seconds
     ));
     text
+}
+
+/// What the fit by likelihood says, in a sentence.
+pub fn likelihood(fit: Option<&ByLikelihood>) -> String {
+    let Some(fit) = fit else {
+        return "No fit by likelihood: too little of the tests can be read or moves.".to_owned();
+    };
+    let ByLikelihood { count, error_in_noise, missed_share, .. } = fit;
+    let (over, missed) = (fit.over.words(), 100.0 * missed_share);
+    let told = if fit.followed { "followed to their noise" } else { "not followed to their noise" };
+    format!("By likelihood {count} {over} are {told}: error {error_in_noise:.3} of it, {missed:.0} % missed.")
 }
 
 fn tests_header() -> String {
@@ -127,7 +140,11 @@ fn figure(x: Option<f64>) -> String {
 const APART: f64 = 0.1;
 
 /// What to say of searches that disagree; `None` where they agree, or one is not there.
-pub fn disagreement(methods: &[MethodResult]) -> Option<String> {
+/// A fit by likelihood that follows the tests to their noise needs none of them.
+pub fn disagreement(methods: &[MethodResult], likelihood: Option<&ByLikelihood>) -> Option<String> {
+    if likelihood.is_some_and(|fit| fit.followed) {
+        return None;
+    }
     let ended = |name: &str| methods.iter().find(|m| m.method == name)?.best.mean_wme;
     let [joint, refined] = [ended("joint")?, ended("refined")?];
     told(joint, refined)

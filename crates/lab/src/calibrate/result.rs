@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::likelihood::ByLikelihood;
 use crate::experiment::Alignment;
 
 /// Everything a calibration found.
@@ -23,9 +24,13 @@ pub struct Calibration {
     pub bounds_source: String,
     /// The searches, at equal numbers of simulations but for `refined`, which has its own.
     pub methods: Vec<MethodResult>,
+    /// The numbers fitted by likelihood; null where no windows could be cut from the tests.
+    #[serde(default)]
+    pub likelihood: Option<ByLikelihood>,
     /// The one vector for all tests.
     pub joint: Vector,
-    /// Where it comes from: `similarity`, `joint` or `refined`, whichever has the lowest mean WME, raised by a prior.
+    /// Where it comes from: `likelihood` where that follows the tests to their noise; else `similarity`, `joint` or
+    /// `refined`, whichever has the lowest mean WME, raised by a prior.
     pub joint_from: String,
     /// What the tests tell about each parameter.
     pub parameters: Vec<Estimate>,
@@ -112,6 +117,9 @@ pub enum Identifiability {
     NotToldByTheTests,
     /// It acts, but the searches ended apart: at least one has not arrived, and nothing is known of its value.
     SearchesDisagree,
+    /// It acts, but the best vector leaves more of the tests than noise: the model is not the wall, or the search has
+    /// not arrived. An interval is how far the tests let it scatter, and promises nothing.
+    NotFollowed,
     /// Its transition never happens in a test to fit; left at 1.
     NeverActs,
     /// Its transition happens, but under this law there is nothing for it to scale; left at 1.
@@ -124,7 +132,8 @@ impl Identifiability {
         match self {
             Identifiability::Identified => "identified",
             Identifiability::NotToldByTheTests => "not told by these tests",
-            Identifiability::SearchesDisagree => "distrusted: the searches disagree",
+            Identifiability::SearchesDisagree => "not identified: the searches disagree",
+            Identifiability::NotFollowed => "not identified: the tests are not followed to their noise",
             Identifiability::NeverActs => "never acts, left at 1",
             Identifiability::NothingToScale => "nothing to scale, left at 1",
         }
@@ -155,8 +164,8 @@ pub struct Estimate {
     pub value: f64,
     /// Whether the tests tell it.
     pub identifiability: Identifiability,
-    /// 2.5 and 97.5 % quantiles over bootstrap replicates, widened to the vectors that the misfit does not exclude; null
-    /// where it is left at 1, and where the searches disagree.
+    /// By likelihood where that follows the tests to their noise; else 2.5 and 97.5 % quantiles over bootstrap replicates,
+    /// widened to the vectors that the misfit does not exclude; null where it is left at 1, and where the searches disagree.
     pub interval_95: Option<[f64; 2]>,
     /// Whether the value lies on a bound, which then decides it.
     pub on_bound: bool,
@@ -169,14 +178,25 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// The same where the searches ended apart: an interval about a vector that is not the best one promises what it
-    /// cannot hold.
+    /// The same where nothing is identified. About a vector that is not the best one an interval promises what it cannot
+    /// hold; about one that leaves more than noise it stays, as how far the tests let the value scatter.
     #[must_use]
-    pub(super) fn distrusted(self) -> Self {
-        match self.identifiability {
-            Identifiability::NeverActs | Identifiability::NothingToScale => self,
-            _ => Self { identifiability: Identifiability::SearchesDisagree, interval_95: None, ..self },
-        }
+    pub(super) fn not_identified(self, why: Identifiability) -> Self {
+        let kept = self.interval_95.filter(|_| why == Identifiability::NotFollowed);
+        if self.acts() { Self { identifiability: why, interval_95: kept, ..self } } else { self }
+    }
+
+    /// The same with another interval, widened to hold the value; over more than a share of the bounds it tells nothing.
+    #[must_use]
+    pub(super) fn with_interval(self, [low, high]: [f64; 2], tells_nothing: f64) -> Self {
+        let interval = [low.min(self.value), high.max(self.value)];
+        let wide = interval[1] - interval[0] > tells_nothing * (self.upper_bound - self.lower_bound);
+        let told = if wide { Identifiability::NotToldByTheTests } else { Identifiability::Identified };
+        if self.acts() { Self { identifiability: told, interval_95: Some(interval), ..self } } else { self }
+    }
+
+    fn acts(&self) -> bool {
+        !matches!(self.identifiability, Identifiability::NeverActs | Identifiability::NothingToScale)
     }
 }
 
@@ -231,10 +251,11 @@ pub struct CaptureRow {
 
 #[cfg(test)]
 mod tests {
+    use super::Identifiability::{Identified, NeverActs, NotFollowed, NotToldByTheTests, SearchesDisagree};
     use super::*;
 
     #[test]
-    fn analytic_a_distrusted_estimate_has_neither_interval_nor_the_word_identified() {
+    fn analytic_what_is_not_identified_has_no_interval_to_believe() {
         let estimate = |identifiability, interval_95| Estimate {
             name: "C_1".into(),
             lower_bound: 0.9,
@@ -247,13 +268,21 @@ mod tests {
             spread_over_tests: None,
             profile: Vec::new(),
         };
-        for told in [Identifiability::Identified, Identifiability::NotToldByTheTests] {
-            let distrusted = estimate(told, Some([0.929, 0.931])).distrusted();
-            assert_eq!(distrusted, estimate(Identifiability::SearchesDisagree, None));
-            assert!(!distrusted.identifiability.words().contains("identified"));
+        let given = Some([0.929, 0.931]);
+        for told in [Identified, NotToldByTheTests] {
+            let apart = estimate(told, given).not_identified(SearchesDisagree);
+            assert_eq!(apart, estimate(SearchesDisagree, None));
+            assert_eq!(estimate(told, given).not_identified(NotFollowed), estimate(NotFollowed, given));
+            for why in [SearchesDisagree, NotFollowed] {
+                assert!(why.words().starts_with("not identified"));
+            }
         }
         // What is left at 1 by the model stays so, whatever the searches did.
-        let idle = estimate(Identifiability::NeverActs, None);
-        assert_eq!(idle.clone().distrusted(), idle);
+        let idle = estimate(NeverActs, None);
+        assert_eq!(idle.clone().not_identified(SearchesDisagree), idle);
+        assert_eq!(idle.clone().with_interval([0.9, 1.0], 0.5), idle);
+        // 0.05 and 0.06 of bounds 0.15 wide.
+        let by = |interval| estimate(NotFollowed, given).with_interval(interval, 0.35).identifiability;
+        assert_eq!([by([0.9, 0.95]), by([0.9, 0.96])], [Identified, NotToldByTheTests]);
     }
 }

@@ -34,11 +34,27 @@ pub fn intervals(data: &Data, tried: &FittedHypothesis) -> Vec<[f64; 2]> {
     tried.fit.values.iter().enumerate().map(interval).collect()
 }
 
-/// `None` where the curvature cannot be told; infinite where a number leaves no trace.
-fn variances(data: &Data, tried: &FittedHypothesis) -> Option<Vec<f64>> {
+/// Variances of the values of a fitted hypothesis. `None` where the curvature cannot be told; infinite where a number
+/// leaves no trace.
+pub fn variances(data: &Data, tried: &FittedHypothesis) -> Option<Vec<f64>> {
+    let Spread { covariance, scatter } = spread(data, tried)?;
+    Some((0..scatter.len()).map(|i| covariance[(i, i)] + scatter[i]).collect())
+}
+
+/// How far the values of a fitted hypothesis may be off.
+#[derive(Debug, Clone)]
+pub struct Spread {
+    /// From the curvature; infinite for numbers without a trace.
+    pub covariance: DMatrix<f64>,
+    /// Variances over tests: how far single tests pull.
+    pub scatter: Vec<f64>,
+}
+
+/// How far the values of a fitted hypothesis may be off; `None` where the curvature cannot be told.
+pub fn spread(data: &Data, tried: &FittedHypothesis) -> Option<Spread> {
     let count = tried.fit.values.len();
     if count == 0 {
-        return Some(Vec::new());
+        return Some(Spread { covariance: DMatrix::zeros(0, 0), scatter: Vec::new() });
     }
     let (slopes, _) = data.fit.slopes(&tried.hypothesis, &tried.fit, None)?;
     let mut curvature = DMatrix::zeros(count, count);
@@ -58,7 +74,7 @@ fn variances(data: &Data, tried: &FittedHypothesis) -> Option<Vec<f64>> {
     let pulls = pulls.into_iter().map(|(_, pull)| pull).collect::<Vec<_>>();
     let covariance = covariance_of(&curvature)?;
     let scatter = scatter(&covariance, &pulls);
-    Some((0..count).map(|i| covariance[(i, i)] + scatter[i]).collect())
+    Some(Spread { covariance, scatter })
 }
 
 /// The covariance that a curvature means, infinite for numbers without a trace; `None` where two leave the same.

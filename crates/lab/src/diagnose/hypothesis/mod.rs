@@ -12,6 +12,9 @@ pub use unknown::Scales;
 pub use unknown::Unknown;
 pub use unknown::{WALL_NUMBERS, WallNumber, wall_number};
 
+use std::fmt::Debug;
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::diagnose::formula::{Law, LawSlot};
@@ -28,10 +31,18 @@ pub struct Physics {
     pub reversed_ratio: f64,
 }
 
+/// Walls of numbers that are sought elsewhere, such as by a calibration.
+pub trait Walls: Debug + Send + Sync {
+    /// The wall with these values; `None` if there is no such wall.
+    fn wall_of(&self, values: &[f64]) -> Option<Wall>;
+}
+
 /// A wall, what is uncertain of it, and what is added to it.
 #[derive(Debug, Clone)]
 pub struct Hypothesis {
     base: WallParameters,
+    /// What makes the wall where its numbers are not this module's.
+    walls: Option<Arc<dyn Walls>>,
     /// What is added.
     pub additions: Vec<Addition>,
     /// Every number to be found: the uncertain ones of the wall first.
@@ -58,7 +69,7 @@ impl Hypothesis {
         for (index, addition) in additions.iter().enumerate() {
             unknowns.extend(addition.unknowns(base, scales, index));
         }
-        Self { base: base.clone(), additions: additions.to_vec(), unknowns, nuisances: count }
+        Self { base: base.clone(), walls: None, additions: additions.to_vec(), unknowns, nuisances: count }
     }
 
     /// The wall with these uncertainties and a law of the user's own, whose numbers are to be found.
@@ -75,6 +86,12 @@ impl Hypothesis {
         let written = formula.parameters().iter().enumerate();
         hypothesis.unknowns.extend(written.map(|(i, parameter)| Unknown::of_formula(i, parameter)));
         hypothesis
+    }
+
+    /// Walls whose numbers are sought elsewhere.
+    pub fn of_walls(base: &WallParameters, walls: Arc<dyn Walls>, unknowns: Vec<Unknown>) -> Self {
+        let nuisances = unknowns.len();
+        Self { base: base.clone(), walls: Some(walls), additions: Vec::new(), unknowns, nuisances }
     }
 
     /// Where the search starts.
@@ -134,6 +151,9 @@ impl Hypothesis {
 
     /// The wall these values make; `None` if there is no such wall.
     pub fn physics(&self, values: &[f64]) -> Option<Physics> {
+        if let Some(walls) = &self.walls {
+            return Some(Physics { wall: walls.wall_of(values)?, reversed_ratio: 0.0 });
+        }
         let parameters = self.parameters_of_wall(values)?;
         let placebo = self.additions.iter().position(|a| *a == Addition::Placebo);
         let reversed_ratio = placebo.and_then(|index| self.added(index, 0, values)).unwrap_or(0.0);
@@ -147,6 +167,7 @@ impl Hypothesis {
         for (unknown, &value) in self.unknowns.iter().zip(values) {
             match unknown.slot {
                 Slot::Written(_) => written.push(value),
+                Slot::Sought(_) => {}
                 Slot::Number(number) => (number.set)(&mut p, value),
                 Slot::Coefficient(l) => p.restitution.coefficients[l] = value,
                 Slot::Added(index, _) => match self.additions[index] {
@@ -197,7 +218,7 @@ impl Hypothesis {
                 Addition::Formula(law) => matches!(law.slots().get(i), Some(LawSlot::Size(_))),
                 _ => true,
             },
-            Slot::Number(_) | Slot::Coefficient(_) | Slot::Written(_) => true,
+            Slot::Number(_) | Slot::Coefficient(_) | Slot::Written(_) | Slot::Sought(_) => true,
         }
     }
 

@@ -16,6 +16,8 @@ pub enum Slot {
     Added(usize, usize),
     /// Parameter of the formula that stands last in the wall, by its index.
     Written(usize),
+    /// A number that is sought elsewhere, by its index there.
+    Sought(usize),
 }
 
 /// One number to be found.
@@ -57,6 +59,19 @@ impl Unknown {
             prior_sd: None,
             slot: Slot::Written(index),
         }
+    }
+
+    /// A number that is sought elsewhere, by its index there; `start` is its value in the wall file.
+    pub fn sought(
+        index: usize,
+        key: &str,
+        start: f64,
+        [lower, upper]: [f64; 2],
+        prior_sd: Option<f64>,
+    ) -> Self {
+        let scale = if start == 0.0 { upper - lower } else { start.abs() };
+        let slot = Slot::Sought(index);
+        Self { key: key.into(), unit: "", start, scale, lower, upper, prior_sd, slot }
     }
 
     /// Whether it is a number of the addition with this index.

@@ -69,7 +69,7 @@ pub fn opened_windows(data: &Data, first_fits: &FirstFits) -> Option<[Vec<Window
 }
 
 /// The windows with those that a hypothesis follows once their joints are open, and how many these are.
-fn opened_under(data: &Data, tried: &FittedHypothesis) -> Option<([Vec<Window>; 2], usize)> {
+pub fn opened_under(data: &Data, tried: &FittedHypothesis) -> Option<([Vec<Window>; 2], usize)> {
     let physics = tried.hypothesis.physics(&tried.fit.values)?;
     let of = |own: &Fit, side: &Problem| opened(side.tests, &physics, &own.windows, side.windows);
     let found = [of(&tried.fit, &data.fit), of(&tried.held_out, &data.held_out)];

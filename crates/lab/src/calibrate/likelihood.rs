@@ -1,0 +1,311 @@
+//! Values by likelihood: in windows whose starts are fitted too, then over whole tests.
+//!
+//! A search over whole runs may end in a wrong valley that is 1e-5 of a coefficient wide, and nothing about it tells. Over
+//! half a second there is one valley. So the numbers are fitted to windows as a diagnosis fits its hypotheses, together with
+//! the state at the start of every window. Where that leaves no more than noise, they lie in the right valley of whole runs
+//! too, or so near that a fit from there finds it. Which of the two is told, and whether the tests are followed to their
+//! noise: only then do intervals mean what they say.
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+use rand_distr::{Distribution, StandardNormal};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::flow::Experiment;
+use super::search::Draws;
+use crate::diagnose::certainty::{Spread, spread};
+use crate::diagnose::fit::{Fit, Problem, poor_share};
+use crate::diagnose::hypothesis::{Hypothesis, Unknown};
+use crate::diagnose::trials::{Data, FittedHypothesis, is_noise, opened_under};
+use crate::experiment::{Freedom, TestData, Window, windows};
+use crate::limits::{LEAST_MOVING, MOVES};
+
+/// Vectors from which a fit begins, and those that are fitted to the end, of the best at a glance.
+const BEGUN: usize = 3;
+const FINISHED: usize = 2;
+/// Vectors drawn about what was found from which it is fitted again, so many times at most, and their distance in
+/// standard deviations.
+const DRAWN: u32 = 3;
+const ROUNDS: u32 = 1;
+const DRAWN_SD: f64 = 3.0;
+/// A gain in cost, in squared noise, that is worth another round.
+const WORTH_A_ROUND: f64 = 2.0;
+/// Values over whole tests must lie within so many standard deviations of those over windows.
+const CONSISTENT_SD: f64 = 5.0;
+/// Samples in which the wall must stand for a test to be run from rest.
+const AT_REST: usize = 20;
+/// Half width of a 95 % interval of a normal variable, in standard deviations.
+const NINETY_FIVE_PERCENT: f64 = 1.959_963_984_540_054;
+
+/// What of a test is followed at a time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Over {
+    /// Half a second each, from a state that is fitted too.
+    Windows,
+    /// From rest to the end.
+    WholeTests,
+}
+
+impl Over {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Over::Windows => "windows",
+            Over::WholeTests => "whole tests",
+        }
+    }
+}
+
+/// What a fit by likelihood found.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ByLikelihood {
+    /// What was followed at a time.
+    pub over: Over,
+    /// How many of them.
+    pub count: usize,
+    /// Error over them in standard deviations of the noise; 1 is perfect.
+    pub error_in_noise: f64,
+    /// Share of them with more error than noise leaves.
+    pub missed_share: f64,
+    /// Whether what is left is noise. Only then do the intervals mean what they say.
+    pub followed: bool,
+    /// Values, in the order of `parameters`.
+    pub values: Vec<f64>,
+    /// 95 % intervals from the curvature and from how far single tests pull; all of its bounds for a number without a trace.
+    pub interval_95: Vec<[f64; 2]>,
+    /// Correlations; null where a number leaves no trace.
+    pub correlation: Vec<Vec<Option<f64>>>,
+}
+
+impl ByLikelihood {
+    /// Whether values lie within [`CONSISTENT_SD`] of those that were found.
+    pub(super) fn is_near(&self, values: &[f64]) -> bool {
+        let reach = CONSISTENT_SD / NINETY_FIVE_PERCENT;
+        let near = |((value, found), [low, high]): ((&f64, &f64), &[f64; 2])| {
+            (found - reach * (found - low)..=found + reach * (high - found)).contains(value)
+        };
+        values.iter().zip(&self.values).zip(&self.interval_95).all(near)
+    }
+}
+
+/// A fit of all tests that windows can be cut from.
+struct Likelihood<'a> {
+    tests: &'a [TestData],
+    hypothesis: Hypothesis,
+    draws: Draws,
+}
+
+/// Fits the numbers of an experiment from some vectors on; `None` where too little moves, or can be read, for windows.
+pub(super) fn by_likelihood(experiment: &Experiment, starts: &[Vec<f64>]) -> Option<ByLikelihood> {
+    let tests = experiment.readable.iter().map(|(_, data)| data.clone()).collect::<Vec<_>>();
+    // Intervals of some of the tests are none of all.
+    if tests.len() < experiment.fit_tests().len() {
+        return None;
+    }
+    let draws = Draws::new(experiment.settings.seed, "likelihood");
+    let likelihood = Likelihood { tests: &tests, hypothesis: hypothesis(experiment), draws };
+    let cut = windows(&tests);
+    if cut.len() < LEAST_MOVING {
+        return None;
+    }
+    let short = likelihood.opened(cut, starts)?;
+    if !short.found.followed {
+        return Some(short.found);
+    }
+    let all = [std::slice::from_ref(&short.found.values), starts].concat();
+    let whole = whole_tests(&tests).and_then(|whole| likelihood.fitted(whole, &all));
+    let whole = whole.filter(|whole| whole.found.followed && whole.is_near(&short));
+    Some(match whole {
+        Some(whole) if whole.tells_what(&short) => whole.found,
+        Some(whole) => whole.with_intervals_of(short),
+        None => short.found,
+    })
+}
+
+/// The wall with the numbers of an experiment.
+fn hypothesis(experiment: &Experiment) -> Hypothesis {
+    let parameters = experiment.space.parameters.iter().enumerate();
+    let unknown = |(i, p): (usize, &super::Parameter)| {
+        Unknown::sought(i, &p.name, p.nominal, [p.bounds.lower, p.bounds.upper], p.prior_sd)
+    };
+    let unknowns = parameters.map(unknown).collect();
+    Hypothesis::of_walls(experiment.space.base(), Arc::new(experiment.space.clone()), unknowns)
+}
+
+/// Every test as one window from rest; `None` if one does not begin at rest.
+fn whole_tests(tests: &[TestData]) -> Option<Vec<Window>> {
+    let whole = |(index, test): (usize, &TestData)| {
+        let still = |k: usize| (0..2).all(|i| test.theta_rad[k][i].abs() < MOVES * test.noise_rad[i]);
+        let readings = test.theta_rad.iter().flatten().filter(|theta| theta.is_finite()).count();
+        (0..AT_REST.min(test.theta_rad.len())).all(still).then(|| Window {
+            test: index,
+            purpose: test.purpose,
+            samples: 0..test.theta_rad.len(),
+            readings,
+            freedom: Freedom::Rest,
+            opened: false,
+            measured: Vec::new(),
+            spread: Vec::new(),
+        })
+    };
+    tests.iter().enumerate().map(whole).collect()
+}
+
+/// A fit, and how far its values may be off.
+struct Fitted {
+    variances: Vec<f64>,
+    found: ByLikelihood,
+}
+
+impl Fitted {
+    /// Whether every number that leaves a trace in another fit leaves one in this.
+    ///
+    /// Over a long test the motion changes with a number too steeply for any slope to be told.
+    fn tells_what(&self, other: &Self) -> bool {
+        self.variances
+            .iter()
+            .zip(&other.variances)
+            .all(|(own, theirs)| own.is_finite() || theirs.is_infinite())
+    }
+
+    /// These values with the intervals of another fit, widened to hold them.
+    fn with_intervals_of(self, other: Self) -> ByLikelihood {
+        let ends = |([low, high], value): ([f64; 2], &f64)| [low.min(*value), high.max(*value)];
+        let interval_95 = other.found.interval_95.into_iter().zip(&self.found.values).map(ends).collect();
+        ByLikelihood { interval_95, correlation: other.found.correlation, ..self.found }
+    }
+
+    /// Whether values agree with those of another fit, within what that allows.
+    fn is_near(&self, other: &Self) -> bool {
+        let pairs = self.found.values.iter().zip(&other.found.values).zip(&other.variances);
+        pairs
+            .into_iter()
+            .all(|((own, theirs), variance)| (own - theirs).abs() <= CONSISTENT_SD * variance.sqrt())
+    }
+}
+
+impl Likelihood<'_> {
+    /// A fit in windows, and again with joints open by less than the noise where that follows windows better.
+    fn opened(&self, windows: Vec<Window>, starts: &[Vec<f64>]) -> Option<Fitted> {
+        let first = self.tried(self.best_of(&self.problem(&windows), starts)?);
+        let none: [Window; 0] = [];
+        let data = Data { fit: self.problem(&windows), held_out: self.problem(&none) };
+        match opened_under(&data, &first) {
+            Some(([opened, _], count)) if count > 0 => self.fitted(opened, &[first.fit.values]),
+            _ => self.judged(windows, first.fit),
+        }
+    }
+
+    fn tried(&self, fit: Fit) -> FittedHypothesis {
+        let held_out = Fit { windows: Vec::new(), covariance: None, ..fit.clone() };
+        FittedHypothesis { hypothesis: self.hypothesis.clone(), fit, held_out }
+    }
+
+    fn problem<'w>(&'w self, windows: &'w [Window]) -> Problem<'w> {
+        Problem { tests: self.tests, windows }
+    }
+
+    /// The best fit in windows from vectors; `None` if none of them makes a wall.
+    fn fitted(&self, windows: Vec<Window>, starts: &[Vec<f64>]) -> Option<Fitted> {
+        let best = self.best_of(&self.problem(&windows), starts)?;
+        self.judged(windows, best)
+    }
+
+    /// A fit again from about itself, as often as that gains, and what it says.
+    fn judged(&self, windows: Vec<Window>, fit: Fit) -> Option<Fitted> {
+        let problem = self.problem(&windows);
+        let mut best = fit;
+        for round in 0..ROUNDS {
+            let Some(next) = self.again_about(&problem, &best, round) else { break };
+            let gain = best.cost - next.cost;
+            if gain > 0.0 {
+                best = next;
+            }
+            if gain < WORTH_A_ROUND {
+                break;
+            }
+        }
+        let tried = self.tried(best);
+        let none: [Window; 0] = [];
+        let data = Data { fit: problem, held_out: self.problem(&none) };
+        let Spread { covariance, scatter } = spread(&data, &tried)?;
+        let variances = (0..scatter.len()).map(|i| covariance[(i, i)] + scatter[i]).collect::<Vec<_>>();
+        let whole = windows.iter().all(|window| window.measured.is_empty());
+        let over = if whole { Over::WholeTests } else { Over::Windows };
+        let found = self.found(over, &tried, &variances, &covariance);
+        Some(Fitted { variances, found })
+    }
+
+    /// The best of fits from vectors: compared at a glance, the best coarsely, the best of those to the end.
+    fn best_of(&self, problem: &Problem, starts: &[Vec<f64>]) -> Option<Fit> {
+        let h = &self.hypothesis;
+        let measured = problem.measured_states();
+        let glance = |values: &Vec<f64>| problem.states(h, values, &measured, 3, false);
+        let begun = lowest(starts.par_iter().filter_map(glance).collect(), BEGUN);
+        let coarse = begun.into_par_iter().filter_map(|start| problem.fit_coarsely(h, start));
+        let coarse = lowest(coarse.collect(), FINISHED);
+        let fine = coarse.into_par_iter().filter_map(|coarse| problem.fit_finely(h, coarse));
+        lowest(fine.collect(), 1).pop()
+    }
+
+    /// The best of fits from about another one.
+    fn again_about(&self, problem: &Problem, best: &Fit, round: u32) -> Option<Fit> {
+        let h = &self.hypothesis;
+        let root = best.covariance.clone()?.cholesky()?.l();
+        let states = best.windows.iter().map(|window| window.x.clone()).collect::<Vec<_>>();
+        let drawn = |number: u32| {
+            let normal = |v: usize| StandardNormal.sample(&mut self.draws.of(round, number, v as u32));
+            let step = &root * DVector::<f64>::from_fn(best.values.len(), |v, _| normal(v)) * DRAWN_SD;
+            let moved = best.values.iter().zip(step.iter()).zip(&h.unknowns);
+            let values =
+                moved.map(|((value, step), unknown)| unknown.within(value + step)).collect::<Vec<_>>();
+            problem.fit_finely(h, problem.states(h, &values, &states, 2, false)?)
+        };
+        lowest((0..DRAWN).into_par_iter().filter_map(drawn).collect(), 1).pop()
+    }
+
+    fn found(
+        &self,
+        over: Over,
+        tried: &FittedHypothesis,
+        variances: &[f64],
+        covariance: &DMatrix<f64>,
+    ) -> ByLikelihood {
+        let interval = |(i, value): (usize, &f64)| {
+            let half = NINETY_FIVE_PERCENT * variances[i].sqrt();
+            let unknown = &self.hypothesis.unknowns[i];
+            [(value - half).max(unknown.lower), (value + half).min(unknown.upper)]
+        };
+        let missed_share = poor_share(&tried.fit.windows);
+        // Of a handful of whole tests none may be missed; some windows hold an impact that the noise decides.
+        let followed = is_noise(tried) && (over == Over::Windows || missed_share == 0.0);
+        ByLikelihood {
+            over,
+            count: tried.fit.windows.len(),
+            error_in_noise: tried.fit_error(),
+            missed_share,
+            followed,
+            values: tried.fit.values.clone(),
+            interval_95: tried.fit.values.iter().enumerate().map(interval).collect(),
+            correlation: correlation(covariance),
+        }
+    }
+}
+
+/// The fits of lowest cost, best first.
+fn lowest(mut fits: Vec<Fit>, count: usize) -> Vec<Fit> {
+    fits.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    fits.truncate(count);
+    fits
+}
+
+fn correlation(covariance: &DMatrix<f64>) -> Vec<Vec<Option<f64>>> {
+    let of = |i: usize, j: usize| {
+        let size = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+        Some(covariance[(i, j)] / size).filter(|_| size.is_finite() && size > 0.0)
+    };
+    (0..covariance.nrows()).map(|i| (0..covariance.nrows()).map(|j| of(i, j)).collect()).collect()
+}
