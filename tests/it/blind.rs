@@ -10,6 +10,9 @@ mod compliant;
 #[path = "../blind/diagnose.rs"]
 mod diagnose;
 #[allow(dead_code)]
+#[path = "../blind/laws/mod.rs"]
+mod laws;
+#[allow(dead_code)]
 #[path = "../blind/score/mod.rs"]
 mod score;
 

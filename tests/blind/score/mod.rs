@@ -2,10 +2,10 @@
 
 mod columns;
 mod confusion;
-mod counted;
-mod reading;
+pub mod counted;
+pub mod reading;
 pub mod recorded;
-mod row;
+pub mod row;
 pub mod targets;
 
 use std::fs::File;

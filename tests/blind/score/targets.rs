@@ -76,7 +76,8 @@ pub fn table(rows: &[Row]) -> String {
     printed(&lines)
 }
 
-fn printed(lines: &[[String; 3]]) -> String {
+/// Figure, target and what was reached as a table in Markdown.
+pub fn printed(lines: &[[String; 3]]) -> String {
     let head = ["figure", "target", "reached (95 % interval), cases"].map(str::to_owned);
     let width = |k: usize| lines.iter().chain([&head]).map(|line| line[k].chars().count()).max().unwrap_or(0);
     let widths = [0, 1, 2].map(width);
