@@ -22,6 +22,7 @@ use cases::draw::{Case, Simulator, of_kind};
 use cases::hidden::{Hidden, Joint};
 use cases::kind::Kind;
 use cases::walls::WallNumbers;
+use laws::atom::{Atom, Form, Site};
 use compliant::GroundMotion;
 use mrbd_files::load_wall;
 use mrbd_kernel::accelerogram::Accelerogram;
@@ -203,6 +204,45 @@ fn analytic_a_set_holds_the_promised_shares() {
     }
 }
 
+/// Both simulators on a law that no catalogue has.
+#[test]
+fn analytic_drawn_laws_mean_the_same_in_both_simulators() {
+    let record = sine(1.4, 0.8);
+    let still = vec![0.0; record.len()];
+    let reach = [0.05, 0.16];
+    let [soft, stiff] = [37_000.0, 150_000.0];
+    let top = |form| Atom { site: Site::Top, form, size: 600.0, reach };
+    let joint = |site, form| Atom { site, form, size: 900.0, reach: [0.0125, 0.04] };
+    let laws = [
+        (soft, top(Form::Spring { n: 1.7 })),
+        (soft, top(Form::Stop { side: -1.0, g: 0.3, n: 1.4 })),
+        (soft, top(Form::DeadZone { g: 0.3, n: 1.0 })),
+        (soft, top(Form::Saturation { d: 0.2 })),
+        (soft, top(Form::Drag { n: 0.5 })),
+        (soft, top(Form::Opening { p: 1.3, n: 0.8 })),
+        (soft, top(Form::DragSaturation { s: 0.3 })),
+        (soft, top(Form::OneWay { side: 1.0, n: 2.0 })),
+        (soft, top(Form::Snapping { d: 0.3 })),
+        (soft, top(Form::Hardening { d: 0.6 })),
+        (soft, top(Form::NearRest { d: 0.4 })),
+        (soft, top(Form::Slipping { s: 0.3 })),
+        (soft, joint(Site::Ground, Form::Drag { n: 2.0 })),
+        (stiff, joint(Site::Crack, Form::Spring { n: 2.0 })),
+    ];
+    for (stiffness_n_per_m, law) in laws {
+        let wall = plastic(WallNumbers { stiffness_n_per_m, ..WallNumbers::table() });
+        let without = own(&wall.to_toml(&[]), &record, &still);
+        let case = case(wall, vec![Hidden::Law(law)]);
+        let found = difference(&case, &record, 0.0);
+        let with = own(&cases::own_wall::true_wall(&case), &record, &still);
+        let pairs = with.iter().flatten().zip(without.iter().flatten());
+        let shows = pairs.fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()));
+        eprintln!("{law:?}: {found:.4}, shows {shows:.4} rad");
+        assert!(found < AGREE, "{law:?}: {found}");
+        assert!(shows > 5e-4, "{law:?}: shows only {shows} rad");
+    }
+}
+
 /// Cases that were scored before: `make blind SET=fresh11` goes on from there.
 fn recorded() -> Vec<score::Row> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
@@ -239,4 +279,47 @@ fn regress_the_documentation_has_the_table_of_the_recorded_cases() {
     let text = std::fs::read_to_string(path).expect("the documentation");
     let table = score::targets::table(&recorded());
     assert!(text.contains(&table), "docs/diagnosis.md lacks the table of tests/blind/recorded:\n\n{table}");
+}
+
+/// Cases of laws that were scored before, by set: `make blind LAWS=1 SET=laws1` goes on from there.
+fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
+    score::recorded::load(&path, set).expect("the recorded cases")
+}
+
+/// Recorded sets of laws, in the order in which they were answered.
+const SETS_OF_LAWS: [&str; 1] = ["laws1"];
+
+#[test]
+fn regress_recorded_laws_are_what_is_drawn_under_their_numbers() {
+    for row in SETS_OF_LAWS.iter().flat_map(|set| recorded_laws(set)) {
+        let case = laws::draw::draw(&row.set, row.number);
+        let [group, simulator, prior] = [&case.kind.name(), case.simulator.name(), case.prior.name()];
+        assert_eq!([&row.group, &row.simulator, &row.prior], [group, simulator, prior], "{row:?}");
+        assert_eq!([row.noise_rad, row.size], [case.noise_rad, case.size], "{row:?}");
+        let told = case.hidden.iter().map(|hidden| laws::row::hidden(&hidden.told())).collect::<Vec<_>>();
+        assert_eq!(row.hidden, told, "{row:?}");
+    }
+}
+
+#[test]
+fn regress_recorded_laws_are_written_again_as_they_were() {
+    for set in SETS_OF_LAWS {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
+        let folder = tempfile::tempdir().expect("a folder");
+        let again = folder.path().join("cases.jsonl");
+        score::recorded::save(&again, &recorded_laws(set)).expect("written");
+        let [own, again] = [&path, &again].map(|path| std::fs::read_to_string(path).expect("cases"));
+        assert!(own == again, "recorded cases of {set} change when they are read and written");
+    }
+}
+
+#[test]
+fn regress_the_documentation_has_the_tables_of_the_recorded_laws() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/diagnosis.md");
+    let text = std::fs::read_to_string(path).expect("the documentation");
+    for set in SETS_OF_LAWS {
+        let table = laws::targets::table(&recorded_laws(set));
+        assert!(text.contains(&table), "docs/diagnosis.md lacks the table of {set}:\n\n{table}");
+    }
 }

@@ -183,7 +183,8 @@ fn excited(answer: &Value, part: &str) -> Vec<Excited> {
     list(answer, &format!("/excited/{part}")).iter().filter_map(point).collect()
 }
 
-fn hidden(effect: &Value) -> String {
+/// What is hidden, in a line.
+pub fn hidden(effect: &Value) -> String {
     let formula = text(effect, "/formula");
     let Some(numbers) = effect.pointer("/parameters").and_then(Value::as_object) else {
         return text(effect, "/name");

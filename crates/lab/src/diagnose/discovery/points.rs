@@ -66,11 +66,16 @@ impl Points {
     /// Rows of a law of one atom of size 1.
     pub fn column(&self, atom: &Atom) -> DVector<f64> {
         let one = Atom { size: 1.0, ..*atom };
+        self.column_of(atom.site, |motion| one.force(motion))
+    }
+
+    /// Rows of a force or moment at a site by displacement and velocity there.
+    pub fn column_of(&self, site: Site, force: impl Fn([f64; 2]) -> f64) -> DVector<f64> {
         let mut rows = Vec::with_capacity(self.missing.len());
         for stretch in &self.stretches {
-            let value = |sample: &Sample| one.force(sample.motion[atom.site as usize]);
+            let value = |sample: &Sample| force(sample.motion[site as usize]);
             let law = stretch.samples.iter().map(value).collect::<Vec<_>>();
-            rows.extend(stretch.by_law(atom.site, &law));
+            rows.extend(stretch.by_law(site, &law));
         }
         DVector::from_vec(rows)
     }
@@ -79,6 +84,28 @@ impl Points {
     pub fn of_law(&self, law: &Law) -> DVector<f64> {
         let zero = DVector::zeros(self.missing.len());
         law.atoms().fold(zero, |sum, atom| sum + self.column(&atom) * atom.size)
+    }
+
+    /// Each swing, a stretch between impacts: its test and its rows.
+    pub fn swings(&self) -> Vec<(usize, std::ops::Range<usize>)> {
+        let mut end = 0;
+        let rows = |stretch: &WeakStretch| {
+            let start = end;
+            end += stretch.rows();
+            (stretch.test, start..end)
+        };
+        self.stretches.iter().map(rows).collect()
+    }
+
+    /// Of each row the largest displacement of its swing, as a share of the largest of all.
+    pub fn amplitude(&self, site: Site) -> Vec<f64> {
+        let reach = self.reach[site as usize][0];
+        let of = |stretch: &WeakStretch| {
+            let largest =
+                stretch.samples.iter().map(|s| s.motion[site as usize][0].abs()).fold(0.0, f64::max);
+            vec![largest / reach; stretch.rows()]
+        };
+        self.stretches.iter().flat_map(of).collect()
     }
 
     /// Displacements and velocities at a site that were excited.

@@ -17,6 +17,15 @@ use crate::diagnose::trials::{
 use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
 
+/// The place of a missing force with the curve that it is, where one holds.
+fn with_curve(placed: Found) -> Found {
+    let curve = placed.discovered.as_ref().and_then(|discovered| discovered.curve.clone());
+    match curve.filter(|_| placed.place == Some("top")) {
+        Some(after) => Found { verdict: Verdict::Curve, after, ..placed },
+        None => placed,
+    }
+}
+
 /// What was found in given windows.
 #[derive(Debug)]
 pub struct Found {
@@ -56,6 +65,7 @@ impl Found {
             | Verdict::Class
             | Verdict::Formula
             | Verdict::FormulaClass
+            | Verdict::Curve
             | Verdict::Recalibrated => &self.after,
             _ => &self.before,
         }
@@ -268,7 +278,7 @@ impl<P: Progress> Gap<'_, P> {
                 let tried = self.trials.ordered(tried);
                 Found { discovered, other_law, ..self.found(answer, tried) }
             }
-            None => Found { discovered, ..self.only_placed(other_law, tried) },
+            None => with_curve(Found { discovered, ..self.only_placed(other_law, tried) }),
         }
     }
 
