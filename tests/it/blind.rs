@@ -16,18 +16,22 @@ mod laws;
 #[path = "../blind/score/mod.rs"]
 mod score;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use cases::draw::{Case, Simulator, of_kind};
 use cases::hidden::{Hidden, Joint};
 use cases::kind::Kind;
 use cases::walls::WallNumbers;
-use laws::atom::{Atom, Form, Site};
 use compliant::GroundMotion;
+use laws::atom::{Atom, Form, Site};
+use laws::found::{is_spelled_as, number_errors};
 use mrbd_files::load_wall;
+use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
 use mrbd_lab::calibrate::Experiment;
+use mrbd_lab::diagnose::answer::FoundEffect;
 
 const STEP_S: f64 = 0.005;
 const TAIL_S: f64 = 1.0;
@@ -240,6 +244,76 @@ fn analytic_drawn_laws_mean_the_same_in_both_simulators() {
         eprintln!("{law:?}: {found:.4}, shows {shows:.4} rad");
         assert!(found < AGREE, "{law:?}: {found}");
         assert!(shows > 5e-4, "{law:?}: shows only {shows} rad");
+    }
+}
+
+/// An answer of one formula at the top.
+fn answered(formula: &str, parameters: &[(&str, f64, &str)]) -> FoundEffect {
+    let numbers =
+        parameters.iter().map(|(name, value, _)| ((*name).to_owned(), *value)).collect::<BTreeMap<_, _>>();
+    let units = parameters.iter().map(|(name, _, unit)| (*name, *unit)).collect::<BTreeMap<_, _>>();
+    let interval = numbers.iter().map(|(name, x)| (name, [0.9 * x, 1.02 * x])).collect::<BTreeMap<_, _>>();
+    serde_json::from_value(serde_json::json!({
+        "kind": "formula", "name": "formula", "formula": formula, "place": "top",
+        "parameters": numbers, "interval": interval, "units": units,
+    }))
+    .expect("an effect")
+}
+
+#[test]
+fn analytic_a_formula_is_known_by_its_spelling_and_its_numbers_are_held_against_the_truth() {
+    let reach = [0.05, 0.2];
+    let drag = Atom { site: Site::Top, form: Form::Drag { n: 2.0 }, size: 400.0, reach };
+    let stop = Atom { site: Site::Top, form: Form::Stop { side: -1.0, g: 0.4, n: 1.0 }, size: 300.0, reach };
+    let truth =
+        |atoms: &[Atom]| serde_json::json!({ "effects": atoms.iter().map(Atom::told).collect::<Vec<_>>() });
+    // 400 N at 0.2 m/s.
+    let exact = answered("-c*v*abs(v)", &[("c", 10_100.0, "N*(s/m)**2")]);
+    let fitted = answered("-c*sign(v)*abs(v)**n", &[("c", 9000.0, "N*(s/m)**n"), ("n", 1.93, "")]);
+    let line = answered("-c*v", &[("c", 2000.0, "N*s/m")]);
+    for found in [&exact, &fitted] {
+        assert!(is_spelled_as(&truth(&[drag]), std::slice::from_ref(found)), "{found:?}");
+    }
+    assert!(!is_spelled_as(&truth(&[drag]), std::slice::from_ref(&line)));
+    assert!(!is_spelled_as(&truth(&[drag, stop]), std::slice::from_ref(&exact)));
+    let both = answered(
+        "-c_1*v*abs(v) + k_2*max(-x-g_2,0)",
+        &[("c_1", 1.0, ""), ("k_2", 1.0, ""), ("g_2", 1.0, "")],
+    );
+    assert!(is_spelled_as(&truth(&[stop, drag]), &[both]));
+    let numbers = number_errors(&truth(&[drag]), &[exact]);
+    // 1 % off, in an interval from 10 % below to 2 % above what was found.
+    assert!(matches!(numbers[..], [(error, true)] if (error - 0.01).abs() < 1e-12), "{numbers:?}");
+}
+
+#[test]
+fn analytic_every_drawn_law_is_a_formula_of_its_own_force() {
+    let forms = [
+        Form::Spring { n: 1.7 },
+        Form::Stop { side: 1.0, g: 0.3, n: 1.4 },
+        Form::DeadZone { g: 0.3, n: 1.4 },
+        Form::Saturation { d: 0.2 },
+        Form::Drag { n: 0.5 },
+        Form::Opening { p: 1.3, n: 0.8 },
+        Form::DragSaturation { s: 0.3 },
+        Form::OneWay { side: -1.0, n: 2.0 },
+        Form::Snapping { d: 0.3 },
+        Form::Hardening { d: 0.6 },
+        Form::NearRest { d: 0.4 },
+        Form::Slipping { s: 0.3 },
+    ];
+    let places = [(Site::Top, Place::Top), (Site::Ground, Place::Ground), (Site::Crack, Place::Crack)];
+    for (form, (site, place)) in forms.iter().flat_map(|form| places.map(|place| (*form, place))) {
+        let atom = Atom { site, form, size: 400.0, reach: [0.05, 0.2] };
+        let parameters =
+            atom.parameters().into_iter().map(|(name, value, unit)| Parameter::new(name, value, &unit));
+        let formula = Formula::parse(&atom.formula(), place, &parameters.collect::<Vec<_>>());
+        let formula = formula.unwrap_or_else(|e| panic!("{atom:?}: {e}"));
+        for motion in [[0.03, -0.1], [-0.02, 0.15], [0.01, 0.02], [-0.045, -0.19]] {
+            let [own, written] = [atom.force(motion), formula.value([motion[0], motion[1], 0.0])];
+            // Two ways to the same number, of a few roundings each.
+            assert!((own - written).abs() < 1e-9, "{formula} at {motion:?}: {written} for {own}");
+        }
     }
 }
 

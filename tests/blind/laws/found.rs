@@ -1,7 +1,7 @@
 //! The formulas of an answer, held against what is hidden: by how they are written, and by the force that they are.
 
 use mrbd_formula::{Formula, Parameter, Place};
-use mrbd_lab::diagnose::answer::{FoundEffect, Summary};
+use mrbd_lab::diagnose::answer::{ForceCurve, FoundEffect, Summary};
 use serde_json::Value;
 
 use super::super::score::reading::{list, text, texts};
@@ -35,6 +35,40 @@ pub fn function_error(answer: &Value, diagnosis: &Summary, points: &[Excited]) -
     let off = points.iter().map(|point| (found(point) - point[2]).powi(2)).sum::<f64>();
     let all = points.iter().map(|[.., force]| force.powi(2)).sum::<f64>();
     (all > 0.0).then(|| (off / all).sqrt())
+}
+
+/// Of a force without a formula, over what the tests held out excited inside its range: the root mean square by which it is
+/// off over that of the true force, and the share of points whose force the 90 % band holds. `None` for another answer.
+pub fn curve_error(answer: &Value, diagnosis: &Summary, points: &[Excited]) -> Option<(f64, f64)> {
+    let [by_x, by_v] = &diagnosis.curves[..] else { return None };
+    if text(answer, "/effects/0/place") != "top" {
+        return None;
+    }
+    let within = |[low, high]: [f64; 2], x: f64| low <= x && x <= high;
+    let inside = points.iter().filter(|[x, v, _]| within(by_x.range, *x) && within(by_v.range, *v));
+    let softer = softer(answer, diagnosis)?;
+    let apart = |[x, v, force]: &Excited| {
+        let [a, b] = [told(by_x, *x), told(by_v, *v)];
+        // Bands of both curves as if they erred apart.
+        (a[0] + b[0] + softer * x - force, a[1].hypot(b[1]), *force)
+    };
+    let all = inside.map(apart).collect::<Vec<_>>();
+    let off = all.iter().map(|(off, ..)| off * off).sum::<f64>();
+    let size = all.iter().map(|(.., force)| force * force).sum::<f64>();
+    let held = all.iter().filter(|(off, half, _)| off.abs() <= *half).count();
+    (size > 0.0).then(|| ((off / size).sqrt(), held as f64 / all.len() as f64))
+}
+
+/// Force of a curve and half the width of its band, straight between knots and nothing at rest.
+fn told(curve: &ForceCurve, x: f64) -> [f64; 2] {
+    let half = curve.interval_n.iter().map(|[low, high]| 0.5 * (high - low));
+    let knots = curve.at.iter().zip(&curve.force_n).zip(half).map(|((at, force), half)| (*at, *force, half));
+    let mut knots = knots.chain([(0.0, 0.0, 0.0)]).collect::<Vec<_>>();
+    knots.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let next = knots.iter().position(|knot| x <= knot.0).unwrap_or(knots.len() - 1).max(1);
+    let (a, b) = (knots[next - 1], knots[next]);
+    let share = (x - a.0) / (b.0 - a.0);
+    [a.1 + share * (b.1 - a.1), a.2 + share * (b.2 - a.2)]
 }
 
 /// By how much the floor's spring of the answer is softer than the true one, N/m.

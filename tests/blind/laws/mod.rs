@@ -11,7 +11,7 @@
 pub mod atom;
 pub mod draw;
 pub mod excited;
-mod found;
+pub mod found;
 pub mod row;
 pub mod targets;
 

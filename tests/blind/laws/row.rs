@@ -10,7 +10,7 @@ use super::super::diagnose::Outcome;
 use super::super::score::reading::{json, list, number, text, texts};
 use super::super::score::recorded::Recorded;
 use super::super::score::row::held_out;
-use super::found::{Excited, function_error, is_spelled_as, number_errors};
+use super::found::{Excited, curve_error, function_error, is_spelled_as, number_errors};
 
 /// A force that is off by less than this share is the right function.
 const RIGHT_FUNCTION: f64 = 0.1;
@@ -47,6 +47,9 @@ pub struct LawRow {
     pub function_error_held_out: Option<f64>,
     /// How far each number is off, and whether its interval holds the truth.
     pub numbers: Vec<(f64, bool)>,
+    /// Of a force without a formula: see `found::curve_error`.
+    #[serde(default)]
+    pub curve: Option<(f64, f64)>,
     /// What speaks against the wall with its own numbers fitted, in natural logarithms of likelihood.
     pub against_recalibrated: Option<f64>,
     /// Windowed error of the held-out test over the noise, before and after.
@@ -115,6 +118,7 @@ impl LawRow {
             function_error: error("fit"),
             function_error_held_out: error("held_out"),
             numbers: if has_formula { number_errors(answer, effects) } else { Vec::new() },
+            curve: diagnosis.and_then(|d| curve_error(answer, d, &excited(answer, "held_out"))),
             against_recalibrated: diagnosis.map(|d| d.against.recalibrated),
             before: diagnosis.and_then(|d| held_out(d, |error| error.before)),
             after: diagnosis.and_then(|d| held_out(d, |error| error.after)),

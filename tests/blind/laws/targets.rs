@@ -55,6 +55,15 @@ pub fn table(rows: &[LawRow]) -> String {
     add("outside the grammar: accepted, and off by more than 10 %", "≤ 10 %", told(&outside, LawRow::wrong));
     let accepted = rows.iter().filter(|row| row.accepts()).collect::<Vec<_>>();
     add("accepted formulas that are another force", "≤ 5 %", told(&accepted, LawRow::wrong));
+    let curves = rows.iter().filter_map(|row| row.curve).collect::<Vec<_>>();
+    let percent = |value: Option<f64>| value.map_or("none".to_owned(), |v| format!("{:.1} %", 100.0 * v));
+    let [off, held] = [median(curves.iter().map(|c| c.0)), median(curves.iter().map(|c| c.1))].map(percent);
+    add(
+        "a force without a formula, held out: median error",
+        "≤ 3 %",
+        format!("{off}, {} cases", curves.len()),
+    );
+    add("– points that its 90 % band holds, median", "85 to 95 %", held);
     let numbers = rows.iter().flat_map(|row| &row.numbers).collect::<Vec<_>>();
     let error = median(numbers.iter().map(|(error, _)| *error));
     let error = error.map_or("none".into(), |e| format!("{:.1} %, {} numbers", 100.0 * e, numbers.len()));

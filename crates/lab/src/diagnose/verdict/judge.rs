@@ -1,8 +1,6 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
-use super::worth_naming::could_show;
-use super::worth_naming::place;
-use super::worth_naming::worth_two;
+use super::worth_naming::{could_show, leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
 use super::{name_of_number, names};
 use crate::Progress;
@@ -145,8 +143,31 @@ impl<P: Progress> Gap<'_, P> {
         if other_law.speaks() {
             return self.placed(Some(other_law), tried);
         }
+        let better = self.better_formula(&answer.after, &tried);
         let tried = self.trials.ordered(tried);
-        Found { other_law: Some(other_law), ..self.found(answer, tried) }
+        match better {
+            Some((discovered, formula)) => {
+                let other_law = Some(other_law);
+                Found { discovered: Some(discovered), other_law, ..self.found(formula, tried) }
+            }
+            None => Found { other_law: Some(other_law), ..self.found(answer, tried) },
+        }
+    }
+
+    /// A law outside the catalogue that leaves noise where a name leaves more, and is worth as much beside it as a second
+    /// effect must be: the name only imitates it.
+    fn better_formula(
+        &self,
+        named: &FittedHypothesis,
+        tried: &[FittedHypothesis],
+    ) -> Option<(Discovered, Answer)> {
+        if leaves_noise(named) {
+            return None;
+        }
+        let discovered = self.discovered(tried)?;
+        let formula = self.formula(&discovered)?;
+        let better = leaves_noise(&formula.after) && worth_two(&self.trials.data, named, &formula.after);
+        better.then_some((discovered, formula))
     }
 
     /// The better of the answer among single effects and that among pairs, and everything tried.
