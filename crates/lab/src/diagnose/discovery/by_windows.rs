@@ -11,7 +11,7 @@ use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    FittedHypothesis, Trials, against, closes, does_something, refit, with_values,
+    FittedHypothesis, Trials, against, closes, does_something, refit, shared_states, with_values,
 };
 use crate::limits::{
     CURVE_SHRINKS, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS,
@@ -162,7 +162,9 @@ impl<P: Progress> Trials<'_, P> {
             let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
             let own = from.fit.values.iter().take(h.nuisances).copied();
             let values = own.chain(law.values()).collect::<Vec<_>>();
+            // Near impacts that the noise decides a fit may end in another valley than the one it set out from.
             let found = refit(&self.data, h, from, &values);
+            let found = found.map(|found| shared_states(&self.data, &found, &[from]));
             self.progress.advance(1);
             found
         };
