@@ -21,7 +21,7 @@ use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
 /// tries every effect of the catalogue (mrbd effects) and their pairs within
 /// what was known of the wall ([prior] of the experiment). Judged on tests with
 /// use = "hold-out". Answers none, recalibrated, named, class, formula,
-/// formula_class, place_only, unknown or no_power.
+/// formula_class, curve, place_only, unknown or no_power.
 ///
 /// Examples:
 ///   mrbd diagnose experiment.toml --out diagnosed
@@ -100,8 +100,14 @@ fn own_in_words(own: &OwnHypothesis) -> String {
     }
 }
 
-/// An effect and its place, and a line for each of its numbers.
+/// An effect and its place, and a line for each of its numbers; those of curves stand in the files.
 fn effect_in_words(effect: &FoundEffect) -> Vec<String> {
+    if effect.formula.is_some() && effect.name.is_none() {
+        return vec![format!(
+            "  a force without a formula at {}, by displacement and velocity",
+            effect.place
+        )];
+    }
     let name = effect.formula.as_deref().or(effect.name.as_deref()).unwrap_or("a law outside the catalogue");
     let mut lines = vec![format!("  {name} at {}", effect.place)];
     lines.extend(numbers_of(effect).iter().map(|number| format!("    {number}")));

@@ -13,6 +13,7 @@ mod calibrate;
 mod cases;
 mod compliant;
 mod diagnose;
+mod laws;
 mod score;
 mod twins;
 
@@ -30,6 +31,9 @@ struct Options {
     /// Name of the set: `tune` to tune on, `report` to report; any other name is another set.
     #[arg(long, default_value = "tune")]
     set: String,
+    /// Cases of laws that no catalogue has, told as formulas.
+    #[arg(long)]
+    laws: bool,
     /// How many cases.
     #[arg(long, default_value_t = 40)]
     cases: u64,
@@ -76,13 +80,11 @@ fn main() -> ExitCode {
 
 fn go(options: &Options) -> Result<(), String> {
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("outputs/blind").join(&options.set));
-    let drawn = (options.first..options.first + options.cases).map(|n| cases::draw::draw(&options.set, n));
     let only = |kind: &cases::kind::Kind| options.only.as_ref().is_none_or(|part| kind.name().contains(part));
-    let recorded =
-        options.recorded.as_ref().map(|path| score::recorded::load(path, &options.set)).transpose()?;
-    let asked = |row: &score::Row| (options.first..options.first + options.cases).contains(&row.number);
-    let recorded = recorded.unwrap_or_default().into_iter().filter(asked).collect::<Vec<_>>();
-    let is_new = |case: &cases::draw::Case| recorded.iter().all(|row| row.number != case.number);
+    let draw = if options.laws { laws::draw::draw } else { cases::draw::draw };
+    let drawn = options.numbers().map(|number| draw(&options.set, number));
+    let known = options.recorded_numbers()?;
+    let is_new = |case: &cases::draw::Case| !known.contains(&case.number);
     let chosen: Vec<cases::draw::Case> = drawn.filter(|case| only(&case.kind) && is_new(case)).collect();
     let folder = |case: &cases::draw::Case| out.join(format!("case_{:04}", case.number));
     if !options.score_only {
@@ -108,7 +110,32 @@ fn go(options: &Options) -> Result<(), String> {
         return Ok(());
     }
     let folders: Vec<PathBuf> = chosen.iter().map(folder).collect();
-    score::report(&folders, recorded, &out)
+    if options.laws {
+        laws::targets::report(&folders, options.recorded()?, &out)
+    } else {
+        score::report(&folders, options.recorded()?, &out)
+    }
+}
+
+impl Options {
+    fn numbers(&self) -> std::ops::Range<u64> {
+        self.first..self.first + self.cases
+    }
+
+    /// Those asked for of the cases that were scored before.
+    fn recorded<R: score::recorded::Recorded>(&self) -> Result<Vec<R>, String> {
+        let rows =
+            self.recorded.as_ref().map(|path| score::recorded::load::<R>(path, &self.set)).transpose()?;
+        let asked = |row: &R| self.numbers().contains(&row.case().1);
+        Ok(rows.unwrap_or_default().into_iter().filter(asked).collect())
+    }
+
+    fn recorded_numbers(&self) -> Result<Vec<u64>, String> {
+        if self.laws {
+            return Ok(self.recorded::<laws::LawRow>()?.iter().map(|row| row.number).collect());
+        }
+        Ok(self.recorded::<score::Row>()?.iter().map(|row| row.number).collect())
+    }
 }
 
 /// Makes a case unless it is there, and diagnoses it if there is a program to.

@@ -10,12 +10,16 @@ mod compliant;
 #[path = "../blind/diagnose.rs"]
 mod diagnose;
 #[allow(dead_code)]
+#[path = "../blind/laws/mod.rs"]
+mod laws;
+#[allow(dead_code)]
 #[path = "../blind/score/mod.rs"]
 mod score;
 #[allow(dead_code)]
 #[path = "../blind/twins/mod.rs"]
 mod twins;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use cases::draw::{Case, Simulator, of_kind};
@@ -23,10 +27,14 @@ use cases::hidden::{Hidden, Joint};
 use cases::kind::Kind;
 use cases::walls::WallNumbers;
 use compliant::GroundMotion;
+use laws::atom::{Atom, Form, Site};
+use laws::found::{is_spelled_as, number_errors};
 use mrbd_files::load_wall;
+use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
 use mrbd_lab::calibrate::Experiment;
+use mrbd_lab::diagnose::answer::FoundEffect;
 
 const STEP_S: f64 = 0.005;
 const TAIL_S: f64 = 1.0;
@@ -203,6 +211,115 @@ fn analytic_a_set_holds_the_promised_shares() {
     }
 }
 
+/// Both simulators on a law that no catalogue has.
+#[test]
+fn analytic_drawn_laws_mean_the_same_in_both_simulators() {
+    let record = sine(1.4, 0.8);
+    let still = vec![0.0; record.len()];
+    let reach = [0.05, 0.16];
+    let [soft, stiff] = [37_000.0, 150_000.0];
+    let top = |form| Atom { site: Site::Top, form, size: 600.0, reach };
+    let joint = |site, form| Atom { site, form, size: 900.0, reach: [0.0125, 0.04] };
+    let laws = [
+        (soft, top(Form::Spring { n: 1.7 })),
+        (soft, top(Form::Stop { side: -1.0, g: 0.3, n: 1.4 })),
+        (soft, top(Form::DeadZone { g: 0.3, n: 1.0 })),
+        (soft, top(Form::Saturation { d: 0.2 })),
+        (soft, top(Form::Drag { n: 0.5 })),
+        (soft, top(Form::Opening { p: 1.3, n: 0.8 })),
+        (soft, top(Form::DragSaturation { s: 0.3 })),
+        (soft, top(Form::OneWay { side: 1.0, n: 2.0 })),
+        (soft, top(Form::Snapping { d: 0.3 })),
+        (soft, top(Form::Hardening { d: 0.6 })),
+        (soft, top(Form::NearRest { d: 0.4 })),
+        (soft, top(Form::Slipping { s: 0.3 })),
+        (soft, joint(Site::Ground, Form::Drag { n: 2.0 })),
+        (stiff, joint(Site::Crack, Form::Spring { n: 2.0 })),
+    ];
+    for (stiffness_n_per_m, law) in laws {
+        let wall = plastic(WallNumbers { stiffness_n_per_m, ..WallNumbers::table() });
+        let without = own(&wall.to_toml(&[]), &record, &still);
+        let case = case(wall, vec![Hidden::Law(law)]);
+        let found = difference(&case, &record, 0.0);
+        let with = own(&cases::own_wall::true_wall(&case), &record, &still);
+        let pairs = with.iter().flatten().zip(without.iter().flatten());
+        let shows = pairs.fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()));
+        eprintln!("{law:?}: {found:.4}, shows {shows:.4} rad");
+        assert!(found < AGREE, "{law:?}: {found}");
+        assert!(shows > 5e-4, "{law:?}: shows only {shows} rad");
+    }
+}
+
+/// An answer of one formula at the top.
+fn answered(formula: &str, parameters: &[(&str, f64, &str)]) -> FoundEffect {
+    let numbers =
+        parameters.iter().map(|(name, value, _)| ((*name).to_owned(), *value)).collect::<BTreeMap<_, _>>();
+    let units = parameters.iter().map(|(name, _, unit)| (*name, *unit)).collect::<BTreeMap<_, _>>();
+    let interval = numbers.iter().map(|(name, x)| (name, [0.9 * x, 1.02 * x])).collect::<BTreeMap<_, _>>();
+    serde_json::from_value(serde_json::json!({
+        "kind": "formula", "name": "formula", "formula": formula, "place": "top",
+        "parameters": numbers, "interval": interval, "units": units,
+    }))
+    .expect("an effect")
+}
+
+#[test]
+fn analytic_a_formula_is_known_by_its_spelling_and_its_numbers_are_held_against_the_truth() {
+    let reach = [0.05, 0.2];
+    let drag = Atom { site: Site::Top, form: Form::Drag { n: 2.0 }, size: 400.0, reach };
+    let stop = Atom { site: Site::Top, form: Form::Stop { side: -1.0, g: 0.4, n: 1.0 }, size: 300.0, reach };
+    let truth =
+        |atoms: &[Atom]| serde_json::json!({ "effects": atoms.iter().map(Atom::told).collect::<Vec<_>>() });
+    // 400 N at 0.2 m/s.
+    let exact = answered("-c*v*abs(v)", &[("c", 10_100.0, "N*(s/m)**2")]);
+    let fitted = answered("-c*sign(v)*abs(v)**n", &[("c", 9000.0, "N*(s/m)**n"), ("n", 1.93, "")]);
+    let line = answered("-c*v", &[("c", 2000.0, "N*s/m")]);
+    for found in [&exact, &fitted] {
+        assert!(is_spelled_as(&truth(&[drag]), std::slice::from_ref(found)), "{found:?}");
+    }
+    assert!(!is_spelled_as(&truth(&[drag]), std::slice::from_ref(&line)));
+    assert!(!is_spelled_as(&truth(&[drag, stop]), std::slice::from_ref(&exact)));
+    let both = answered(
+        "-c_1*v*abs(v) + k_2*max(-x-g_2,0)",
+        &[("c_1", 1.0, ""), ("k_2", 1.0, ""), ("g_2", 1.0, "")],
+    );
+    assert!(is_spelled_as(&truth(&[stop, drag]), &[both]));
+    let numbers = number_errors(&truth(&[drag]), &[exact]);
+    // 1 % off, in an interval from 10 % below to 2 % above what was found.
+    assert!(matches!(numbers[..], [(error, true)] if (error - 0.01).abs() < 1e-12), "{numbers:?}");
+}
+
+#[test]
+fn analytic_every_drawn_law_is_a_formula_of_its_own_force() {
+    let forms = [
+        Form::Spring { n: 1.7 },
+        Form::Stop { side: 1.0, g: 0.3, n: 1.4 },
+        Form::DeadZone { g: 0.3, n: 1.4 },
+        Form::Saturation { d: 0.2 },
+        Form::Drag { n: 0.5 },
+        Form::Opening { p: 1.3, n: 0.8 },
+        Form::DragSaturation { s: 0.3 },
+        Form::OneWay { side: -1.0, n: 2.0 },
+        Form::Snapping { d: 0.3 },
+        Form::Hardening { d: 0.6 },
+        Form::NearRest { d: 0.4 },
+        Form::Slipping { s: 0.3 },
+    ];
+    let places = [(Site::Top, Place::Top), (Site::Ground, Place::Ground), (Site::Crack, Place::Crack)];
+    for (form, (site, place)) in forms.iter().flat_map(|form| places.map(|place| (*form, place))) {
+        let atom = Atom { site, form, size: 400.0, reach: [0.05, 0.2] };
+        let parameters =
+            atom.parameters().into_iter().map(|(name, value, unit)| Parameter::new(name, value, &unit));
+        let formula = Formula::parse(&atom.formula(), place, &parameters.collect::<Vec<_>>());
+        let formula = formula.unwrap_or_else(|e| panic!("{atom:?}: {e}"));
+        for motion in [[0.03, -0.1], [-0.02, 0.15], [0.01, 0.02], [-0.045, -0.19]] {
+            let [own, written] = [atom.force(motion), formula.value([motion[0], motion[1], 0.0])];
+            // Two ways to the same number, of a few roundings each.
+            assert!((own - written).abs() < 1e-9, "{formula} at {motion:?}: {written} for {own}");
+        }
+    }
+}
+
 /// Cases that were scored before: `make blind SET=fresh11` goes on from there.
 fn recorded() -> Vec<score::Row> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
@@ -239,6 +356,49 @@ fn regress_the_documentation_has_the_table_of_the_recorded_cases() {
     let text = std::fs::read_to_string(path).expect("the documentation");
     let table = score::targets::table(&recorded());
     assert!(text.contains(&table), "docs/diagnosis.md lacks the table of tests/blind/recorded:\n\n{table}");
+}
+
+/// Cases of laws that were scored before, by set: `make blind LAWS=1 SET=laws1` goes on from there.
+fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
+    score::recorded::load(&path, set).expect("the recorded cases")
+}
+
+/// Recorded sets of laws, in the order in which they were answered.
+const SETS_OF_LAWS: [&str; 1] = ["laws1"];
+
+#[test]
+fn regress_recorded_laws_are_what_is_drawn_under_their_numbers() {
+    for row in SETS_OF_LAWS.iter().flat_map(|set| recorded_laws(set)) {
+        let case = laws::draw::draw(&row.set, row.number);
+        let [group, simulator, prior] = [&case.kind.name(), case.simulator.name(), case.prior.name()];
+        assert_eq!([&row.group, &row.simulator, &row.prior], [group, simulator, prior], "{row:?}");
+        assert_eq!([row.noise_rad, row.size], [case.noise_rad, case.size], "{row:?}");
+        let told = case.hidden.iter().map(|hidden| laws::row::hidden(&hidden.told())).collect::<Vec<_>>();
+        assert_eq!(row.hidden, told, "{row:?}");
+    }
+}
+
+#[test]
+fn regress_recorded_laws_are_written_again_as_they_were() {
+    for set in SETS_OF_LAWS {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
+        let folder = tempfile::tempdir().expect("a folder");
+        let again = folder.path().join("cases.jsonl");
+        score::recorded::save(&again, &recorded_laws(set)).expect("written");
+        let [own, again] = [&path, &again].map(|path| std::fs::read_to_string(path).expect("cases"));
+        assert!(own == again, "recorded cases of {set} change when they are read and written");
+    }
+}
+
+#[test]
+fn regress_the_documentation_has_the_tables_of_the_recorded_laws() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/diagnosis.md");
+    let text = std::fs::read_to_string(path).expect("the documentation");
+    for set in SETS_OF_LAWS {
+        let table = laws::targets::table(&recorded_laws(set));
+        assert!(text.contains(&table), "docs/diagnosis.md lacks the table of {set}:\n\n{table}");
+    }
 }
 
 /// The set of twins by which calibrations were judged, and its record: `make blind-calibrations SET=twins1` goes on from there.

@@ -363,6 +363,14 @@ limits! {
     EXACT_WITHIN: f64 = 0.2, "";
     /// Largest difference of two forces over what was excited below which they are one law, over the largest force.
     SAME_FORCE: f64 = 0.02, "share";
+    /// Distance from nothing at which a curve of velocity feeds the wall.
+    FEEDS_SD: f64 = 3.0, "standard deviations";
+    /// Share of the squared error above noise that a force without a formula must take away in the tests fitted, and in those
+    /// held out.
+    CURVE_SHRINKS: f64 = 0.8, "share";
+    /// Share of the largest displacement below which a swing is small: laws are asked whether small and large swings predict each
+    /// other.
+    SMALL_SWING: f64 = 0.7, "share";
 }
 
 limits! {

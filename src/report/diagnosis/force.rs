@@ -18,6 +18,8 @@ pub(super) struct Law {
     /// Index into [`AGAINST`].
     pub(super) which: usize,
     pub(super) points: Vec<(f64, f64)>,
+    /// Abscissa and both ends of the 90 % interval, where it is told.
+    pub(super) band: Vec<(f64, f64, f64)>,
 }
 
 /// `force.parquet` and `laws.parquet`.
@@ -96,15 +98,21 @@ impl Points {
 }
 
 fn laws(path: &Path) -> Result<Vec<Law>> {
-    let columns = Columns::read(path, &["name", "against", "x", "force_n"])?;
+    let columns = Columns::read(path, &["name", "against", "x", "force_n", "force_low_n", "force_high_n"])?;
     let (names, against) = (columns.labels("name")?, columns.labels("against")?);
     let (x, force_n) = (columns.numbers("x")?, columns.numbers("force_n")?);
+    let (low_n, high_n) = (columns.numbers("force_low_n")?, columns.numbers("force_high_n")?);
     let mut laws: Vec<Law> = Vec::new();
     for k in 0..names.len() {
         let Some(which) = AGAINST.iter().position(|(name, _)| *name == against[k]) else { continue };
-        match laws.last_mut().filter(|law| law.name == names[k] && law.which == which) {
-            Some(law) => law.points.push((x[k], force_n[k])),
-            None => laws.push(Law { name: names[k].clone(), which, points: vec![(x[k], force_n[k])] }),
+        if !laws.last().is_some_and(|law| law.name == names[k] && law.which == which) {
+            laws.push(Law { name: names[k].clone(), which, points: Vec::new(), band: Vec::new() });
+        }
+        if let Some(law) = laws.last_mut() {
+            law.points.push((x[k], force_n[k]));
+            if low_n[k].is_finite() && high_n[k].is_finite() {
+                law.band.push((x[k], low_n[k], high_n[k]));
+            }
         }
     }
     Ok(laws)

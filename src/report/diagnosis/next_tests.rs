@@ -31,6 +31,7 @@ fn in_words(summary: &Summary) -> String {
         Verdict::Named => "Nothing else explains these tests; the next one should confirm the effect where it is largest, or at another size.",
         Verdict::Formula => "The formula holds over what these tests excited. The next one should confirm it beyond, at another amplitude: shapes that agree here part there.",
         Verdict::FormulaClass => "The formulas agree over what these tests excited. Another amplitude, larger or much smaller, parts them; a slow pull of the top parts springs from dampers.",
+        Verdict::Curve => "The curves hold over what these tests excited. A test at another amplitude says whether they go on, and a slow pull of the top gives the one of displacement directly.",
         Verdict::NoPower => "A test in which the wall rocks: stronger shaking, or a release.",
         Verdict::Class | Verdict::PlaceOnly | Verdict::Unknown => "No two hypotheses stand level, so none can be chosen to part them. The shape of the missing force says where to look: a test that visits the displacements or velocities where its points are few, or a slow pull of the top, measures it directly.",
     }

@@ -3,6 +3,7 @@
 use super::super::chart::{Axis, Colour, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Link, Section};
 use super::force::{AGAINST, Law, Points};
+use super::words::stability;
 use super::{AFTER, BEFORE, key};
 use crate::error::Result;
 use mrbd_lab::diagnose::answer::{ExplainedBy, Summary};
@@ -28,6 +29,7 @@ pub fn shape_section(points: &Points, summary: &Summary) -> Result<Section> {
         return Ok(section);
     }
     section.text.push(explained(summary));
+    section.text.extend(summary.stability.iter().map(stability));
     let names = points.law_names();
     let mut legend = vec![key("measured, wall as given", BEFORE, Mark::Circle)];
     if summary.has_updated_wall() {
@@ -39,7 +41,7 @@ pub fn shape_section(points: &Points, summary: &Summary) -> Result<Section> {
         title: "Force and motion of the top".into(),
         legend,
         panels: (0..AGAINST.len()).map(|which| points.shape(which, summary)).collect::<Result<_>>()?,
-        caption: "Force, displacement, velocity and acceleration are means over the same short stretches. Laws are those of single additions as they were fitted, without what the wall’s own numbers do beside them; a yielding spring is drawn as it is first loaded.".into(),
+        caption: "Force, displacement, velocity and acceleration are means over the same short stretches. Laws are those of single additions as they were fitted, without what the wall’s own numbers do beside them; a yielding spring is drawn as it is first loaded. A law outside the catalogue has its 90 % band; one that does nothing upright is drawn against velocity at half the largest displacement.".into(),
         links: vec![Link::to("force.parquet"), Link::to("laws.parquet")],
         ..Figure::default()
     });
@@ -67,7 +69,13 @@ impl Points {
         layers.push(dots(BEFORE, Mark::Circle, 3, &self.force_n));
         let names = self.law_names();
         let y = Axis::holding("missing force at the top N", self.force_n.iter().copied());
-        for Law { name, points, .. } in self.laws.iter().filter(|law| law.which == which) {
+        let own = || self.laws.iter().filter(|law| law.which == which);
+        layers.extend(own().filter(|law| !law.band.is_empty()).map(|law| Layer::Band {
+            colour: colour(&names, &law.name),
+            points:
+                law.band.iter().copied().filter(|(_, low, high)| y.holds(*low) && y.holds(*high)).collect(),
+        }));
+        for Law { name, points, .. } in own() {
             // A law may go far beyond what was measured.
             let inside = points.iter().map(|&(x, f)| (x, if y.holds(f) { f } else { f64::NAN }));
             layers.push(Layer::Line {

@@ -2,7 +2,9 @@
 
 use mrbd_lab::diagnose::Verdict;
 use mrbd_lab::diagnose::answer::{FittedNumber, FoundEffect, Summary};
+use mrbd_lab::diagnose::discovery::{Stability, UnseenGain};
 use mrbd_lab::diagnose::verdict::OtherLaw;
+use mrbd_lab::limits::SMALL_SWING;
 
 /// Standard deviations over the value itself beyond which the tests do not tell it.
 const NOT_TOLD: f64 = 100.0;
@@ -103,6 +105,10 @@ pub fn lead(summary: &Summary) -> String {
             summary.equivalent.join(", "),
             ranges(&summary.effects)
         ),
+        Verdict::Curve => format!(
+            "A curve: a force is missing at the top that neither the catalogue nor a formula holds for. It is told by displacement and by velocity, as far as the tests went ({}), and can be simulated there.",
+            ranges(&summary.effects)
+        ),
         Verdict::PlaceOnly => {
             let place = summary.place.as_deref().map_or("somewhere".to_owned(), at);
             let like = imitation(summary);
@@ -117,6 +123,32 @@ pub fn lead(summary: &Summary) -> String {
                 .to_owned()
         }
     }
+}
+
+/// How sure the form of a formula is.
+pub fn stability(found: &Stability) -> String {
+    let gain = |(judged, gain): (&str, Option<UnseenGain>)| {
+        let UnseenGain { unseen, seen } = gain?;
+        Some(format!(
+            "in {judged} it gains {unseen:.0} natural logarithms of likelihood over the wall alone, {seen:.0} where it was fitted to them too"
+        ))
+    };
+    let large =
+        format!("swings beyond {:.0} % of the largest, fitted to the smaller ones,", 100.0 * SMALL_SWING);
+    let judged = [
+        (large.as_str(), found.large_by_small),
+        ("the smaller ones, fitted to those,", found.small_by_large),
+    ];
+    let held_out = judged.into_iter().filter_map(gain).collect::<Vec<_>>();
+    let amplitudes = match held_out.is_empty() {
+        true => "The swings are too much alike to hold an amplitude out.".to_owned(),
+        false => format!("Held against amplitudes that it has not seen: {}.", held_out.join("; ")),
+    };
+    format!(
+        "The form of the law: of {} sets of swings drawn again, it or another of its class is as good as the best in {:.0} %. {amplitudes}",
+        found.draws,
+        100.0 * found.stable,
+    )
 }
 
 /// What was excited of the variables of formulas.

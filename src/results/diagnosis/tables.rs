@@ -247,7 +247,7 @@ static JUMPS: [Column<JumpRow>; 9] = [
 ];
 
 /// `laws.parquet`: what the best hypotheses add to the force at the top.
-static LAWS: [Column<LawPoint>; 4] = [
+static LAWS: [Column<LawPoint>; 6] = [
     Column::input("name", "", "hypothesis", Read::Text(|r| Some(r.name.as_str().into()))),
     Column::input(
         "against",
@@ -268,6 +268,13 @@ static LAWS: [Column<LawPoint>; 4] = [
         "force that the hypothesis adds at the top",
         Read::Number(|r| Some(r.force_n)),
     ),
+    Column::result(
+        "force_low_n",
+        "N",
+        "lower end of its 90 % interval, for a law outside the catalogue",
+        Read::Number(|r| r.interval_n.map(|[low, _]| low)),
+    ),
+    Column::result("force_high_n", "N", "upper end", Read::Number(|r| r.interval_n.map(|[_, high]| high))),
 ];
 
 /// `rivals.parquet`: every hypothesis that was tried.

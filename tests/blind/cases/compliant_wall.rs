@@ -2,6 +2,7 @@
 
 use super::super::compliant::wall::LooseMass;
 use super::super::compliant::{CompliantWall, TopLaw};
+use super::super::laws::atom::Site;
 use super::draw::Case;
 use super::hidden::Hidden;
 use super::walls::WallNumbers;
@@ -28,6 +29,7 @@ pub fn wall(numbers: &WallNumbers) -> CompliantWall {
         eccentricity_m: 0.0,
         top: vec![TopLaw::Spring { stiffness_n_per_m: numbers.stiffness_n_per_m, slack_m: 0.0 }],
         joint_damping_n_m_s: [0.0; 2],
+        joint_laws: [Vec::new(), Vec::new()],
         coefficients: numbers.coefficients,
         loose: None,
     }
@@ -66,6 +68,11 @@ fn add(wall: &mut CompliantWall, effect: &Hidden, numbers: &WallNumbers) {
         Hidden::Outside { law, rotation_rad, size } => {
             outside(wall, law, numbers, rotation_rad * numbers.height_m, size);
         }
+        Hidden::Law(atom) => match atom.site {
+            Site::Top => wall.top.push(TopLaw::Drawn(atom)),
+            Site::Ground => wall.joint_laws[0].push(atom),
+            Site::Crack => wall.joint_laws[1].push(atom),
+        },
         // These act on the ground motion and on what is read.
         Hidden::VerticalGroundMotion { .. }
         | Hidden::RecordGain { .. }

@@ -51,6 +51,8 @@ pub struct Case {
     pub hold_out_tests: usize,
     /// Largest rotation the tests are scaled for, rad.
     pub target_rad: f64,
+    /// That of the tests held out over it.
+    pub held_out_amplitude: f64,
 }
 
 /// Standard deviations of white noise, rad.
@@ -88,7 +90,7 @@ fn kind_of(set: &str, number: u64) -> Kind {
 }
 
 /// Noise, size and simulator of a case: the cases of a group go through all combinations, in an order of the set's own.
-fn combination(set: &str, group: &str, before: usize) -> (f64, f64, Simulator) {
+pub fn combination(set: &str, group: &str, before: usize) -> (f64, f64, Simulator) {
     let simulators = [Simulator::Own, Simulator::Compliant];
     let mut all: Vec<_> = NOISES_RAD
         .iter()
@@ -142,6 +144,7 @@ pub fn of_kind(set: &str, number: u64, kind: Kind, before: usize) -> Case {
         fit_tests,
         hold_out_tests,
         target_rad,
+        held_out_amplitude: 1.0,
     }
 }
 
@@ -149,7 +152,7 @@ pub fn of_kind(set: &str, number: u64, kind: Kind, before: usize) -> Case {
 ///
 /// With Table 2 a ground impact has another coefficient as soon as the crack is open, be it by 1e-8 rad. Instantaneous and
 /// compliant contact then part by as much as an effect would part them, and a case would hide that too.
-fn plastic(wall: WallNumbers) -> WallNumbers {
+pub fn plastic(wall: WallNumbers) -> WallNumbers {
     WallNumbers { coefficients: [1.0; 8], ..wall }
 }
 
@@ -168,7 +171,7 @@ fn prior(kind: Kind, rng: &mut ChaCha8Rng) -> Prior {
 }
 
 /// The wall within what is known of it: k_d off by its prior, at most twice; masses by theirs.
-fn scatter(described: &WallNumbers, prior: Prior, rng: &mut ChaCha8Rng) -> WallNumbers {
+pub fn scatter(described: &WallNumbers, prior: Prior, rng: &mut ChaCha8Rng) -> WallNumbers {
     let mut factor = |sd: f64| 1.0 + sd * rng.random_range(-1.0..1.0) * 3f64.sqrt();
     let k_d = factor(prior.stiffness());
     let m = factor(Prior::MASS);

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::super::laws::excited::excited;
 use super::draw::{Case, Prior};
 use super::kind::{Freedom, Kind};
 use super::tests::{STEP_S, Test, tests};
@@ -91,7 +92,9 @@ fn answer(case: &Case, tests: &[Test]) -> Value {
         // Within the scatter of the prior, recalibrating is as right as seeing nothing.
         Kind::Nothing => (json!(["none", "recalibrated", "no_power"]), json!([])),
         // Whether a formula is the right one is not told here.
-        Kind::Outside(_) => (json!(["place_only", "unknown", "formula", "formula_class"]), json!([])),
+        Kind::Outside(_) | Kind::Law(_) => {
+            (json!(["place_only", "unknown", "formula", "formula_class"]), json!([]))
+        }
         Kind::Lumped(Freedom::Nothing) | Kind::One(_) | Kind::Pair(..) => (json!("named"), json!([])),
         Kind::Lumped(_) => (json!(["class", "named"]), json!(["stiffness"])),
     };
@@ -103,6 +106,7 @@ fn answer(case: &Case, tests: &[Test]) -> Value {
         "place": hidden.first().map(|told| told["place"].clone()),
         "effects": hidden,
         "equivalent": equivalent,
+        "excited": excited(case, tests),
         "case": {
             "set": case.set,
             "number": case.number,
@@ -115,6 +119,7 @@ fn answer(case: &Case, tests: &[Test]) -> Value {
             "hold_out_tests": case.hold_out_tests,
             "stiffness_over_described": case.actual.stiffness_n_per_m / case.described.stiffness_n_per_m,
             "mass_over_described": case.actual.mass_kg / case.described.mass_kg,
+            "stiffness_n_per_m": case.actual.stiffness_n_per_m,
             "largest_rotation_rad": tests.iter().map(|test| test.largest_rad).collect::<Vec<_>>(),
         },
     })

@@ -7,6 +7,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
 
+use super::super::laws::atom::Atom;
 use super::walls::WallNumbers;
 
 /// A joint, as wall files name it.
@@ -79,6 +80,8 @@ pub enum Hidden {
         rotation_rad: f64,
         size: f64,
     },
+    /// A law that is told as a formula.
+    Law(Atom),
 }
 
 /// What sizes are measured by.
@@ -165,6 +168,7 @@ impl Hidden {
                 "ground motion"
             }
             Hidden::SensorGain { .. } | Hidden::SensorOffset { .. } => "sensor",
+            Hidden::Law(atom) => atom.site.name(),
             _ => "top",
         }
     }
@@ -196,6 +200,7 @@ impl Hidden {
             Hidden::SensorGain { gain, .. } => ("sensor_gain", Some(("gain", gain))),
             Hidden::SensorOffset { offset_rad, .. } => ("sensor_offset", Some(("offset_rad", offset_rad))),
             Hidden::Outside { law, .. } => (law, None),
+            Hidden::Law(_) => ("formula", None),
         }
     }
 
@@ -215,6 +220,9 @@ impl Hidden {
 
     /// As the answer tells it.
     pub fn told(&self) -> Value {
+        if let Hidden::Law(atom) = self {
+            return atom.told();
+        }
         let (kind, number) = self.kind_and_value();
         let name = self.choice().map_or(kind.to_owned(), |choice| format!("{kind}.{choice}"));
         let (parameter, value) = number.unzip();

@@ -11,6 +11,8 @@ pub enum Kind {
     Pair(&'static str, &'static str),
     /// A law that no catalogue entry describes.
     Outside(&'static str),
+    /// A law drawn as a formula, of this group.
+    Law(&'static str),
     /// The paper's own case, the carriage lumped into the top mass; k_d known, k_d free, k_d and C_l free.
     Lumped(Freedom),
 }
@@ -72,6 +74,7 @@ impl Kind {
             Kind::One(effect) => effect.into(),
             Kind::Pair(a, b) => format!("{a} + {b}"),
             Kind::Outside(law) => format!("outside: {law}"),
+            Kind::Law(group) => group.into(),
             Kind::Lumped(Freedom::Nothing) => "lumped carriage, k_d known".into(),
             Kind::Lumped(Freedom::Stiffness) => "lumped carriage, k_d free".into(),
             Kind::Lumped(Freedom::StiffnessAndImpacts) => "lumped carriage, k_d and C_l free".into(),
@@ -90,7 +93,7 @@ impl Kind {
     /// The effects of the catalogue that are hidden.
     pub fn effects(self) -> Vec<&'static str> {
         match self {
-            Kind::Nothing | Kind::Outside(_) => vec![],
+            Kind::Nothing | Kind::Outside(_) | Kind::Law(_) => vec![],
             Kind::One(effect) => vec![effect],
             Kind::Pair(a, b) => vec![a, b],
             Kind::Lumped(_) => vec!["carriage_mass"],

@@ -49,6 +49,7 @@ pub fn true_wall(case: &Case) -> String {
             | Hidden::RecordLag { .. }
             | Hidden::SensorGain { .. }
             | Hidden::SensorOffset { .. } => {}
+            Hidden::Law(atom) => effects.push(atom.effect()),
             Hidden::Outside { .. } => unreachable!("drawn for the other simulator"),
         }
     }

@@ -23,12 +23,16 @@ const TAIL_S: f64 = 3.0;
 const ROUNDS: usize = 12;
 /// The largest rotation of the wall that is measured, over the target: what a test may have.
 const ROCKS_BETWEEN: [f64; 2] = [0.3, 2.0];
+/// The same for a test that is held out at an amplitude of its own.
+const ANOTHER_AMPLITUDE: [f64; 2] = [0.75, 1.4];
 
 /// One test: the record as the experiment has it, and the rotations as they are read.
 #[derive(Debug, Clone)]
 pub struct Test {
     pub record_m_s2: Vec<f64>,
     pub measured_rad: Vec<[f64; 2]>,
+    /// The same before anything is read.
+    pub true_rad: Vec<[f64; 2]>,
     /// Largest rotation, rad.
     pub largest_rad: f64,
 }
@@ -69,9 +73,12 @@ pub fn tests(case: &Case, motions: &[Vec<f64>], folder: &Path) -> Result<Vec<Tes
     // Some motions let a wall stand still or throw it down, and nothing between: then the next one is taken.
     for k in 0..3 * motions.len() {
         let polarity = if rng.random_range(0.0..1.0) < 0.5 { -1.0 } else { 1.0 };
-        let target_rad = case.target_rad * rng.random_range(0.7..1.3);
+        let is_held_out = tests.len() >= case.fit_tests;
+        let amplitude = if is_held_out { case.held_out_amplitude } else { 1.0 };
+        let target_rad = case.target_rad * amplitude * rng.random_range(0.7..1.3);
         let motion: Vec<f64> = motions[order[k % order.len()]].iter().map(|a| a * polarity).collect();
-        tests.extend(bench.test(&motion, target_rad, k as u64));
+        let between = if amplitude == 1.0 { ROCKS_BETWEEN } else { ANOTHER_AMPLITUDE };
+        tests.extend(bench.test(&motion, target_rad, between, k as u64));
         if tests.len() == count {
             return Ok(tests);
         }
@@ -96,20 +103,20 @@ struct Bench<'a> {
 
 impl Bench<'_> {
     /// A test by this motion; none if no scale makes the wall rock and stand.
-    fn test(&self, motion: &[f64], target_rad: f64, k: u64) -> Option<Test> {
+    fn test(&self, motion: &[f64], target_rad: f64, between: [f64; 2], k: u64) -> Option<Test> {
         let mut scale = self.scale(motion, target_rad);
         let (mut too_small, mut too_large) = (None, None);
         for _ in 0..ROUNDS {
             let record_m_s2: Vec<f64> = motion.iter().map(|a| (a * scale * 1e6).round() / 1e6).collect();
             let theta = self.shaken(&record_m_s2);
             let largest_rad = theta.iter().flatten().fold(0.0, |largest: f64, t| largest.max(t.abs()));
-            if largest_rad > ROCKS_BETWEEN[1] * target_rad {
+            if largest_rad > between[1] * target_rad {
                 too_large = Some(scale);
-            } else if largest_rad < ROCKS_BETWEEN[0] * target_rad {
+            } else if largest_rad < between[0] * target_rad {
                 too_small = Some(scale);
             } else {
-                let measured_rad = self.read(theta, k);
-                return Some(Test { record_m_s2, measured_rad, largest_rad });
+                let measured_rad = self.read(theta.clone(), k);
+                return Some(Test { record_m_s2, measured_rad, true_rad: theta, largest_rad });
             }
             scale = match (too_small, too_large) {
                 (Some(low), Some(high)) => f64::sqrt(low * high),

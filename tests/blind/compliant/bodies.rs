@@ -127,8 +127,11 @@ impl Bodies {
             push(&mut force, body, [0.0; 2], [m * fall[0], m * fall[1]]);
         }
         let [c_ground, c_crack] = wall.joint_damping_n_m_s;
-        let at_crack = c_crack * (v[5] - v[2]);
-        force[2] += at_crack - c_ground * v[2];
+        let turned = [[q[2], v[2]], [q[5] - q[2], v[5] - v[2]]];
+        let by_law =
+            |joint: usize| wall.joint_laws[joint].iter().map(|law| law.force(turned[joint])).sum::<f64>();
+        let at_crack = c_crack * turned[1][1] - by_law(1);
+        force[2] += at_crack - c_ground * v[2] + by_law(0);
         force[5] -= at_crack;
 
         let top = self.top(&pose);

@@ -1,5 +1,7 @@
 //! Laws of the horizontal force between the top of the wall and the floor.
 
+use super::super::laws::atom::Atom;
+
 /// One law; forces in N on the top, from its displacement in m and velocity in m/s relative to the ground.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TopLaw {
@@ -23,6 +25,8 @@ pub enum TopLaw {
     Degrading { stiffness_n_per_m: f64, scale_m: f64, largest_m: f64 },
     /// F = -c |x| ẋ: damping that grows with displacement.
     DisplacementDamping { coefficient_n_s_per_m2: f64 },
+    /// A law drawn as a formula.
+    Drawn(Atom),
 }
 
 impl TopLaw {
@@ -53,6 +57,7 @@ impl TopLaw {
                 -k * x_m / (1.0 + largest_m.max(x_m.abs()) / scale_m)
             }
             Self::DisplacementDamping { coefficient_n_s_per_m2: c } => -c * x_m.abs() * v_m_s,
+            Self::Drawn(atom) => atom.force([x_m, v_m_s]),
         }
     }
 

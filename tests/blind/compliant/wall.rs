@@ -1,5 +1,6 @@
 //! The wall as bodies that are free in the plane, and all that acts on it.
 
+use super::super::laws::atom::Atom;
 use super::top::TopLaw;
 
 /// Left and right corner of a joint.
@@ -29,6 +30,8 @@ pub struct CompliantWall {
     pub top: Vec<TopLaw>,
     /// Rotational dampers at the joints, N m s/rad.
     pub joint_damping_n_m_s: [f64; 2],
+    /// Laws of the moments across the joints.
+    pub joint_laws: [Vec<Atom>; 2],
     /// C_1 … C_8, applied by the law `contact`.
     pub coefficients: [f64; 8],
     /// A mass that lies loose on the top.

@@ -5,7 +5,7 @@ mod confusion;
 pub mod counted;
 pub mod reading;
 pub mod recorded;
-mod row;
+pub mod row;
 pub mod targets;
 
 use std::fs::File;

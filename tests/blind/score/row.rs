@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use super::super::diagnose::Outcome;
 use super::reading::{json, list, median, number, text, texts};
+use super::recorded::Recorded;
 use mrbd_lab::diagnose::answer::{BeforeAfter, FoundEffect, Summary};
 use mrbd_lab::experiment_file::Purpose;
 
@@ -44,6 +45,20 @@ pub struct Row {
     /// The line that it was read from, if it was recorded before: numbers that are read and written again differ in the last bit.
     #[serde(skip)]
     pub recorded_as: Option<String>,
+}
+
+impl Recorded for Row {
+    fn case(&self) -> (&str, u64) {
+        (&self.set, self.number)
+    }
+
+    fn line(&self) -> Option<&str> {
+        self.recorded_as.as_deref()
+    }
+
+    fn read_from(self, line: &str) -> Self {
+        Self { recorded_as: Some(line.to_owned()), ..self }
+    }
 }
 
 impl Row {
@@ -193,7 +208,7 @@ fn over_detectable(answer: &Value, index: usize, diagnosis: &Summary) -> Option<
 }
 
 /// The median over held-out tests of the windowed error over the noise floor.
-fn held_out(diagnosis: &Summary, when: fn(BeforeAfter<Option<f64>>) -> Option<f64>) -> Option<f64> {
+pub fn held_out(diagnosis: &Summary, when: fn(BeforeAfter<Option<f64>>) -> Option<f64>) -> Option<f64> {
     let tests = diagnosis.tests.iter().filter(|test| test.purpose == Purpose::HoldOut);
     median(tests.filter_map(|test| Some(when(test.windowed_error)? / test.noise_floor)))
 }

@@ -76,7 +76,7 @@ pub fn table(rows: &[Row]) -> String {
     printed(&lines)
 }
 
-/// Lines of a table as Markdown, columns as wide as they need.
+/// Figure, target and what was reached as a table in Markdown.
 pub fn printed(lines: &[[String; 3]]) -> String {
     let head = ["figure", "target", "reached (95 % interval), cases"].map(str::to_owned);
     let width = |k: usize| lines.iter().chain([&head]).map(|line| line[k].chars().count()).max().unwrap_or(0);

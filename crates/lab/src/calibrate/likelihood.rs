@@ -232,7 +232,8 @@ impl Likelihood<'_> {
         let none: [Window; 0] = [];
         let data = Data { fit: problem, held_out: self.problem(&none) };
         let Spread { covariance, scatter } = spread(&data, &tried)?;
-        let variances = (0..scatter.len()).map(|i| covariance[(i, i)] + scatter[i]).collect::<Vec<_>>();
+        let variances =
+            (0..scatter.nrows()).map(|i| covariance[(i, i)] + scatter[(i, i)]).collect::<Vec<_>>();
         let whole = windows.iter().all(|window| window.measured.is_empty());
         let over = if whole { Over::WholeTests } else { Over::Windows };
         let found = self.found(over, &tried, &variances, &covariance);

@@ -18,27 +18,27 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Half width of a 90 % interval of a normal variable, in standard deviations.
-const NINETY_PERCENT: f64 = 1.644_853_626_951_472_2;
+pub const NINETY_PERCENT: f64 = 1.644_853_626_951_472_2;
 
 /// 90 % intervals of the values of a fitted hypothesis; all that a number may be where the tests do not tell.
 ///
 /// From the curvature of the loss at the fit, and from how far single tests move it (an infinitesimal jackknife over
 /// tests). The curvature alone does not know that the windows of a test err together.
 pub fn intervals(data: &Data, tried: &FittedHypothesis) -> Vec<[f64; 2]> {
-    let variance = variances(data, tried);
+    let covariance = covariance(data, tried);
     let interval = |(i, value): (usize, &f64)| {
-        let half = NINETY_PERCENT * variance.as_ref().map_or(f64::INFINITY, |v| v[i].sqrt());
+        let half = NINETY_PERCENT * covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].sqrt());
         let unknown = &tried.hypothesis.unknowns[i];
         [(value - half).max(unknown.lower), (value + half).min(unknown.upper)]
     };
     tried.fit.values.iter().enumerate().map(interval).collect()
 }
 
-/// Variances of the values of a fitted hypothesis. `None` where the curvature cannot be told; infinite where a number
-/// leaves no trace.
-pub fn variances(data: &Data, tried: &FittedHypothesis) -> Option<Vec<f64>> {
+/// Covariance of the values of a fitted hypothesis; see [`intervals`]. `None` where the curvature cannot be told; variances
+/// are infinite where a number leaves no trace.
+pub fn covariance(data: &Data, tried: &FittedHypothesis) -> Option<DMatrix<f64>> {
     let Spread { covariance, scatter } = spread(data, tried)?;
-    Some((0..scatter.len()).map(|i| covariance[(i, i)] + scatter[i]).collect())
+    Some(covariance + scatter)
 }
 
 /// How far the values of a fitted hypothesis may be off.
@@ -46,15 +46,15 @@ pub fn variances(data: &Data, tried: &FittedHypothesis) -> Option<Vec<f64>> {
 pub struct Spread {
     /// From the curvature; infinite for numbers without a trace.
     pub covariance: DMatrix<f64>,
-    /// Variances over tests: how far single tests pull.
-    pub scatter: Vec<f64>,
+    /// Covariance over tests: how far single tests pull.
+    pub scatter: DMatrix<f64>,
 }
 
 /// How far the values of a fitted hypothesis may be off; `None` where the curvature cannot be told.
 pub fn spread(data: &Data, tried: &FittedHypothesis) -> Option<Spread> {
     let count = tried.fit.values.len();
     if count == 0 {
-        return Some(Spread { covariance: DMatrix::zeros(0, 0), scatter: Vec::new() });
+        return Some(Spread { covariance: DMatrix::zeros(0, 0), scatter: DMatrix::zeros(0, 0) });
     }
     let (slopes, _) = data.fit.slopes(&tried.hypothesis, &tried.fit, None)?;
     let mut curvature = DMatrix::zeros(count, count);
@@ -94,18 +94,17 @@ fn covariance_of(curvature: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(covariance)
 }
 
-/// Variances over tests: how far each would move the values by its own pull, beyond the mean of all; none of one test.
-fn scatter(covariance: &DMatrix<f64>, pulls: &[DVector<f64>]) -> Vec<f64> {
-    let n = pulls.len() as f64;
+/// Covariance over tests: how far each would move the values by its own pull, beyond the mean of all; none of one test.
+fn scatter(covariance: &DMatrix<f64>, pulls: &[DVector<f64>]) -> DMatrix<f64> {
+    let (n, count) = (pulls.len() as f64, covariance.nrows());
     if pulls.len() < 2 {
-        return vec![0.0; covariance.nrows()];
+        return DMatrix::zeros(count, count);
     }
     let mean = pulls.iter().fold(DVector::zeros(covariance.nrows()), |sum, pull| sum + pull) / n;
     // A number without a trace is not pulled.
     let known = covariance.map(|c| if c.is_finite() { c } else { 0.0 });
     let moves = pulls.iter().map(|pull| &known * (pull - &mean)).collect::<Vec<_>>();
-    let variance = |i: usize| n / (n - 1.0) * moves.iter().map(|m| m[i] * m[i]).sum::<f64>();
-    (0..covariance.nrows()).map(variance).collect()
+    DMatrix::from_fn(count, count, |i, k| n / (n - 1.0) * moves.iter().map(|m| m[i] * m[k]).sum::<f64>())
 }
 
 /// Draws beside the fitted numbers.
@@ -283,14 +282,17 @@ mod tests {
         let covariance = covariance_of(&DMatrix::from_element(1, 1, 4.0)).expect("a trace");
         let expected = residuals.iter().map(|r| r * r).sum::<f64>() / 12.0;
         assert!((covariance[(0, 0)] - 0.25).abs() < 1e-15);
-        assert!((scatter(&covariance, &pulls)[0] - expected).abs() < 1e-15);
+        assert!((scatter(&covariance, &pulls)[(0, 0)] - expected).abs() < 1e-15);
     }
 
     #[test]
     fn analytic_a_number_without_a_trace_is_not_known_and_two_with_one_trace_are_not_told_apart() {
         let one = covariance_of(&DMatrix::from_row_slice(2, 2, &[4.0, 0.0, 0.0, 0.0])).expect("a trace");
         assert!((one[(0, 0)] - 0.25).abs() < 1e-15 && one[(1, 1)] == f64::INFINITY);
-        assert_eq!(scatter(&one, &[[1.0, 0.0], [-1.0, 0.0]].map(|p| DVector::from_column_slice(&p)))[1], 0.0);
+        assert_eq!(
+            scatter(&one, &[[1.0, 0.0], [-1.0, 0.0]].map(|p| DVector::from_column_slice(&p)))[(1, 1)],
+            0.0
+        );
         assert!(covariance_of(&DMatrix::from_element(2, 2, 1.0)).is_none());
     }
 }

@@ -10,7 +10,9 @@ use super::rotations::AtTimes;
 use super::segments::{Segment, segments};
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::{Pair, State, Wall};
-use mrbd_kernel::simulate::{Accuracy, History, Outcome, Response, Shaking, Simulator, Start};
+use mrbd_kernel::simulate::{
+    Accuracy, History, Observer, Outcome, Response, Shaking, Simulator, Start, simulate_watched_side_by_side,
+};
 use mrbd_records::{Accelerogram, ReadOptions, read};
 use nalgebra::{DMatrix, DVector};
 
@@ -156,6 +158,46 @@ impl Test {
         self.simulate_below(wall, accuracy, f64::INFINITY)
     }
 
+    /// The same for several walls, whose runs go side by side: each is that of [`Test::simulate`] to the bit.
+    pub fn simulate_all(&self, walls: &[Wall], accuracy: Accuracy) -> Vec<Simulated> {
+        let [segment] = &self.segments[..] else {
+            return walls.iter().map(|wall| self.simulate(wall, accuracy)).collect();
+        };
+        let simulators =
+            walls.iter().map(|wall| self.simulator.with_wall(wall, accuracy)).collect::<Vec<_>>();
+        let compared = |wall: &Wall| {
+            let comparison = Comparison::new(&segment.samples, self.target.weights(), f64::INFINITY);
+            AtTimes(comparison.read_by(wall.reading()))
+        };
+        let mut comparisons = walls.iter().map(compared).collect::<Vec<_>>();
+        let mut waiting = simulators.iter().zip(&mut comparisons).enumerate();
+        let mut next = || {
+            let (k, (simulator, comparison)) = waiting.next()?;
+            let start = segment.start.unwrap_or_else(|| simulator.release());
+            let observer: &mut dyn Observer = comparison;
+            Some((k, simulator.watched_from(&start, segment.end_s, observer)))
+        };
+        let mut responses = vec![None; walls.len()];
+        simulate_watched_side_by_side(&mut next, &mut |k, response| responses[k] = Some(response));
+        let one = |(response, comparison): (Option<Response>, &AtTimes<Comparison>)| {
+            let mut simulated = Simulated::NOTHING;
+            if let Some(response) = response {
+                simulated.add(&response, &comparison.0.errors());
+            }
+            self.with_wme(simulated)
+        };
+        responses.into_iter().zip(&comparisons).map(one).collect()
+    }
+
+    /// With Eq. 8, where the run could be finished.
+    fn with_wme(&self, simulated: Simulated) -> Simulated {
+        if simulated.outcome == "failed" {
+            return simulated;
+        }
+        let wme = Some(self.target.wme(&simulated.errors)).filter(|wme| wme.is_finite());
+        Simulated { wme, ..simulated }
+    }
+
     /// The same with the signed error of every sample as it weighs in Eq. 8, θ_1 and θ_2 by turns.
     pub(crate) fn residuals(&self, wall: &Wall, accuracy: Accuracy) -> (Simulated, Vec<f64>) {
         let mut residuals = Vec::new();
@@ -177,14 +219,7 @@ impl Test {
     ) -> Simulated {
         let simulator = self.simulator.with_wall(wall, accuracy);
         let weights = self.target.weights();
-        let mut sum = Simulated {
-            wme: None,
-            outcome: "stood",
-            collapse_s: None,
-            transitions: [0; 8],
-            errors: Errors::NONE,
-            steps: 0,
-        };
+        let mut sum = Simulated::NOTHING;
         let mut wme = 0.0;
         for segment in &self.segments {
             let comparison = Comparison::new(&segment.samples, weights, most_wme - wme);
@@ -211,12 +246,21 @@ impl Test {
                 return sum;
             }
         }
-        sum.wme = Some(self.target.wme(&sum.errors)).filter(|wme| wme.is_finite());
-        sum
+        self.with_wme(sum)
     }
 }
 
 impl Simulated {
+    /// Before anything is simulated.
+    const NOTHING: Self = Self {
+        wme: None,
+        outcome: "stood",
+        collapse_s: None,
+        transitions: [0; 8],
+        errors: Errors::NONE,
+        steps: 0,
+    };
+
     fn add(&mut self, response: &Response, errors: &Errors) {
         match response.outcome {
             Outcome::Stood => {}

@@ -35,8 +35,14 @@ impl Findings<'_> {
             kind: KIND.to_owned(),
             verdict: found.verdict,
             place: found.place.or_else(own_place).map(str::to_owned),
-            effects: if has_formula { self.formulas(&found.after) } else { self.effects(has_names) },
+            effects: match found.verdict {
+                Verdict::Curve => self.curve_effects(),
+                _ if has_formula => self.formulas(&found.after),
+                _ => self.effects(has_names),
+            },
+            curves: self.force_curves(),
             equivalent_formulas: self.equivalent_formulas(),
+            stability: found.discovered.as_ref().and_then(|found| found.stability),
             equivalent: found.equivalent.clone(),
             wall: wall_fits(&found.after),
             tests: self.test_errors(physics),
@@ -50,7 +56,7 @@ impl Findings<'_> {
             },
             could_hide: self.could_hide(),
             confused: confused(&data, &found.recalibrated, &found.tried),
-            rivals: found.rivals(&data).into_iter().map(|tried| self.rival(tried)).collect(),
+            rivals: found.rivals(&data).into_par_iter().map(|tried| self.rival(tried)).collect(),
             hypotheses: self.own_hypotheses(),
             missing_force: force.summary(physics),
             next_tests: next_tests(self),
@@ -272,16 +278,20 @@ impl Findings<'_> {
         // The vertical motion of the placebo is not in its wall.
         let is_placebo = tried.hypothesis.additions.contains(&Addition::Placebo);
         let walls = if is_placebo { Vec::new() } else { ensemble(tried).unwrap_or_default() };
-        let wme = |purpose| walls.par_iter().map(|wall| self.mean_wme(wall, purpose)).collect::<Vec<_>>();
-        [Purpose::Fit, Purpose::HoldOut].map(wme)
+        [Purpose::Fit, Purpose::HoldOut].map(|purpose| self.mean_wmes(&walls, purpose))
     }
 
-    /// Mean of Eq. 8 over whole runs of the tests of a purpose; `None` if a run failed or there is no such test.
-    fn mean_wme(&self, wall: &Wall, purpose: Purpose) -> Option<f64> {
-        let of = |test: &&Test| test.purpose == purpose;
-        let tests = self.experiment.whole.iter().filter(of);
-        let all = tests.map(|test| whole_wme(test, wall)).collect::<Option<Vec<_>>>()?;
-        (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+    /// Of each wall the mean of Eq. 8 over whole runs of the tests of a purpose; `None` if a run failed or there is no such
+    /// test.
+    fn mean_wmes(&self, walls: &[Wall], purpose: Purpose) -> Vec<Option<f64>> {
+        let tests = self.experiment.whole.iter().filter(|test| test.purpose == purpose).collect::<Vec<_>>();
+        let of_test = |test: &&Test| test.simulate_all(walls, Accuracy::default());
+        let all = tests.par_iter().map(of_test).collect::<Vec<_>>();
+        let mean = |k: usize| {
+            let wmes = all.iter().map(|of_test| finite(of_test[k].wme)).collect::<Option<Vec<_>>>()?;
+            (!wmes.is_empty()).then(|| wmes.iter().sum::<f64>() / wmes.len() as f64)
+        };
+        (0..walls.len()).map(mean).collect()
     }
 }
 

@@ -3,10 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::Findings;
-use super::summary::FoundEffect;
+use super::summary::{ForceCurve, FoundEffect};
 use crate::diagnose::certainty::intervals;
-use crate::diagnose::formula::{Law, Written};
+use crate::diagnose::force::Against;
+use crate::diagnose::formula::{Curve, Law, Part, Site, Written};
 use crate::diagnose::trials::FittedHypothesis;
+use crate::diagnose::verdict::Verdict;
+use mrbd_formula::Formula;
 
 /// Kind of such an effect in wall files.
 const FORMULA: &str = "formula";
@@ -33,11 +36,49 @@ impl Findings<'_> {
         others.iter().map(|tried| self.formulas(tried)).collect()
     }
 
+    /// A force without a formula as the effect that simulates it.
+    pub(super) fn curve_effects(&self) -> Vec<FoundEffect> {
+        let after = &self.found.after;
+        let formulas = after.hypothesis.formulas(&after.fit.values).unwrap_or_default();
+        let effect = |formula: &Formula| FoundEffect {
+            kind: Some(FORMULA.to_owned()),
+            name: None,
+            place: formula.place().name().to_owned(),
+            parameters: formula.parameters().iter().map(|p| (p.name.clone(), p.value)).collect(),
+            interval: BTreeMap::new(),
+            written_as: None,
+            sets_in_over_m: None,
+            formula: Some(formula.to_string()),
+            units: formula.parameters().iter().map(|p| (p.name.clone(), p.unit.clone())).collect(),
+            range: self.range(Site::Top),
+        };
+        formulas.iter().map(effect).collect()
+    }
+
+    /// A force without a formula, knot by knot.
+    pub(super) fn force_curves(&self) -> Vec<ForceCurve> {
+        let found = self.found.discovered.as_ref().filter(|_| self.found.verdict == Verdict::Curve);
+        let Some(excited) = found.map(|found| found.at(Site::Top)) else { return Vec::new() };
+        let against = [Against::Displacement, Against::Velocity];
+        let of = |curve: &Curve| {
+            let parts = curve.parts.into_iter().zip(against).zip(excited);
+            parts.map(|((part, against), range)| force_curve(&part, against, range)).collect::<Vec<_>>()
+        };
+        self.found.after.hypothesis.curves().flat_map(of).collect()
+    }
+
+    /// What was excited at a site, by column.
+    fn range(&self, site: Site) -> BTreeMap<String, [f64; 2]> {
+        let [displacement, velocity] = site.columns();
+        self.found.discovered.as_ref().map_or_else(BTreeMap::new, |found| {
+            let [q, u] = found.at(site);
+            BTreeMap::from([(displacement.to_owned(), q), (velocity.to_owned(), u)])
+        })
+    }
+
     fn formula(&self, law: &Law, written: &Written, values: &[f64], intervals: &[[f64; 2]]) -> FoundEffect {
         let named = || written.parameters.iter();
         let ends = law.intervals(written, values, intervals);
-        let [displacement, velocity] = written.site.columns();
-        let range = self.found.discovered.as_ref().map(|found| found.at(written.site));
         FoundEffect {
             kind: Some(FORMULA.to_owned()),
             name: Some(FORMULA.to_owned()),
@@ -48,9 +89,18 @@ impl Findings<'_> {
             sets_in_over_m: None,
             formula: Some(written.text.clone()),
             units: named().map(|p| (p.name.clone(), p.unit.clone())).collect(),
-            range: range.map_or_else(BTreeMap::new, |[q, u]| {
-                BTreeMap::from([(displacement.to_owned(), q), (velocity.to_owned(), u)])
-            }),
+            range: self.range(written.site),
         }
+    }
+}
+
+fn force_curve(part: &Part, against: Against, range: [f64; 2]) -> ForceCurve {
+    let told = part.at.map(|x| part.told_n(x));
+    ForceCurve {
+        against: against.name().to_owned(),
+        at: part.at.to_vec(),
+        force_n: told.map(|(force_n, _)| force_n).to_vec(),
+        interval_n: told.map(|(_, interval)| interval).to_vec(),
+        range,
     }
 }

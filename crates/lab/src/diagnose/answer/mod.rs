@@ -22,8 +22,9 @@ use mrbd_files::error::{InputError, Result};
 use rows::ForceBeforeAfter;
 pub use rows::Tables;
 pub use summary::{
-    Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, ForceSize, FoundEffect, KIND,
-    MissingForce, OwnHypothesis, Rival, Stages, Summary, TestErrors, WallFit, WindowCounts,
+    Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, ForceCurve, ForceSize,
+    FoundEffect, KIND, MissingForce, OwnHypothesis, Rival, Stages, Summary, TestErrors, WallFit,
+    WindowCounts,
 };
 
 /// A diagnosis: the verdict with everything it rests on.

@@ -5,13 +5,16 @@
 
 use super::Findings;
 use super::summary::{ExplainedBy, ForceSize, MissingForce};
+use crate::diagnose::certainty::covariance;
 use crate::diagnose::fit::{Replay, WindowFit, shaken};
 use crate::diagnose::force::{
-    Against, ForcePoint, Jump, LawCurve, explained_by, force_points, jumps, law_curves, median_share_off_top,
-    stretches,
+    Against, CurvePoint, Drawn, ForcePoint, Jump, LawCurve, explained_by, force_points, jumps, law_curves,
+    median_share_off_top, stretches,
 };
+use crate::diagnose::formula::Part;
 use crate::diagnose::hypothesis::Physics;
 use crate::diagnose::trials::FittedHypothesis;
+use crate::diagnose::verdict::Verdict;
 use crate::experiment::TestData;
 use crate::experiment::{Purpose, Sampled, Window};
 use mrbd_kernel::model::{Contact, Pair, Pivot, RockingWall};
@@ -107,6 +110,8 @@ pub struct LawPoint {
     pub x: f64,
     /// Force that the hypothesis adds at the top, N.
     pub force_n: f64,
+    /// Its 90 % interval, N; `None` where it is not told.
+    pub interval_n: Option<[f64; 2]>,
 }
 
 /// One added number of one hypothesis.
@@ -133,6 +138,15 @@ pub struct RivalRow {
     /// What speaks against it, in natural logarithms of likelihood.
     pub against: f64,
 }
+
+/// A knot of a force without a formula.
+fn knot(part: &Part, x: f64) -> CurvePoint {
+    let (force_n, interval_n) = part.told_n(x);
+    CurvePoint { x, force_n, interval_n: Some(interval_n) }
+}
+
+/// Laws outside the catalogue that are drawn: beside them stands the best of the catalogue.
+const LAWS_DRAWN: usize = 2;
 
 /// Both joints open: the arms of a force at the top are the heights of the crack and of the upper body.
 const UPRIGHT: Contact = Contact { ground: Pivot::Right, crack: Pivot::Right };
@@ -183,16 +197,37 @@ impl ForceBeforeAfter {
 }
 
 impl Findings<'_> {
-    /// The laws of the best hypotheses, to be drawn through the force.
+    /// The laws of the best hypotheses, to be drawn through the force: those outside the catalogue that hold first, with their
+    /// intervals.
     pub(super) fn law_points(&self, force: &ForceBeforeAfter) -> Vec<LawPoint> {
-        let point = |curve: &LawCurve, &(x, force_n): &(f64, f64)| LawPoint {
+        let point = |curve: &LawCurve, p: &CurvePoint| LawPoint {
             name: curve.name.clone(),
             against: curve.against,
-            x,
-            force_n,
+            x: p.x,
+            force_n: p.force_n,
+            interval_n: p.interval_n,
         };
-        let curves = law_curves(&self.experiment.wall, &self.found.tried, &force.before);
+        let data = self.data();
+        let laws = self.found.discovered.iter().flat_map(|found| &found.equals).take(LAWS_DRAWN);
+        let laws = laws.map(|tried| Drawn { tried, covariance: covariance(&data, tried) });
+        let known = self.found.tried.iter().map(|tried| Drawn { tried, covariance: None });
+        let laws = law_curves(&self.experiment.wall, &laws.chain(known).collect::<Vec<_>>(), &force.before);
+        let curves = self.without_formula().chain(laws).collect::<Vec<_>>();
         curves.iter().flat_map(|curve| curve.points.iter().map(|p| point(curve, p))).collect()
+    }
+
+    /// The force that no formula holds for, where that is the answer.
+    fn without_formula(&self) -> impl Iterator<Item = LawCurve> {
+        let own = self.found.verdict == Verdict::Curve;
+        let curves = self.found.after.hypothesis.curves().filter(move |_| own);
+        let against = [Against::Displacement, Against::Velocity];
+        curves.flat_map(move |curve| {
+            curve.parts.into_iter().zip(against).map(|(part, against)| LawCurve {
+                name: "no formula".to_owned(),
+                against,
+                points: part.at.map(|x| knot(&part, x)).to_vec(),
+            })
+        })
     }
 
     /// Velocities after impacts over those of the wall as given, then over those of the updated one.

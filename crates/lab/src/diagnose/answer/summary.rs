@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::diagnose::certainty::{Confused, NextTests};
+use crate::diagnose::discovery::Stability;
 use crate::diagnose::verdict::{OtherLaw, Verdict};
 use crate::experiment::Purpose;
 use mrbd_kernel::model::Pair;
@@ -29,6 +30,12 @@ pub struct Summary {
     /// Of a class of formulas the others, each as its effects; the simplest stands in `effects`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub equivalent_formulas: Vec<Vec<FoundEffect>>,
+    /// A force that no formula holds for, by displacement and then by velocity of the top; empty for any other verdict.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub curves: Vec<ForceCurve>,
+    /// How sure the form of a formula is; absent where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stability: Option<Stability>,
     /// Kinds, or numbers of the wall, that these tests cannot tell apart.
     pub equivalent: Vec<String>,
     /// Uncertain numbers of the wall as the answer has them.
@@ -75,7 +82,9 @@ impl Summary {
 
     /// Whether the updated wall is another than the wall as given.
     pub fn has_updated_wall(&self) -> bool {
-        self.has_names() || self.has_formula() || self.verdict == Verdict::Recalibrated
+        self.has_names()
+            || self.has_formula()
+            || matches!(self.verdict, Verdict::Recalibrated | Verdict::Curve)
     }
 }
 
@@ -137,6 +146,21 @@ pub struct FoundEffect {
     /// What the tests excited of its variables: `x_m` and `v_m_s` at the top, `phi_rad` and `w_rad_s` at joints.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub range: BTreeMap<String, [f64; 2]>,
+}
+
+/// A force on the wall against one quantity, straight between knots, and nothing at rest.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ForceCurve {
+    /// `displacement_m` or `velocity_m_s`, of the top.
+    pub against: String,
+    /// Knots, in that unit.
+    pub at: Vec<f64>,
+    /// Force, N.
+    pub force_n: Vec<f64>,
+    /// Its 90 % interval, N.
+    pub interval_n: Vec<[f64; 2]>,
+    /// What the tests excited.
+    pub range: [f64; 2],
 }
 
 /// An uncertain number of the wall.

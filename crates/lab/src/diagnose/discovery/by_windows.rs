@@ -1,15 +1,22 @@
 //! Laws found over points, fitted to windows with their impacts: these alone judge.
 
-use super::equals::simplest_of_equals;
+use super::curve::curve_of;
+use super::equals::{law_of, simplest_of_equals};
 use super::guards::{holds_in_each_test, lies_inside};
 use super::points::Points;
 use super::search::{Candidate, Searched, search};
+use super::stability::Stability;
 use crate::Progress;
 use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
-use crate::diagnose::trials::{FittedHypothesis, Trials, against, closes, does_something, refit};
-use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS};
+use crate::diagnose::trials::{
+    FittedHypothesis, Trials, against, closes, does_something, refit, shared_states, with_values,
+};
+use crate::limits::{
+    CURVE_SHRINKS, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS,
+};
+use nalgebra::DVector;
 use rayon::prelude::*;
 
 /// Laws outside the catalogue that were tried, and those that hold.
@@ -19,6 +26,10 @@ pub struct Discovered {
     pub equals: Vec<FittedHypothesis>,
     /// The best laws that were fitted to windows, in order.
     pub tried: Vec<FittedHypothesis>,
+    /// A force without a formula, where no law holds and it does.
+    pub curve: Option<FittedHypothesis>,
+    /// How sure the form of these is, over points.
+    pub stability: Option<Stability>,
     /// By site: least and largest displacement and velocity that were excited.
     pub excited: [[[f64; 2]; 2]; 3],
 }
@@ -71,9 +82,32 @@ impl<P: Progress> Trials<'_, P> {
         }
         let closing = closing.into_iter().filter(|t| holds(t)).collect();
         let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
+        let curve = if equals.is_empty() { self.curve(gap, &searched) } else { None };
         let mut tried = self.ordered(tried);
         tried.truncate(LAWS_TOLD);
-        Some(Discovered { equals, tried, excited: Site::ALL.map(|site| points.range(site)) })
+        let laws = equals.iter().filter_map(law_of).collect::<Vec<_>>();
+        let stability = Stability::of(&searched, &laws);
+        Some(Discovered {
+            equals,
+            tried,
+            curve,
+            stability,
+            excited: Site::ALL.map(|site| points.range(site)),
+        })
+    }
+
+    /// A force without a formula, with the numbers of the wall that points give it, where windows say that it is one.
+    fn curve(&self, gap: &OpenGap, searched: &Searched) -> Option<FittedHypothesis> {
+        let (curve, steps) = curve_of(&searched.equations)?;
+        self.progress.begin("a force without a formula", 1);
+        let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Curve(curve)]);
+        let values = beside(&hypothesis, &steps).collect::<Vec<_>>();
+        let found = with_values(&self.data, hypothesis, gap.nearest, &values);
+        self.progress.advance(1);
+        found.filter(|found| {
+            let gain = against(&self.data, gap.nearest) - against(&self.data, found);
+            gain >= WORTH_A_NAME && shrinks(gap.recalibrated, found)
+        })
     }
 
     /// Whether a law that was fitted to windows closes the gap, with numbers that mean something.
@@ -128,7 +162,9 @@ impl<P: Progress> Trials<'_, P> {
             let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
             let own = from.fit.values.iter().take(h.nuisances).copied();
             let values = own.chain(law.values()).collect::<Vec<_>>();
+            // Near impacts that the noise decides a fit may end in another valley than the one it set out from.
             let found = refit(&self.data, h, from, &values);
+            let found = found.map(|found| shared_states(&self.data, &found, &[from]));
             self.progress.advance(1);
             found
         };
@@ -139,14 +175,28 @@ impl<P: Progress> Trials<'_, P> {
     fn start_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<Start> {
         let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
         let steps = searched.equations.wall_steps(law)?;
-        let own = hypothesis.unknowns.iter().take(hypothesis.nuisances).zip(steps.iter());
-        let own = own.map(|(unknown, step)| unknown.start + step * unknown.prior_sd.unwrap_or(0.0));
-        let values = own.chain(law.values()).zip(&hypothesis.unknowns);
+        let values = beside(&hypothesis, &steps).chain(law.values()).zip(&hypothesis.unknowns);
         let values = values.map(|(value, unknown)| unknown.within(value)).collect::<Vec<_>>();
         let states = gap.nearest.fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
         let fit = self.data.fit.states(&hypothesis, &values, &states, LOOK_STEPS, false)?;
         Some(Start { nats: nats(&fit.windows), hypothesis, values })
     }
+}
+
+/// The wall's numbers after steps in standard deviations of what was known.
+fn beside<'h>(hypothesis: &'h Hypothesis, steps: &'h DVector<f64>) -> impl Iterator<Item = f64> + use<'h> {
+    let own = hypothesis.unknowns.iter().take(hypothesis.nuisances).zip(steps.iter());
+    own.map(|(unknown, step)| unknown.within(unknown.start + step * unknown.prior_sd.unwrap_or(0.0)))
+}
+
+/// Whether a hypothesis takes away most of the squared error above noise that the wall leaves, in the tests fitted and in
+/// those held out.
+fn shrinks(wall: &FittedHypothesis, found: &FittedHypothesis) -> bool {
+    let excess = |error: f64| (error * error - 1.0).max(0.0);
+    wall.errors().into_iter().zip(found.errors()).all(|errors| match errors {
+        (Some(before), Some(after)) => excess(after) < (1.0 - CURVE_SHRINKS) * excess(before),
+        (before, _) => before.is_none(),
+    })
 }
 
 /// Steps of the states of windows at a first look.

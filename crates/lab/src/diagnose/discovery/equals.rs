@@ -36,7 +36,8 @@ pub fn simplest_of_equals(
     kept
 }
 
-fn law_of(tried: &FittedHypothesis) -> Option<Law> {
+/// The law of a fitted hypothesis.
+pub fn law_of(tried: &FittedHypothesis) -> Option<Law> {
     tried.hypothesis.laws(&tried.fit.values).into_iter().next()
 }
 

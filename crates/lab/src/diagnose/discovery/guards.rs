@@ -15,11 +15,9 @@ pub fn holds_in_each_test(equations: &Equations, law: &Law) -> bool {
     if tests.len() < 2 {
         return true;
     }
-    let [with, without] = [Terms::new(equations, Some(law)), Terms::new(equations, None)];
+    let terms = [Terms::new(equations, Some(law)), Terms::new(equations, None)];
     let all = (0..equations.points().test.len()).collect::<Vec<_>>();
-    let gain = |fitted: &[usize], judged: &[usize]| {
-        Some(with.likelihood(fitted, judged)? - without.likelihood(fitted, judged)?)
-    };
+    let gain = |fitted: &[usize], judged: &[usize]| gain(&terms, fitted, judged);
     let unseen = tests.iter().map(|test| {
         let (own, others): (Vec<_>, Vec<_>) =
             all.iter().partition(|row| equations.points().test[**row] == *test);
@@ -28,6 +26,15 @@ pub fn holds_in_each_test(equations: &Equations, law: &Law) -> bool {
     let unseen = unseen.collect::<Option<Vec<_>>>().unwrap_or_default();
     let seen = gain(&[], &all).unwrap_or(f64::INFINITY);
     unseen.iter().all(|gain| *gain > -LEFT_OUT_LOSS) && unseen.iter().sum::<f64>() > LEFT_OUT_SHARE * seen
+}
+
+/// What a law gains over the wall alone in rows, where it was fitted to others; natural logarithms of likelihood.
+pub fn unseen_gain(equations: &Equations, law: &Law, fitted: &[usize], judged: &[usize]) -> Option<f64> {
+    gain(&[Terms::new(equations, Some(law)), Terms::new(equations, None)], fitted, judged)
+}
+
+fn gain([with, without]: &[Terms; 2], fitted: &[usize], judged: &[usize]) -> Option<f64> {
+    Some(with.likelihood(fitted, judged)? - without.likelihood(fitted, judged)?)
 }
 
 /// Columns of the wall's numbers and of atoms, weighed, in standard deviations of what points leave.

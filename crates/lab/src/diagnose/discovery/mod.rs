@@ -6,16 +6,21 @@
 //! | `search` | all laws of one atom and of two, weighed by evidence over points |
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
 //! | `guards` | what refuses a law that fits |
+//! | `curve` | a force without a formula |
 //! | `equals` | laws that the tests cannot tell apart |
+//! | [`Stability`] | how sure the form of a law is |
 
 mod by_windows;
+mod curve;
 mod equals;
 mod guards;
 mod points;
 mod search;
+mod stability;
 #[cfg(test)]
 mod twin;
 
 pub use by_windows::{Discovered, OpenGap};
 pub use points::Points;
 pub use search::{Candidate, Searched, search};
+pub use stability::{Stability, UnseenGain};

@@ -4,6 +4,7 @@ use crate::diagnose::force::{Sample, WeakStretch, weak_stretches};
 use crate::diagnose::formula::{Atom, Law, Site};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::{Purpose, TestData};
+use mrbd_kernel::model::RockingWall;
 use nalgebra::{DMatrix, DVector};
 
 /// Change of an uncertain number of the wall over which its trace is taken, in standard deviations of what was known.
@@ -29,11 +30,13 @@ impl Points {
     pub fn new(tests: &[TestData], wall: &Hypothesis) -> Option<Self> {
         let fitted = tests.iter().enumerate().filter(|(_, test)| test.purpose == Purpose::Fit);
         let tests = fitted.collect::<Vec<_>>();
-        let at = |values: &[f64]| Some(weak_stretches(&tests, &wall.physics(values)?));
+        let start = wall.start();
+        // Test functions are those of this wall, whatever its numbers do: every number has its trace in the same rows.
+        let response_time_s = RockingWall::new(&wall.physics(&start)?.wall).response_time_s();
+        let at = |values: &[f64]| Some(weak_stretches(&tests, &wall.physics(values)?, response_time_s));
         let missing = |stretches: &[WeakStretch]| {
             DVector::from_vec(stretches.iter().flat_map(|s| s.missing().to_vec()).collect())
         };
-        let start = wall.start();
         let stretches = at(&start)?;
         let own = missing(&stretches);
         if own.is_empty() {
@@ -44,10 +47,7 @@ impl Points {
             let mut values = start.clone();
             values[i] += CHANGE_SD * unknown.prior_sd?;
             let moved = missing(&at(&values)?);
-            // Of another number of rows only where a stretch ends by the wall's time of response.
-            if moved.len() == own.len() {
-                traces.push((&own - moved) / CHANGE_SD);
-            }
+            traces.push((&own - moved) / CHANGE_SD);
         }
         let wall = match traces.is_empty() {
             true => DMatrix::zeros(own.len(), 0),
@@ -66,11 +66,16 @@ impl Points {
     /// Rows of a law of one atom of size 1.
     pub fn column(&self, atom: &Atom) -> DVector<f64> {
         let one = Atom { size: 1.0, ..*atom };
+        self.column_of(atom.site, |motion| one.force(motion))
+    }
+
+    /// Rows of a force or moment at a site by displacement and velocity there.
+    pub fn column_of(&self, site: Site, force: impl Fn([f64; 2]) -> f64) -> DVector<f64> {
         let mut rows = Vec::with_capacity(self.missing.len());
         for stretch in &self.stretches {
-            let value = |sample: &Sample| one.force(sample.motion[atom.site as usize]);
+            let value = |sample: &Sample| force(sample.motion[site as usize]);
             let law = stretch.samples.iter().map(value).collect::<Vec<_>>();
-            rows.extend(stretch.by_law(atom.site, &law));
+            rows.extend(stretch.by_law(site, &law));
         }
         DVector::from_vec(rows)
     }
@@ -79,6 +84,28 @@ impl Points {
     pub fn of_law(&self, law: &Law) -> DVector<f64> {
         let zero = DVector::zeros(self.missing.len());
         law.atoms().fold(zero, |sum, atom| sum + self.column(&atom) * atom.size)
+    }
+
+    /// Each swing, a stretch between impacts: its test and its rows.
+    pub fn swings(&self) -> Vec<(usize, std::ops::Range<usize>)> {
+        let mut end = 0;
+        let rows = |stretch: &WeakStretch| {
+            let start = end;
+            end += stretch.rows();
+            (stretch.test, start..end)
+        };
+        self.stretches.iter().map(rows).collect()
+    }
+
+    /// Of each row the largest displacement of its swing, as a share of the largest of all.
+    pub fn amplitude(&self, site: Site) -> Vec<f64> {
+        let reach = self.reach[site as usize][0];
+        let of = |stretch: &WeakStretch| {
+            let largest =
+                stretch.samples.iter().map(|s| s.motion[site as usize][0].abs()).fold(0.0, f64::max);
+            vec![largest / reach; stretch.rows()]
+        };
+        self.stretches.iter().flat_map(of).collect()
     }
 
     /// Displacements and velocities at a site that were excited.
@@ -109,4 +136,22 @@ fn reach(stretches: &[WeakStretch], site: Site) -> [f64; 2] {
 fn rounded(x: f64) -> f64 {
     let digit = 10.0_f64.powf(x.log10().floor() - 1.0);
     (x / digit).round() * digit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::twin::{known_to, tests_of, wall_with};
+    use super::*;
+
+    #[test]
+    fn regress_every_uncertain_number_has_its_trace_however_little_is_known_of_it() {
+        let tests = tests_of(&wall_with(""), 3e-5);
+        let points = |stiffness: f64| Points::new(&tests, &known_to(stiffness, &tests)).expect("points");
+        // Half of 30 % moves the time of response by 7 %, and with it the reach of a test function of that wall.
+        let [little, much] = [points(0.02), points(0.3)];
+        assert_eq!([little.wall.ncols(), much.wall.ncols()], [2, 2]);
+        assert_eq!(little.missing, much.missing);
+        let ratio = much.wall.column(0).norm() / little.wall.column(0).norm();
+        assert!((ratio / 15.0 - 1.0).abs() < 1e-6, "{ratio}");
+    }
 }

@@ -69,9 +69,19 @@ impl<'p> Equations<'p> {
         self.variance
     }
 
+    /// What is missing, weighed, without what the wall's numbers can do.
+    pub fn missing(&self) -> &DVector<f64> {
+        &self.missing
+    }
+
     /// Steps of the wall's uncertain numbers beside a law, in standard deviations of what was known.
     pub fn wall_steps(&self, law: &Law) -> Option<DVector<f64>> {
-        let left = (&self.points.missing - self.points.of_law(law)).component_mul(&self.weight);
+        self.wall_steps_beside(&self.points.of_law(law))
+    }
+
+    /// The same beside rows that a law makes.
+    pub fn wall_steps_beside(&self, rows: &DVector<f64>) -> Option<DVector<f64>> {
+        let left = (&self.points.missing - rows).component_mul(&self.weight);
         let count = self.points.wall.ncols();
         let wall = DMatrix::from_fn(left.len(), count, |i, k| self.weight[i] * self.points.wall[(i, k)]);
         let normal = wall.tr_mul(&wall) + DMatrix::identity(count, count) * self.variance;
@@ -79,7 +89,7 @@ impl<'p> Equations<'p> {
     }
 
     /// Rows weighed, without what the wall's numbers can do.
-    fn off_wall(&self, rows: &DVector<f64>) -> DVector<f64> {
+    pub fn off_wall(&self, rows: &DVector<f64>) -> DVector<f64> {
         let mut all = rows.component_mul(&self.weight).resize_vertically(self.wall.nrows(), 0.0);
         let shares = self.wall.tr_mul(&all);
         all -= &self.wall * shares;
@@ -98,9 +108,20 @@ impl<'p> Equations<'p> {
 
     /// A law with the sizes that fit best, and its evidence; `None` where a size may not be.
     fn fitted(&self, law: &Law) -> Option<Candidate> {
-        let columns = law.atoms().map(|atom| self.off_wall(&self.points.column(&atom)));
-        let (sizes, gain) = self.sizes(&columns.collect::<Vec<_>>())?;
+        let columns = law.atoms().map(|atom| self.points.column(&atom)).collect::<Vec<_>>();
+        self.fitted_to(law, &columns)
+    }
+
+    /// The same of a law whose columns are known.
+    pub fn fitted_to(&self, law: &Law, columns: &[DVector<f64>]) -> Option<Candidate> {
+        let columns = columns.iter().map(|column| self.off_wall(column)).collect::<Vec<_>>();
+        let (sizes, gain) = self.sizes(&columns)?;
         self.candidate(law.map(|a, atom| Atom { size: sizes[a], ..atom }), gain)
+    }
+
+    /// The same equations, each row so many times.
+    pub fn repeated(&self, times: &DVector<f64>) -> Self {
+        Self::new(self.points, self.weight.component_mul(&times.map(f64::sqrt)), self.variance)
     }
 
     /// A law that was fitted, with its evidence; `None` where a size may not be.

@@ -26,9 +26,14 @@ pub fn wall_with(effects: &str) -> Wall {
 
 /// What is told of the wall beforehand: stiffness to 2 %, mass to 1 %.
 pub fn known(tests: &[TestData]) -> Hypothesis {
+    known_to(0.02, tests)
+}
+
+/// The same with stiffness to a share.
+pub fn known_to(stiffness: f64, tests: &[TestData]) -> Hypothesis {
     let wall = wall_with("");
     let number = |(key, sd): (&str, f64)| Nuisance::Number(wall_number(key).expect("a number"), sd);
-    let nuisances = [("stiffness_n_per_m", 0.02), ("mass_kg", 0.01)].map(number);
+    let nuisances = [("stiffness_n_per_m", stiffness), ("mass_kg", 0.01)].map(number);
     Hypothesis::new(wall.parameters(), &Scales::of(&wall, tests), &nuisances, &[])
 }
 

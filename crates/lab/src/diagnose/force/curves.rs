@@ -1,6 +1,7 @@
 //! What the missing force looks like: at the top or not, a curve against one quantity, bent, or a law of the catalogue.
 
 use super::points::{ForcePoint, median_share_off_top};
+use crate::diagnose::certainty::NINETY_PERCENT;
 use crate::diagnose::trials::FittedHypothesis;
 use crate::limits::{ALONG_TOP, EXPLAINED_BY_ONE, FORCE_CLEAR, LEAST_DIRECTIONS};
 use mrbd_kernel::model::{RockingWall, Wall, WallParameters};
@@ -110,7 +111,7 @@ fn left_by(points: &[ForcePoint], columns: &[Vec<f64>]) -> Option<f64> {
 }
 
 /// Points of a curve.
-const POINTS: u32 = 120;
+const POINTS: usize = 120;
 /// Most curves over one abscissa.
 const MOST: usize = 3;
 /// A force below this share of the largest measured one is not drawn.
@@ -149,11 +150,14 @@ impl Against {
         }
     }
 
-    /// The force at the top, beyond inertia of what is there already, by one of the three alone, N.
-    fn force_n(self, wall: &RockingWall, x: f64) -> f64 {
+    /// The force at the top, beyond inertia of what is there already, by one of the three alone, N; by velocity at a
+    /// displacement.
+    fn force_n(self, wall: &RockingWall, x: f64, displacement_m: f64) -> f64 {
         match self {
             Self::Displacement => wall.top_force_n(x, 0.0, 0.0),
-            Self::Velocity => wall.top_force_n(0.0, x, 0.0),
+            Self::Velocity => {
+                wall.top_force_n(displacement_m, x, 0.0) - wall.top_force_n(displacement_m, 0.0, 0.0)
+            }
             Self::Acceleration => -wall.carriage_mass_kg() * x,
         }
     }
@@ -166,41 +170,129 @@ pub struct LawCurve {
     pub name: String,
     /// The abscissa.
     pub against: Against,
-    /// Abscissa in SI units, force in N.
-    pub points: Vec<(f64, f64)>,
+    /// Where it is told.
+    pub points: Vec<CurvePoint>,
+}
+
+/// A point of a law.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvePoint {
+    /// Abscissa, SI units.
+    pub x: f64,
+    /// Force, N.
+    pub force_n: f64,
+    /// Its 90 % interval, N; `None` where the tests do not tell one.
+    pub interval_n: Option<[f64; 2]>,
+}
+
+/// A hypothesis that is drawn.
+#[derive(Debug)]
+pub struct Drawn<'t> {
+    /// As it was fitted.
+    pub tried: &'t FittedHypothesis,
+    /// Covariance of its values; without one it is drawn without a band.
+    pub covariance: Option<DMatrix<f64>>,
 }
 
 /// The laws of the best of some hypotheses, in their order, over the range of the measured points. What the wall's
 /// own uncertain numbers do beside an addition is left out.
-pub fn law_curves(given: &Wall, tried: &[FittedHypothesis], points: &[ForcePoint]) -> Vec<LawCurve> {
-    let before = RockingWall::new(given);
+pub fn law_curves(given: &Wall, tried: &[Drawn], points: &[ForcePoint]) -> Vec<LawCurve> {
     let largest_n = points.iter().map(|p| p.force_n.abs()).fold(0.0, f64::max);
+    let reach = |against: Against| points.iter().map(|p| against.of(p).abs()).fold(0.0, f64::max);
+    let displacement_m = HALFWAY * reach(Against::Displacement);
     let mut curves = Vec::new();
     for against in Against::ALL {
-        let reach = points.iter().map(|p| against.of(p).abs()).fold(0.0, f64::max);
-        let at = |k: u32| reach * (2.0 * f64::from(k) / f64::from(POINTS) - 1.0);
-        let curve = |t: &FittedHypothesis| {
-            let after = RockingWall::new(&with_additions_alone(t)?);
-            let added = |x: f64| against.force_n(&after, x) - against.force_n(&before, x);
-            let points = (0..=POINTS).map(|k| (at(k), added(at(k)))).collect::<Vec<_>>();
-            let name = t.hypothesis.additions.iter().map(|a| a.name()).collect::<Vec<_>>().join(" + ");
-            let seen = points.iter().any(|p| p.1.abs() > VISIBLE * largest_n);
-            (seen && same_weight(given.parameters(), after.wall().parameters())).then_some(LawCurve {
-                name,
-                against,
-                points,
-            })
+        let curve = |drawn: &Drawn| {
+            let slice = |displacement_m: f64| {
+                let seen = Slice { given, against, reach: reach(against), displacement_m };
+                seen.curve(drawn).filter(|c| c.points.iter().any(|p| p.force_n.abs() > VISIBLE * largest_n))
+            };
+            // A damper that grows with displacement does nothing where the wall stands upright.
+            let beside = || slice(displacement_m).filter(|_| against == Against::Velocity);
+            slice(0.0).or_else(beside)
         };
         curves.extend(tried.iter().filter_map(curve).take(MOST));
     }
     curves
 }
 
-/// The wall as given with the additions of a hypothesis, its own numbers where they were.
-fn with_additions_alone(tried: &FittedHypothesis) -> Option<Wall> {
+/// Share of the largest displacement at which a law is drawn against velocity where it does nothing upright.
+const HALFWAY: f64 = 0.5;
+
+/// What a force is drawn against, and at which displacement.
+struct Slice<'w> {
+    given: &'w Wall,
+    against: Against,
+    reach: f64,
+    displacement_m: f64,
+}
+
+impl Slice<'_> {
+    fn curve(&self, drawn: &Drawn) -> Option<LawCurve> {
+        let h = &drawn.tried.hypothesis;
+        let force_n = self.forces(drawn.tried, &drawn.tried.fit.values)?;
+        let half_n = drawn.covariance.as_ref().and_then(|c| self.half_widths(drawn.tried, c));
+        let point = |(k, force_n): (usize, f64)| CurvePoint {
+            x: self.at(k),
+            force_n,
+            interval_n: half_n.as_ref().map(|half| [force_n - half[k], force_n + half[k]]),
+        };
+        let name = h.additions.iter().map(|a| a.name()).collect::<Vec<_>>().join(" + ");
+        let beside = match self.displacement_m {
+            0.0 => String::new(),
+            x => format!(", at x = {x:.3} m"),
+        };
+        let points = force_n.into_iter().enumerate().map(point).collect();
+        Some(LawCurve { name: name + &beside, against: self.against, points })
+    }
+
+    fn at(&self, k: usize) -> f64 {
+        self.reach * (2.0 * k as f64 / POINTS as f64 - 1.0)
+    }
+
+    /// What additions with these values add, N; `None` where they are no horizontal force alone.
+    fn forces(&self, tried: &FittedHypothesis, values: &[f64]) -> Option<Vec<f64>> {
+        let [before, after] =
+            [RockingWall::new(self.given), RockingWall::new(&with_additions_alone(tried, values)?)];
+        let force_n = |wall: &RockingWall, x: f64| self.against.force_n(wall, x, self.displacement_m);
+        let added = |k: usize| force_n(&after, self.at(k)) - force_n(&before, self.at(k));
+        let same = same_weight(self.given.parameters(), after.wall().parameters());
+        same.then(|| (0..=POINTS).map(added).collect())
+    }
+
+    /// Half widths of 90 % intervals by the added numbers, linear about the fit; `None` where one leaves no trace.
+    fn half_widths(&self, tried: &FittedHypothesis, covariance: &DMatrix<f64>) -> Option<Vec<f64>> {
+        let h = &tried.hypothesis;
+        let added = h.nuisances..h.unknowns.len();
+        let own = covariance.view((added.start, added.start), (added.len(), added.len()));
+        let slope = |i: usize| {
+            let sd = covariance[(i, i)].sqrt();
+            let side = |by: f64| {
+                let mut values = tried.fit.values.clone();
+                values[i] = (values[i] + by * CHANGE_SD * sd).clamp(h.unknowns[i].lower, h.unknowns[i].upper);
+                Some((values[i], self.forces(tried, &values)?))
+            };
+            let ((low, before), (high, after)) = (side(-1.0)?, side(1.0)?);
+            let slope = before.iter().zip(&after).map(|(b, a)| (a - b) / (high - low));
+            (sd.is_finite() && high > low).then(|| DVector::from_iterator(before.len(), slope))
+        };
+        let slopes = DMatrix::from_columns(&added.map(slope).collect::<Option<Vec<_>>>()?);
+        let half = |row: usize| {
+            let slope = slopes.row(row);
+            NINETY_PERCENT * (slope * own * slope.transpose())[(0, 0)].max(0.0).sqrt()
+        };
+        Some((0..slopes.nrows()).map(half).collect())
+    }
+}
+
+/// Change of a number over which the slope of a force is taken, in its standard deviations.
+const CHANGE_SD: f64 = 0.5;
+
+/// The wall as given with additions of these values, its own numbers where they were.
+fn with_additions_alone(tried: &FittedHypothesis, values: &[f64]) -> Option<Wall> {
     let h = &tried.hypothesis;
     let own = h.unknowns.iter().take(h.nuisances).map(|u| u.start);
-    let values = own.chain(tried.fit.values.iter().skip(h.nuisances).copied()).collect::<Vec<_>>();
+    let values = own.chain(values.iter().skip(h.nuisances).copied()).collect::<Vec<_>>();
     Some(h.physics(&values)?.wall)
 }
 

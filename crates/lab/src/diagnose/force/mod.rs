@@ -14,7 +14,7 @@ mod weak_form;
 pub use curves::acts_at_top;
 pub use curves::curve_left;
 pub use curves::explained_by;
-pub use curves::{Against, LawCurve, law_curves};
+pub use curves::{Against, CurvePoint, Drawn, LawCurve, law_curves};
 pub use jumps::{Jump, jumps};
 pub use jumps::{Stretch, stretches};
 pub use points::Kernel;

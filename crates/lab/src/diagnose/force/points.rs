@@ -92,7 +92,7 @@ impl Residual {
 
     fn points(mut self) -> Vec<ForcePoint> {
         let mut points = Vec::new();
-        for (stretch, half) in self.telling() {
+        for (stretch, half) in self.telling(self.wall.response_time_s()) {
             let model = self.model(&stretch);
             let kernel = Kernel::new(half);
             for middle in (half..stretch.states.len() - half).step_by(half) {
@@ -107,9 +107,10 @@ impl Residual {
         points
     }
 
-    /// Stretches in motion that are long enough, each with half the reach of its test function, in samples.
-    pub(super) fn telling(&self) -> Vec<(Stretch, usize)> {
-        let full = self.test.samples_in(HALF_REACH * self.wall.response_time_s());
+    /// Stretches in motion that are long enough, each with half the reach of its test function, in samples; that follows the
+    /// time of response of a wall, s.
+    pub(super) fn telling(&self, response_time_s: f64) -> Vec<(Stretch, usize)> {
+        let full = self.test.samples_in(HALF_REACH * response_time_s);
         let least = ((LEAST_REACH * full as f64) as usize).max(2);
         let reach = |stretch: &Stretch| full.min((stretch.states.len() - 1) / 2);
         let moving = stretches(&self.test).into_iter().filter(|stretch| stretch.freedom != Freedom::Rest);

@@ -39,11 +39,16 @@ pub struct WeakStretch {
     missing: Vec<f64>,
 }
 
-/// The weak form of a wall in every stretch of tests that is long enough.
-pub fn weak_stretches(tests: &[(usize, &TestData)], physics: &Physics) -> Vec<WeakStretch> {
+/// The weak form of a wall in every stretch of tests that is long enough for test functions of a wall of this time of
+/// response, s: so a wall whose numbers move a little has the same rows.
+pub fn weak_stretches(
+    tests: &[(usize, &TestData)],
+    physics: &Physics,
+    response_time_s: f64,
+) -> Vec<WeakStretch> {
     let of = |(index, test): &(usize, &TestData)| {
         let mut residual = Residual::new(*index, test, physics);
-        let telling = residual.telling();
+        let telling = residual.telling(response_time_s);
         telling
             .into_iter()
             .filter_map(|(stretch, half)| WeakStretch::new(*index, &mut residual, &stretch, half))

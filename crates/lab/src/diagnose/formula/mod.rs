@@ -4,8 +4,10 @@
 //! | --- | --- |
 //! | [`Shape`] | how a force follows displacement and velocity, but for its size |
 //! | [`Law`] | one atom or two, each a shape with a size and numbers, at a place |
+//! | [`Curve`] | a force without a formula, knot by knot |
 //! | [`Written`] | a law as a formula of the wall file, with the units of its parameters |
 
+mod curve;
 mod effect;
 mod exact;
 mod law;
@@ -13,6 +15,7 @@ mod shape;
 mod text;
 mod written;
 
+pub use curve::{BOTH, Curve, Part, SIDE};
 pub use exact::nearest_exact;
 pub use law::{Atom, Law, LawSlot};
 pub use shape::{Meaning, Shape, ShapeNumber, Side};

@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::diagnose::formula::{Law, LawSlot};
+use crate::diagnose::formula::{Curve, Law, LawSlot};
 use mrbd_formula::Formula;
 use mrbd_kernel::model::{Effect, EffectKind, EffectVariant, Role, Wall, WallParameters};
 use unknown::Slot;
@@ -143,7 +143,7 @@ impl Hypothesis {
                     let carriage = EffectKind::CarriageMass.variant(None).ok()?;
                     effects.push(carriage.with_parameters(&[mass_kg]).ok()?);
                 }
-                Addition::Number(_) | Addition::Formula(_) | Addition::Placebo => {}
+                Addition::Number(_) | Addition::Formula(_) | Addition::Curve(_) | Addition::Placebo => {}
             }
         }
         Some(effects)
@@ -205,10 +205,19 @@ impl Hypothesis {
         self.additions.iter().enumerate().filter_map(law).collect()
     }
 
-    /// The same as formulas for the wall file; `None` where one is refused.
+    /// Forces without a formula among its additions.
+    pub fn curves(&self) -> impl Iterator<Item = &Curve> {
+        self.additions.iter().filter_map(|addition| match addition {
+            Addition::Curve(curve) => Some(curve),
+            _ => None,
+        })
+    }
+
+    /// Laws and forces without a formula as formulas for the wall file; `None` where one is refused.
     pub fn formulas(&self, values: &[f64]) -> Option<Vec<Formula>> {
-        let all = self.laws(values).iter().map(Law::formulas).collect::<Option<Vec<_>>>()?;
-        Some(all.concat())
+        let laws = self.laws(values).iter().map(Law::formulas).collect::<Option<Vec<_>>>()?;
+        let curves = self.curves().map(Curve::formula).collect::<Option<Vec<_>>>()?;
+        Some([laws.concat(), curves].concat())
     }
 
     /// Whether a number is a size, which does nothing where it starts, and no number of a law's shape.

@@ -173,6 +173,17 @@ pub fn untouched(data: &Data, hypothesis: Hypothesis) -> Option<FittedHypothesis
     Some(FittedHypothesis { hypothesis, fit, held_out })
 }
 
+/// A hypothesis with given values: the states alone are fitted. `None` if they make no wall.
+pub fn with_values(
+    data: &Data,
+    hypothesis: Hypothesis,
+    from: &FittedHypothesis,
+    values: &[f64],
+) -> Option<FittedHypothesis> {
+    let fit = data.fit.states(&hypothesis, values, &states_of(&from.fit), 3, true)?;
+    judged(data, hypothesis, fit, from, true)
+}
+
 fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
     fit.windows.iter().map(|w| w.x.clone()).collect()
 }

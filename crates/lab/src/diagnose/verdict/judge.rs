@@ -1,8 +1,6 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
-use super::worth_naming::could_show;
-use super::worth_naming::place;
-use super::worth_naming::worth_two;
+use super::worth_naming::{could_show, leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
 use super::{name_of_number, names};
 use crate::Progress;
@@ -16,6 +14,15 @@ use crate::diagnose::trials::{
 };
 use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
+
+/// The place of a missing force with the curve that it is, where one holds.
+fn with_curve(placed: Found) -> Found {
+    let curve = placed.discovered.as_ref().and_then(|discovered| discovered.curve.clone());
+    match curve.filter(|_| placed.place == Some("top")) {
+        Some(after) => Found { verdict: Verdict::Curve, after, ..placed },
+        None => placed,
+    }
+}
 
 /// What was found in given windows.
 #[derive(Debug)]
@@ -56,6 +63,7 @@ impl Found {
             | Verdict::Class
             | Verdict::Formula
             | Verdict::FormulaClass
+            | Verdict::Curve
             | Verdict::Recalibrated => &self.after,
             _ => &self.before,
         }
@@ -135,8 +143,31 @@ impl<P: Progress> Gap<'_, P> {
         if other_law.speaks() {
             return self.placed(Some(other_law), tried);
         }
+        let better = self.better_formula(&answer.after, &tried);
         let tried = self.trials.ordered(tried);
-        Found { other_law: Some(other_law), ..self.found(answer, tried) }
+        match better {
+            Some((discovered, formula)) => {
+                let other_law = Some(other_law);
+                Found { discovered: Some(discovered), other_law, ..self.found(formula, tried) }
+            }
+            None => Found { other_law: Some(other_law), ..self.found(answer, tried) },
+        }
+    }
+
+    /// A law outside the catalogue that leaves noise where a name leaves more, and is worth as much beside it as a second
+    /// effect must be: the name only imitates it.
+    fn better_formula(
+        &self,
+        named: &FittedHypothesis,
+        tried: &[FittedHypothesis],
+    ) -> Option<(Discovered, Answer)> {
+        if leaves_noise(named) {
+            return None;
+        }
+        let discovered = self.discovered(tried)?;
+        let formula = self.formula(&discovered)?;
+        let better = leaves_noise(&formula.after) && worth_two(&self.trials.data, named, &formula.after);
+        better.then_some((discovered, formula))
     }
 
     /// The better of the answer among single effects and that among pairs, and everything tried.
@@ -268,7 +299,7 @@ impl<P: Progress> Gap<'_, P> {
                 let tried = self.trials.ordered(tried);
                 Found { discovered, other_law, ..self.found(answer, tried) }
             }
-            None => Found { discovered, ..self.only_placed(other_law, tried) },
+            None => with_curve(Found { discovered, ..self.only_placed(other_law, tried) }),
         }
     }
 

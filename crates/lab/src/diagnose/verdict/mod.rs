@@ -33,6 +33,8 @@ pub enum Verdict {
     Formula,
     /// Several such laws that these data cannot tell apart.
     FormulaClass,
+    /// A force at the top that no formula holds for, as a curve of displacement and one of velocity.
+    Curve,
     /// A place where a force is missing, by a law that is not in the catalogue.
     PlaceOnly,
     /// A gap, and no more is known.
@@ -51,6 +53,7 @@ impl Verdict {
             Self::Class => "class",
             Self::Formula => "formula",
             Self::FormulaClass => "formula_class",
+            Self::Curve => "curve",
             Self::PlaceOnly => "place_only",
             Self::Unknown => "unknown",
             Self::NoPower => "no_power",

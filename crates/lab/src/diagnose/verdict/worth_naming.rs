@@ -104,7 +104,7 @@ pub fn worth_two(data: &Data, one: &FittedHypothesis, two: &FittedHypothesis) ->
 
 /// Whether what a hypothesis leaves is what noise would, to a standard deviation: the squared error of noise has twice its
 /// freedom as variance.
-fn leaves_noise(tried: &FittedHypothesis) -> bool {
+pub fn leaves_noise(tried: &FittedHypothesis) -> bool {
     let windows = all_windows(tried);
     let freedom = windows.iter().map(|window| window.freedom).sum::<f64>();
     nats(&windows) < (0.5 * freedom).sqrt()

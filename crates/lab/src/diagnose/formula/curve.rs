@@ -1,0 +1,123 @@
+//! A force without a formula: a curve of displacement and one of velocity, straight between knots, nothing at rest.
+
+use crate::diagnose::certainty::NINETY_PERCENT;
+use mrbd_formula::{Formula, Parameter, Place};
+
+/// Knots on either side of rest, as shares of the largest displacement or velocity: closer where laws bend most.
+const KNOTS: [f64; 5] = [0.08, 0.2, 0.4, 0.7, 1.0];
+/// Knots on a side.
+pub const SIDE: usize = KNOTS.len();
+/// Knots on both.
+pub const BOTH: usize = 2 * SIDE;
+
+/// A force against displacement and velocity of the top: two curves that add up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Curve {
+    /// Of displacement, m, and of velocity, m/s.
+    pub parts: [Part; 2],
+}
+
+/// A curve of one quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    /// Where it is told, increasing; rest lies between both sides, and the force is 0 there.
+    pub at: [f64; BOTH],
+    /// Force on the wall, N.
+    pub force_n: [f64; BOTH],
+    /// Its standard deviation, N.
+    pub sd_n: [f64; BOTH],
+}
+
+impl Part {
+    /// Both sides alike, as far as the tests went on either.
+    pub fn at([least, most]: [f64; 2]) -> [f64; BOTH] {
+        let reach = most.max(-least);
+        std::array::from_fn(|k| reach * if k < SIDE { -KNOTS[SIDE - 1 - k] } else { KNOTS[k - SIDE] })
+    }
+
+    /// Shares of the values at the knots that make the force at a place. Beyond the last knot the line goes on.
+    pub fn shares(at: &[f64; BOTH], x: f64) -> [f64; BOTH] {
+        let mut shares = [0.0; BOTH];
+        let outwards = |k: usize| if x < 0.0 { SIDE - 1 - k } else { SIDE + k };
+        let knot = |k: usize| at[outwards(k)];
+        let next = (0..SIDE).find(|k| x.abs() <= knot(*k).abs()).unwrap_or(SIDE - 1);
+        let before = if next == 0 { 0.0 } else { knot(next - 1) };
+        let share = (x - before) / (knot(next) - before);
+        shares[outwards(next)] = share;
+        if next > 0 {
+            shares[outwards(next - 1)] = 1.0 - share;
+        }
+        shares
+    }
+
+    /// Force and its standard deviation, N; the latter as between neighbours that err together.
+    pub fn force_n(&self, x: f64) -> [f64; 2] {
+        let shares = Self::shares(&self.at, x);
+        [&self.force_n, &self.sd_n].map(|of| shares.iter().zip(of).map(|(s, f)| s * f).sum::<f64>())
+    }
+
+    /// Force with its 90 % interval, N.
+    pub fn told_n(&self, x: f64) -> (f64, [f64; 2]) {
+        let [force_n, sd_n] = self.force_n(x);
+        (force_n, [-1.0, 1.0].map(|side| force_n + side * NINETY_PERCENT * sd_n.abs()))
+    }
+
+    /// Slope of the first piece on a side, then the changes of slope at its knots but the last.
+    fn bends(&self, side: f64) -> [f64; SIDE] {
+        let outwards = |k: usize| if side < 0.0 { SIDE - 1 - k } else { SIDE + k };
+        let (mut before, mut slope) = ((0.0, 0.0), 0.0);
+        std::array::from_fn(|k| {
+            let here = (self.at[outwards(k)].abs(), self.force_n[outwards(k)]);
+            let own = (here.1 - before.1) / (here.0 - before.0);
+            let bend = own - slope;
+            (before, slope) = (here, own);
+            bend
+        })
+    }
+}
+
+impl Curve {
+    /// As it is written into wall files; `None` where it is refused.
+    pub fn formula(&self) -> Option<Formula> {
+        let (mut text, mut parameters) = (Vec::new(), Vec::new());
+        for (part, (x, unit)) in self.parts.iter().zip([("x", ["N/m", "m"]), ("v", ["N*s/m", "m/s"])]) {
+            let knots =
+                (1..SIDE).map(|k| Parameter::new(&format!("{x}_{k}"), part.at[SIDE - 1 + k], unit[1]));
+            parameters.extend(knots);
+            for (side, sign, letter) in [(-1.0, "-", 'n'), (1.0, "", 'p')] {
+                for (k, bend) in part.bends(side).into_iter().enumerate() {
+                    let name = format!("{x}{letter}_{k}");
+                    parameters.push(Parameter::new(&name, bend, unit[0]));
+                    text.push(match k {
+                        0 => format!("{name}*max({sign}{x},0)"),
+                        _ => format!("{name}*max({sign}{x}-{x}_{k},0)"),
+                    });
+                }
+            }
+        }
+        Formula::parse(&text.join(" + "), Place::Top, &parameters).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_the_formula_of_a_curve_is_the_curve() {
+        let at = |reach: f64| Part::at([-0.8 * reach, reach]);
+        let part = |reach: f64, of: fn(f64) -> f64| Part {
+            at: at(reach),
+            force_n: at(reach).map(of),
+            sd_n: [1.0; BOTH],
+        };
+        let curve =
+            Curve { parts: [part(0.05, |x| 1e4 * x * x - 2e3 * x), part(0.3, |v| -90.0 * v * v.abs())] };
+        let formula = curve.formula().expect("a formula");
+        for (x, v) in [(0.03, -0.2), (-0.01, 0.001), (0.05, 0.3), (-0.06, -0.35), (0.0, 0.0)] {
+            let own = curve.parts[0].force_n(x)[0] + curve.parts[1].force_n(v)[0];
+            // Two ways to the same sum of some tens of newtons.
+            assert!((formula.value([x, v, 0.0]) - own).abs() < 1e-9, "{x}, {v}: {own} in {formula}");
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! The formulas of an answer, held against what is hidden: by how they are written, and by the force that they are.
+
+use mrbd_formula::{Formula, Parameter, Place};
+use mrbd_lab::diagnose::answer::{ForceCurve, FoundEffect, Summary};
+use serde_json::Value;
+
+use super::super::score::reading::{list, text, texts};
+
+/// Displacement, velocity and the true force or moment at a place.
+pub type Excited = [f64; 3];
+
+/// The formula of an effect, ready to be worked out.
+fn formula(effect: &FoundEffect) -> Option<Formula> {
+    let unit = |name: &String| effect.units.get(name).cloned().unwrap_or_default();
+    let parameter = |(name, value): (&String, &f64)| Parameter::new(name, *value, &unit(name));
+    let parameters = effect.parameters.iter().map(parameter).collect::<Vec<_>>();
+    Formula::parse(effect.formula.as_ref()?, Place::named(&effect.place)?, &parameters).ok()
+}
+
+/// The root mean square by which the force of an answer is off, over that of the true force.
+///
+/// What the floor's spring was found off is part of the answer: a linear spring and k_d are one. `None` where the answer acts
+/// elsewhere.
+pub fn function_error(answer: &Value, diagnosis: &Summary, points: &[Excited]) -> Option<f64> {
+    let place = text(answer, "/effects/0/place");
+    let all = diagnosis.effects.iter().map(|effect| Some((&effect.place, formula(effect)?)));
+    let formulas = all.collect::<Option<Vec<_>>>()?;
+    if formulas.is_empty() || formulas.iter().any(|(own, _)| **own != place) {
+        return None;
+    }
+    let softer = if place == "top" { softer(answer, diagnosis)? } else { 0.0 };
+    let found = |[q, u, _]: &Excited| {
+        formulas.iter().map(|(_, formula)| formula.value([*q, *u, 0.0])).sum::<f64>() + softer * q
+    };
+    let off = points.iter().map(|point| (found(point) - point[2]).powi(2)).sum::<f64>();
+    let all = points.iter().map(|[.., force]| force.powi(2)).sum::<f64>();
+    (all > 0.0).then(|| (off / all).sqrt())
+}
+
+/// Of a force without a formula, over what the tests held out excited inside its range: the root mean square by which it is
+/// off over that of the true force, and the share of points whose force the 90 % band holds. `None` for another answer.
+pub fn curve_error(answer: &Value, diagnosis: &Summary, points: &[Excited]) -> Option<(f64, f64)> {
+    let [by_x, by_v] = &diagnosis.curves[..] else { return None };
+    if text(answer, "/effects/0/place") != "top" {
+        return None;
+    }
+    let within = |[low, high]: [f64; 2], x: f64| low <= x && x <= high;
+    let inside = points.iter().filter(|[x, v, _]| within(by_x.range, *x) && within(by_v.range, *v));
+    let softer = softer(answer, diagnosis)?;
+    let apart = |[x, v, force]: &Excited| {
+        let [a, b] = [told(by_x, *x), told(by_v, *v)];
+        // Bands of both curves as if they erred apart.
+        (a[0] + b[0] + softer * x - force, a[1].hypot(b[1]), *force)
+    };
+    let all = inside.map(apart).collect::<Vec<_>>();
+    let off = all.iter().map(|(off, ..)| off * off).sum::<f64>();
+    let size = all.iter().map(|(.., force)| force * force).sum::<f64>();
+    let held = all.iter().filter(|(off, half, _)| off.abs() <= *half).count();
+    (size > 0.0).then(|| ((off / size).sqrt(), held as f64 / all.len() as f64))
+}
+
+/// Force of a curve and half the width of its band, straight between knots and nothing at rest.
+fn told(curve: &ForceCurve, x: f64) -> [f64; 2] {
+    let half = curve.interval_n.iter().map(|[low, high]| 0.5 * (high - low));
+    let knots = curve.at.iter().zip(&curve.force_n).zip(half).map(|((at, force), half)| (*at, *force, half));
+    let mut knots = knots.chain([(0.0, 0.0, 0.0)]).collect::<Vec<_>>();
+    knots.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let next = knots.iter().position(|knot| x <= knot.0).unwrap_or(knots.len() - 1).max(1);
+    let (a, b) = (knots[next - 1], knots[next]);
+    let share = (x - a.0) / (b.0 - a.0);
+    [a.1 + share * (b.1 - a.1), a.2 + share * (b.2 - a.2)]
+}
+
+/// By how much the floor's spring of the answer is softer than the true one, N/m.
+fn softer(answer: &Value, diagnosis: &Summary) -> Option<f64> {
+    let own = diagnosis.wall.iter().find(|number| number.key.ends_with("stiffness_n_per_m"))?;
+    Some(answer.pointer("/case/stiffness_n_per_m")?.as_f64()? - own.after)
+}
+
+/// The atoms of formulas as they are written, without the numbers of their letters.
+fn atoms(effects: &[FoundEffect]) -> Vec<String> {
+    let of = |effect: &FoundEffect| {
+        let text = effect.formula.clone().unwrap_or_default().replace("_1", "").replace("_2", "");
+        let atoms = text.replace(" + ", " ").replace(" - ", " -");
+        atoms.split(' ').map(|atom| format!("{atom} at {}", effect.place)).collect::<Vec<_>>()
+    };
+    effects.iter().flat_map(of).collect()
+}
+
+/// Whether effects are written as what is hidden is, each atom once.
+pub fn is_spelled_as(answer: &Value, effects: &[FoundEffect]) -> bool {
+    let mut found = atoms(effects);
+    let hidden = list(answer, "/effects");
+    if hidden.is_empty() || hidden.len() != found.len() {
+        return false;
+    }
+    hidden.iter().all(|one| {
+        let place = text(one, "/place");
+        let spelled =
+            texts(one, "/spellings", "").iter().map(|s| format!("{s} at {place}")).collect::<Vec<_>>();
+        let at = found.iter().position(|atom| spelled.contains(atom));
+        at.map(|at| found.swap_remove(at)).is_some()
+    })
+}
+
+/// How far the numbers of an answer of one atom are off: the share of the true one, and whether the interval holds it.
+///
+/// A coefficient beside an exponent that was taken as exact is asked where the true one is as exact.
+pub fn number_errors(answer: &Value, effects: &[FoundEffect]) -> Vec<(f64, bool)> {
+    let [effect] = effects else { return Vec::new() };
+    if list(answer, "/effects").len() != 1 || !is_spelled_as(answer, effects) {
+        return Vec::new();
+    }
+    let one = |(name, found): (&String, &f64)| {
+        let truth = answer.pointer(&format!("/effects/0/parameters/{name}"))?.as_f64()?;
+        let [low, high] = *effect.interval.get(name)?;
+        Some(((found / truth - 1.0).abs(), low <= truth && truth <= high))
+    };
+    effect.parameters.iter().filter_map(one).collect()
+}

@@ -1,0 +1,18 @@
+//! Blind cases for laws that no catalogue has: drawn by kind, told as formulas, scored by the functions that they are.
+//!
+//! | part | what |
+//! | --- | --- |
+//! | [`atom`] | a law: what it is worth, how wall files write it |
+//! | [`draw`] | a number becomes a case |
+//! | [`excited`] | where the tests went, and the force that was there |
+//! | [`found`] | the formulas of an answer, held against the truth |
+//! | [`row`], [`targets`] | one row a case, and what was reached |
+
+pub mod atom;
+pub mod draw;
+pub mod excited;
+pub mod found;
+pub mod row;
+pub mod targets;
+
+pub use row::LawRow;

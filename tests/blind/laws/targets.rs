@@ -1,0 +1,114 @@
+//! The targets of laws as formulas and what was reached.
+
+use std::path::{Path, PathBuf};
+
+use super::super::score::counted::Counted;
+use super::super::score::reading::median;
+use super::super::score::recorded;
+use super::super::score::targets::printed;
+use super::row::LawRow;
+
+/// Up to this a law is to be found nearly always, rad.
+const LOW_NOISE_RAD: f64 = 1.001e-4;
+/// Windowed error of the test held out that a law may leave.
+const FOLLOWED: f64 = 1.15;
+
+/// A table in Markdown: figure, target, reached with its interval, cases.
+pub fn table(rows: &[LawRow]) -> String {
+    let mut lines = Vec::new();
+    let mut add = |figure: &str, target: &str, reached: String| {
+        lines.push([figure.to_owned(), target.to_owned(), reached]);
+    };
+    let group =
+        |names: &[&str]| rows.iter().filter(|row| names.contains(&row.group.as_str())).collect::<Vec<_>>();
+    let told = |rows: &[&LawRow], so: fn(&LawRow) -> bool| Counted::of(rows, |row| so(row)).told();
+    let nulls = group(&["nothing", "a name"]);
+    add("a formula where nothing is hidden or a name holds", "≤ 1 %", told(&nulls, LawRow::accepts));
+    let one = group(&["one atom"]);
+    let seen = |is_low: bool| {
+        let own = |row: &&&LawRow| row.visible() && (row.noise_rad < LOW_NOISE_RAD) == is_low;
+        one.iter().filter(own).copied().collect::<Vec<_>>()
+    };
+    let (low_seen, high_seen) = (seen(true), seen(false));
+    add(
+        "one atom, visible, ≤ 1e-4 rad: the formula, alone or in a class",
+        "≥ 90 %",
+        told(&low_seen, LawRow::right),
+    );
+    add("– alone", "≥ 75 %", told(&low_seen, LawRow::exact));
+    add("– the force within 10 %", "", told(&low_seen, LawRow::function_right));
+    let off = low_seen.iter().copied().filter(|row| row.off_grid).collect::<Vec<_>>();
+    add("– of these with an exponent that is no half: the formula", "", told(&off, LawRow::right));
+    add(
+        "one atom at 3e-4 rad, visible: the formula, alone or in a class",
+        "≥ 65 %",
+        told(&high_seen, LawRow::right),
+    );
+    let two = group(&["two atoms"]);
+    add("two atoms: both right", "≥ 60 %", told(&two, LawRow::right));
+    add("– the force within 10 %", "≥ 80 %", told(&two, LawRow::function_right));
+    let joint = group(&["joint"]);
+    add("a law at a joint: the formula, alone or in a class", "≥ 70 %", told(&joint, LawRow::right));
+    let memory = group(&["memory or a hidden body"]);
+    add("a memory or a hidden body: by a formula", "≥ 70 %", told(&memory, LawRow::right));
+    let outside = group(&["outside the grammar"]);
+    add("outside the grammar: accepted, and off by more than 10 %", "≤ 10 %", told(&outside, LawRow::wrong));
+    let accepted = rows.iter().filter(|row| row.accepts()).collect::<Vec<_>>();
+    add("accepted formulas that are another force", "≤ 5 %", told(&accepted, LawRow::wrong));
+    let curves = rows.iter().filter_map(|row| row.curve).collect::<Vec<_>>();
+    let percent = |value: Option<f64>| value.map_or("none".to_owned(), |v| format!("{:.1} %", 100.0 * v));
+    let [off, held] = [median(curves.iter().map(|c| c.0)), median(curves.iter().map(|c| c.1))].map(percent);
+    add(
+        "a force without a formula, held out: median error",
+        "≤ 3 %",
+        format!("{off}, {} cases", curves.len()),
+    );
+    add("– points that its 90 % band holds, median", "85 to 95 %", held);
+    let numbers = rows.iter().flat_map(|row| &row.numbers).collect::<Vec<_>>();
+    let error = median(numbers.iter().map(|(error, _)| *error));
+    let error = error.map_or("none".into(), |e| format!("{:.1} %, {} numbers", 100.0 * e, numbers.len()));
+    add("numbers of one right atom, median error", "≤ 2 %", error);
+    add(
+        "– their 90 % intervals hold the truth",
+        "85 to 95 %",
+        Counted::of(&numbers, |(_, covered)| *covered).told(),
+    );
+    let of = |value: fn(&LawRow) -> Option<f64>| median(accepted.iter().filter_map(|row| value(row)));
+    let text = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
+    let reached = format!("{} to {}", text(of(|r| r.before)), text(of(|r| r.after)));
+    add(
+        "accepted: windowed error of the test held out, at another amplitude, median",
+        "> 3 to < 1.15",
+        reached,
+    );
+    let followed = |row: &LawRow| row.after.is_some_and(|error| error < FOLLOWED);
+    add("– below 1.15", "≥ 90 %", told(&accepted, followed));
+    let slowest = rows.iter().map(|row| row.seconds).fold(0.0, f64::max);
+    let typical = median(rows.iter().map(|row| row.seconds)).unwrap_or(0.0);
+    add("time of a case on one thread", "", format!("median {typical:.0} s, longest {slowest:.0} s"));
+    printed(&lines)
+}
+
+/// Reads every diagnosed case, prints what was reached of these and of those recorded before, and writes a line a case.
+///
+/// # Errors
+/// Text for people: a file that cannot be read or written.
+pub fn report(cases: &[PathBuf], recorded: Vec<LawRow>, out: &Path) -> Result<(), String> {
+    let new =
+        cases.iter().filter_map(|case| LawRow::load(case).transpose()).collect::<Result<Vec<_>, _>>()?;
+    let missing = cases.len() - new.len();
+    if missing > 0 {
+        eprintln!("{missing} of {} cases have not been diagnosed", cases.len());
+    }
+    let mut rows = [recorded, new].concat();
+    rows.sort_by_key(|row| row.number);
+    let mut sorted = rows.iter().collect::<Vec<_>>();
+    sorted.sort_by_key(|row| (row.group.clone(), row.number));
+    let said = sorted.iter().map(|row| format!("{}: {}\n", row.group, row.said())).collect::<String>();
+    let text = format!("{}\n{said}", table(&rows));
+    print!("{text}");
+    let told = |e: &dyn std::fmt::Display| format!("{}: {e}", out.display());
+    std::fs::create_dir_all(out).map_err(|e| told(&e))?;
+    std::fs::write(out.join("report.txt"), &text).map_err(|e| told(&e))?;
+    recorded::save(&out.join("cases.jsonl"), &rows)
+}
