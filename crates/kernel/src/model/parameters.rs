@@ -52,7 +52,7 @@ impl Default for Restitution {
     }
 }
 
-/// The numbers that make a wall, SI units, unchecked; [`Wall::new`] checks them.
+/// The numbers that make a wall, SI units, unchecked; [`Wall::new`](super::Wall::new) checks them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallParameters {
     /// Thickness b, m.

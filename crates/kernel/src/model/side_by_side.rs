@@ -13,62 +13,14 @@ use std::f64::consts::FRAC_PI_4;
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
 use super::joint_forces::{JointForce, JointForces, Reactions};
-use super::lane_laws::{FurtherLanes, LawRow, SpringLanes};
-use super::mass_matrix::Freedom;
-use super::motion::Motion;
+use super::lane_laws::{FurtherLanes, SpringLanes};
+use super::motion_row::MotionRow;
 use super::vector::{COS, SIN, sin_cos};
 use super::wall::G_M_S2;
 use crate::fused::fused_lanes as fused;
 use crate::lanes::{LANES, Numbers, from_row, lanes};
 
 type F<S> = f64x4<S>;
-
-/// The motions of the walls of a row, number by number as registers take them.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct MotionRow {
-    upper: Numbers,
-    o_x: Numbers,
-    o_c: Numbers,
-    q_x: Numbers,
-    q: [Numbers; 2],
-    c: [Numbers; 2],
-    v: [Numbers; 2],
-    u: [Numbers; 2],
-    whole_arm: [Numbers; 2],
-    whole_moment: [Numbers; 2],
-    whole_inertia: Numbers,
-    inertias: [Numbers; 2],
-    lower_mass: Numbers,
-    upper_mass: Numbers,
-    lower_inertia: Numbers,
-    laws: LawRow,
-}
-
-impl MotionRow {
-    /// Puts a motion in a lane.
-    pub fn put(&mut self, i: usize, m: &Motion) {
-        let put = |to: &mut [Numbers; 2], [first, second]: [f64; 2]| {
-            to[0][i] = first;
-            to[1][i] = second;
-        };
-        self.upper[i] = f64::from(u8::from(m.freedom == Freedom::Upper));
-        self.o_x[i] = m.o_x;
-        self.o_c[i] = m.o_c;
-        self.q_x[i] = m.q_x;
-        put(&mut self.q, [m.q.x, m.q.y]);
-        put(&mut self.c, [m.c.x, m.c.y]);
-        put(&mut self.v, [m.v.x, m.v.y]);
-        put(&mut self.u, [m.u.x, m.u.y]);
-        put(&mut self.whole_arm, [m.whole_arm.x, m.whole_arm.y]);
-        put(&mut self.whole_moment, [m.whole_moment.x, m.whole_moment.y]);
-        self.whole_inertia[i] = m.whole_inertia;
-        put(&mut self.inertias, m.inertias.to_array());
-        self.lower_mass[i] = m.lower_mass;
-        self.upper_mass[i] = m.upper_mass;
-        self.lower_inertia[i] = m.lower_inertia;
-        self.laws.put(i, m);
-    }
-}
 
 /// The motions of several contact states side by side, all of one [`LaneKind`].
 pub(crate) struct Motions<S: Simd, const AS_ONE: bool, const FURTHER: bool> {

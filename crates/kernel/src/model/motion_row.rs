@@ -1,0 +1,53 @@
+//! The motions of the walls of a row in memory, from where [`super::side_by_side`] takes them into registers.
+
+use super::lane_laws::LawRow;
+use super::mass_matrix::Freedom;
+use super::motion::Motion;
+use crate::lanes::Numbers;
+
+/// The motions of the walls of a row, number by number as registers take them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct MotionRow {
+    pub(super) upper: Numbers,
+    pub(super) o_x: Numbers,
+    pub(super) o_c: Numbers,
+    pub(super) q_x: Numbers,
+    pub(super) q: [Numbers; 2],
+    pub(super) c: [Numbers; 2],
+    pub(super) v: [Numbers; 2],
+    pub(super) u: [Numbers; 2],
+    pub(super) whole_arm: [Numbers; 2],
+    pub(super) whole_moment: [Numbers; 2],
+    pub(super) whole_inertia: Numbers,
+    pub(super) inertias: [Numbers; 2],
+    pub(super) lower_mass: Numbers,
+    pub(super) upper_mass: Numbers,
+    pub(super) lower_inertia: Numbers,
+    pub(super) laws: LawRow,
+}
+
+impl MotionRow {
+    /// Puts a motion in a lane.
+    pub fn put(&mut self, i: usize, m: &Motion) {
+        let put = |to: &mut [Numbers; 2], [first, second]: [f64; 2]| {
+            to[0][i] = first;
+            to[1][i] = second;
+        };
+        self.upper[i] = f64::from(u8::from(m.freedom == Freedom::Upper));
+        self.o_x[i] = m.o_x;
+        self.o_c[i] = m.o_c;
+        self.q_x[i] = m.q_x;
+        put(&mut self.q, [m.q.x, m.q.y]);
+        put(&mut self.c, [m.c.x, m.c.y]);
+        put(&mut self.v, [m.v.x, m.v.y]);
+        put(&mut self.u, [m.u.x, m.u.y]);
+        put(&mut self.whole_arm, [m.whole_arm.x, m.whole_arm.y]);
+        put(&mut self.whole_moment, [m.whole_moment.x, m.whole_moment.y]);
+        self.whole_inertia[i] = m.whole_inertia;
+        put(&mut self.inertias, m.inertias.to_array());
+        self.lower_mass[i] = m.lower_mass;
+        self.upper_mass[i] = m.upper_mass;
+        self.lower_inertia[i] = m.lower_inertia;
+        self.laws.put(i, m);
+    }
+}
