@@ -6,8 +6,8 @@
 
 use fearless_simd::Level;
 
-/// Whether walls step faster side by side than one after another. Where products and sums that are rounded once are
-/// made of other instructions, lanes save none of the time.
+/// Whether walls step side by side. Where products and sums that are rounded once are calls of a library, number by
+/// number, lanes have little to save.
 pub(crate) fn lanes_pay(level: Level) -> bool {
     #[cfg(target_arch = "x86_64")]
     let pay = level.as_avx2().is_some();
