@@ -1,7 +1,7 @@
 //! Values by likelihood: in windows whose starts are fitted too, then over whole tests.
 //!
 //! A search over whole runs may end in a wrong valley that is 1e-5 of a coefficient wide, and nothing about it tells. Over
-//! half a second there is one valley. So the numbers are fitted to windows as a diagnosis fits its hypotheses, together with
+//! half a second there are few. So the numbers are fitted to windows as a diagnosis fits its hypotheses, together with
 //! the state at the start of every window. Where that leaves no more than noise, they lie in the right valley of whole runs
 //! too, or so near that a fit from there finds it. Which of the two is told, and whether the tests are followed to their
 //! noise: only then do intervals mean what they say.
@@ -30,6 +30,11 @@ const FINISHED: usize = 2;
 const DRAWN: u32 = 3;
 const ROUNDS: u32 = 1;
 const DRAWN_SD: f64 = 3.0;
+/// Vectors drawn anywhere between the bounds from which a fit in windows begins too: other valleys.
+const ANYWHERE: u32 = 2;
+/// Fits that cost no more than this above the best are no worse: in squared noise, twice the logarithm of a likelihood ratio
+/// of e⁶. An interval holds those of all of them.
+const AS_GOOD: f64 = 12.0;
 /// A gain in cost, in squared noise, that is worth another round.
 const WORTH_A_ROUND: f64 = 2.0;
 /// Values over whole tests must lie within so many standard deviations of those over windows.
@@ -161,6 +166,16 @@ struct Fitted {
 }
 
 impl Fitted {
+    /// Widens intervals and variances to hold those of another fit that is as good.
+    fn hold(&mut self, other: &Self) {
+        let ends = self.found.interval_95.iter_mut().zip(&other.found.interval_95);
+        ends.for_each(|(own, theirs)| *own = [own[0].min(theirs[0]), own[1].max(theirs[1])]);
+        let values = self.found.values.iter().zip(&other.found.values);
+        let apart = values.map(|(own, theirs)| (own - theirs).powi(2));
+        let widest = self.variances.iter_mut().zip(&other.variances).zip(apart);
+        widest.for_each(|((own, theirs), apart)| *own = own.max(theirs + apart));
+    }
+
     /// Whether every number that leaves a trace in another fit leaves one in this.
     ///
     /// Over a long test the motion changes with a number too steeply for any slope to be told.
@@ -194,9 +209,56 @@ impl Likelihood<'_> {
         let none: [Window; 0] = [];
         let data = Data { fit: self.problem(&windows), held_out: self.problem(&none) };
         match opened_under(&data, &first) {
-            Some(([opened, _], count)) if count > 0 => self.fitted(opened, &[first.fit.values]),
-            _ => self.judged(windows, first.fit),
+            Some(([opened, _], count)) if count > 0 => {
+                let again = self.best_of(&self.problem(&opened), std::slice::from_ref(&first.fit.values))?;
+                self.with_valleys(opened, again)
+            }
+            _ => self.with_valleys(windows, first.fit),
         }
+    }
+
+    /// The best of a fit and of those from other valleys, with intervals that hold all that are as good.
+    ///
+    /// Impacts at the crack come in bursts in which C_1 and C_2 act in turn. Exchanged they may leave the same windows within
+    /// their noise.
+    fn with_valleys(&self, windows: Vec<Window>, fit: Fit) -> Option<Fitted> {
+        let others = self.other_valleys(&self.problem(&windows), &fit);
+        let mut all = [vec![fit], others].concat();
+        all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let limit = all[0].cost + AS_GOOD;
+        all.retain(|fit| fit.cost <= limit);
+        let mut all = all.into_iter();
+        let mut best = self.judged(windows.clone(), all.next()?)?;
+        for other in all {
+            let other = self.told(&windows, other)?;
+            best.hold(&other);
+        }
+        Some(best)
+    }
+
+    /// Fits from the exchanged coefficients of bursts, and from anywhere.
+    fn other_valleys(&self, problem: &Problem, fit: &Fit) -> Vec<Fit> {
+        let h = &self.hypothesis;
+        let place = |key: &str| h.unknowns.iter().position(|unknown| unknown.key == key);
+        let exchanged = place("C_1").zip(place("C_2")).map(|(one, two)| {
+            let mut values = fit.values.clone();
+            values[one] = h.unknowns[one].within(fit.values[two]);
+            values[two] = h.unknowns[two].within(fit.values[one]);
+            values
+        });
+        let draws = self.draws.part("anywhere");
+        let anywhere = |number: u32| {
+            let share = |v: usize| draws.uniform(0, number, v as u32);
+            let within = |(v, u): (usize, &Unknown)| u.lower + share(v) * (u.upper - u.lower);
+            h.unknowns.iter().enumerate().map(within).collect::<Vec<_>>()
+        };
+        let starts = exchanged.into_iter().chain((0..ANYWHERE).map(anywhere)).collect::<Vec<_>>();
+        let measured = problem.measured_states();
+        let from = |values: Vec<f64>| {
+            let start = problem.states(h, &values, &measured, 3, false)?;
+            problem.fit_finely(h, problem.fit_coarsely(h, start)?)
+        };
+        starts.into_par_iter().filter_map(from).collect()
     }
 
     fn tried(&self, fit: Fit) -> FittedHypothesis {
@@ -228,9 +290,14 @@ impl Likelihood<'_> {
                 break;
             }
         }
-        let tried = self.tried(best);
+        self.told(&windows, best)
+    }
+
+    /// What a fit says.
+    fn told(&self, windows: &[Window], fit: Fit) -> Option<Fitted> {
+        let tried = self.tried(fit);
         let none: [Window; 0] = [];
-        let data = Data { fit: problem, held_out: self.problem(&none) };
+        let data = Data { fit: self.problem(windows), held_out: self.problem(&none) };
         let Spread { covariance, scatter } = spread(&data, &tried)?;
         let variances =
             (0..scatter.nrows()).map(|i| covariance[(i, i)] + scatter[(i, i)]).collect::<Vec<_>>();
