@@ -64,7 +64,7 @@ impl Findings<'_> {
             let parts = curve.parts.into_iter().zip(against).zip(excited);
             parts.map(|((part, against), range)| force_curve(&part, against, range)).collect::<Vec<_>>()
         };
-        self.found.after.hypothesis.curves().flat_map(of).collect()
+        self.found.after.hypothesis.curve.iter().flat_map(of).collect()
     }
 
     /// What was excited at a site, by column.

@@ -219,7 +219,7 @@ impl Findings<'_> {
     /// The force that no formula holds for, where that is the answer.
     fn without_formula(&self) -> impl Iterator<Item = LawCurve> {
         let own = self.found.verdict == Verdict::Curve;
-        let curves = self.found.after.hypothesis.curves().filter(move |_| own);
+        let curves = self.found.after.hypothesis.curve.iter().filter(move |_| own);
         let against = [Against::Displacement, Against::Velocity];
         curves.flat_map(move |curve| {
             curve.parts.into_iter().zip(against).map(|(part, against)| LawCurve {

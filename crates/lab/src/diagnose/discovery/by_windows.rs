@@ -7,6 +7,7 @@ use super::points::Points;
 use super::search::{Candidate, Searched, search};
 use super::stability::Stability;
 use crate::Progress;
+use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
@@ -100,7 +101,8 @@ impl<P: Progress> Trials<'_, P> {
     fn curve(&self, gap: &OpenGap, searched: &Searched) -> Option<FittedHypothesis> {
         let (curve, steps) = curve_of(&searched.equations)?;
         self.progress.begin("a force without a formula", 1);
-        let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Curve(curve)]);
+        let Experiment { wall, scales, nuisances, .. } = self.experiment;
+        let hypothesis = Hypothesis::of_curve(wall.parameters(), scales, nuisances, curve);
         let values = beside(&hypothesis, &steps).collect::<Vec<_>>();
         let found = with_values(&self.data, hypothesis, gap.nearest, &values);
         self.progress.advance(1);

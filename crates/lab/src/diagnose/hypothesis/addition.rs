@@ -2,7 +2,7 @@
 
 use super::unknown::{Slot, wall_number};
 use super::{Scales, Unknown, WallNumber};
-use crate::diagnose::formula::{Curve, Law, LawSlot, Meaning};
+use crate::diagnose::formula::{Law, LawSlot, Meaning};
 use crate::limits::{FACTOR_SD, MOST_OF_LAW, STRONGEST_DAMPER};
 use mrbd_kernel::model::{
     EffectKind, EffectParameter, EffectVariant, Joint, Place, Quantity, Role, WallParameters,
@@ -22,8 +22,8 @@ pub enum Addition {
     Number(&'static WallNumber),
     /// A law that is none of the catalogue, with the numbers that were found for it over points.
     Formula(Law),
-    /// A force without a formula, as it was found over points.
-    Curve(Curve),
+    /// A force without a formula, which the hypothesis has beside its additions.
+    Curve,
     /// A vertical motion that cannot have been: the record backwards. Shows what a term without meaning gains.
     Placebo,
 }
@@ -36,7 +36,7 @@ impl Addition {
             Addition::LumpedCarriage => format!("{}.lumped", EffectKind::CarriageMass.name()),
             Addition::Number(number) => number.key.into(),
             Addition::Formula(law) => law.name(),
-            Addition::Curve(_) => "curve".into(),
+            Addition::Curve => "curve".into(),
             Addition::Placebo => "placebo".into(),
         }
     }
@@ -46,7 +46,7 @@ impl Addition {
         match self {
             Addition::Effect(variant) => Some(variant.kind),
             Addition::LumpedCarriage => Some(EffectKind::CarriageMass),
-            Addition::Number(_) | Addition::Formula(_) | Addition::Curve(_) | Addition::Placebo => None,
+            Addition::Number(_) | Addition::Formula(_) | Addition::Curve | Addition::Placebo => None,
         }
     }
 
@@ -64,7 +64,7 @@ impl Addition {
             Addition::Number(number) if number.key.starts_with("corners") => "joint",
             Addition::Number(_) => "masses",
             Addition::Formula(law) => law.first.site.name(),
-            Addition::Curve(_) => "top",
+            Addition::Curve => "top",
             Addition::Placebo => "none",
         }
     }
@@ -95,7 +95,7 @@ impl Addition {
                 unknowns
             }
             Addition::Formula(law) => law_unknowns(law, index),
-            Addition::Curve(_) => Vec::new(),
+            Addition::Curve => Vec::new(),
             Addition::Placebo => alone("ratio", Quantity::Ratio, 0.0, -2.0, 2.0),
         }
     }

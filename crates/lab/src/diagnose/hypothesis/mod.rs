@@ -49,6 +49,8 @@ pub struct Hypothesis {
     pub unknowns: Vec<Unknown>,
     /// How many of them are the wall's.
     pub nuisances: usize,
+    /// A force without a formula, as it was found over points.
+    pub curve: Option<Curve>,
 }
 
 impl Hypothesis {
@@ -69,7 +71,19 @@ impl Hypothesis {
         for (index, addition) in additions.iter().enumerate() {
             unknowns.extend(addition.unknowns(base, scales, index));
         }
-        Self { base: base.clone(), walls: None, additions: additions.to_vec(), unknowns, nuisances: count }
+        Self {
+            base: base.clone(),
+            walls: None,
+            additions: additions.to_vec(),
+            unknowns,
+            nuisances: count,
+            curve: None,
+        }
+    }
+
+    /// The wall with these uncertainties and a force without a formula.
+    pub fn of_curve(base: &WallParameters, scales: &Scales, nuisances: &[Nuisance], curve: Curve) -> Self {
+        Self { curve: Some(curve), ..Self::new(base, scales, nuisances, &[Addition::Curve]) }
     }
 
     /// The wall with these uncertainties and a law of the user's own, whose numbers are to be found.
@@ -91,7 +105,8 @@ impl Hypothesis {
     /// Walls whose numbers are sought elsewhere.
     pub fn of_walls(base: &WallParameters, walls: Arc<dyn Walls>, unknowns: Vec<Unknown>) -> Self {
         let nuisances = unknowns.len();
-        Self { base: base.clone(), walls: Some(walls), additions: Vec::new(), unknowns, nuisances }
+        let base = base.clone();
+        Self { base, walls: Some(walls), additions: Vec::new(), unknowns, nuisances, curve: None }
     }
 
     /// Where the search starts.
@@ -143,7 +158,7 @@ impl Hypothesis {
                     let carriage = EffectKind::CarriageMass.variant(None).ok()?;
                     effects.push(carriage.with_parameters(&[mass_kg]).ok()?);
                 }
-                Addition::Number(_) | Addition::Formula(_) | Addition::Curve(_) | Addition::Placebo => {}
+                Addition::Number(_) | Addition::Formula(_) | Addition::Curve | Addition::Placebo => {}
             }
         }
         Some(effects)
@@ -205,18 +220,10 @@ impl Hypothesis {
         self.additions.iter().enumerate().filter_map(law).collect()
     }
 
-    /// Forces without a formula among its additions.
-    pub fn curves(&self) -> impl Iterator<Item = &Curve> {
-        self.additions.iter().filter_map(|addition| match addition {
-            Addition::Curve(curve) => Some(curve),
-            _ => None,
-        })
-    }
-
     /// Laws and forces without a formula as formulas for the wall file; `None` where one is refused.
     pub fn formulas(&self, values: &[f64]) -> Option<Vec<Formula>> {
         let laws = self.laws(values).iter().map(Law::formulas).collect::<Option<Vec<_>>>()?;
-        let curves = self.curves().map(Curve::formula).collect::<Option<Vec<_>>>()?;
+        let curves = self.curve.iter().map(Curve::formula).collect::<Option<Vec<_>>>()?;
         Some([laws.concat(), curves].concat())
     }
 
