@@ -5,6 +5,9 @@ use super::super::score::reading::median;
 use super::super::score::targets::printed;
 use super::row::{Number, Row};
 
+/// Whether a twin belongs to a group.
+type Group = fn(&Row) -> bool;
+
 /// A table in Markdown: figure, target, reached with its interval.
 pub fn table(rows: &[Row]) -> String {
     let mut lines = Vec::new();
@@ -17,7 +20,7 @@ pub fn table(rows: &[Row]) -> String {
     let holds = |numbers: &[Number]| Counted::of(numbers.iter().filter_map(Number::holds), |holds| *holds);
     let all = rows.iter().collect::<Vec<_>>();
     add("95 % interval holds the truth, where identified", "90 to 98 %", holds(&identified(&all)).told());
-    let groups: [(&str, fn(&Row) -> bool); 4] = [
+    let groups: [(&str, Group); 4] = [
         ("– own simulator, `contact`", |row| row.simulator == "own" && row.law == "contact"),
         ("– own simulator, `whole`", |row| row.law == "whole"),
         ("– the other simulator", |row| row.simulator == "compliant"),
