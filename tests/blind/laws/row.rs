@@ -132,9 +132,9 @@ impl LawRow {
         matches!(self.verdict.as_str(), "formula" | "formula_class")
     }
 
-    /// Whether the hidden law shows at all.
+    /// Whether the hidden law shows at all; a diagnosis that failed is held against the program.
     pub fn visible(&self) -> bool {
-        self.against_recalibrated.is_some_and(|nats| nats > VISIBLE_NATS)
+        self.against_recalibrated.is_none_or(|nats| nats > VISIBLE_NATS)
     }
 
     /// Whether the force is the true one.
