@@ -109,7 +109,11 @@ impl WallNumbers {
             self.law,
         );
         for effect in effects {
-            let _ = write!(text, "\n[[effects]]\n{effect}");
+            text.push_str("\n[[effects]]\n");
+            // A table inside an effect stands on its line: under a heading of its own it would be none of the effect's.
+            effect.iter().for_each(|(key, value)| {
+                let _ = writeln!(text, "{key} = {value}");
+            });
         }
         text
     }
