@@ -30,21 +30,14 @@
 //! | [`aggregate`] | those rows alone | medians and quantiles over records, or over drawn façades |
 //! | [`findings`] | medians | tables, and the paper's conclusions checked one by one |
 //! | [`check`] | medians and accepted medians, runs and the same runs again | what moved, and what is ill-conditioned |
+//! | [`sensitivity`] | studies | what their results depend on: suites, intensity measures, each uncertain input |
 //! | [`fragility`] | tables of outcomes | the probability of failure by intensity, with intervals |
-//! | [`suites`] | sweeps | conclusions under several suites, and how many records decide them |
-//! | [`measures`] | drawn façades | which intensity measure foretells their response |
-//! | [`variance`] | points of a pick-freeze design | which share of the variance each input has |
-//! | [`margin`] | a wall, a suite | the factor on each record that overturns it, and its fragility |
+//! | [`assessment`] | a wall or a survey, a site, a suite | the code's check beside the dynamics, margins, pushes, annual rates |
 //! | [`classics`] | a wall, and what others published | their studies again: the models of Fig. 9, overturning spectra |
-//! | [`assessment`] | a wall, a site, a suite | the code's check and the dynamics, as a folder keeps them |
-//! | [`push`] | a wall | force against displacement as it is pushed slowly |
-//! | [`portfolio`] | a survey, a site, a suite | the code's check beside the dynamics, façade by façade |
-//! | [`risk`] | fragilities, a hazard curve | annual rates of limit states |
 //! | [`results`] | a run, what the laboratory found | JSON, result folders |
 //! | [`summary`] | result folders | what a page shows, computed before anything is drawn |
 //! | [`report`] | summaries, runs | pages and pictures |
-//! | [`starter`] | nothing | a wall, a pipeline and an experiment to begin with |
-//! | [`cli`] | the command line | the above, and messages for people |
+//! | [`cli`] | the command line | the above, files to begin with, and messages for people |
 //!
 //! # A study without its files
 //!
@@ -68,20 +61,13 @@ pub mod cli;
 pub mod error;
 pub mod findings;
 pub mod fragility;
-pub mod margin;
-pub mod measures;
-pub mod portfolio;
-pub mod push;
 pub mod report;
 pub mod results;
-pub mod risk;
-pub mod starter;
+pub mod sensitivity;
 pub mod store;
 pub mod study;
-pub mod suites;
 pub mod summary;
 pub mod survey;
 pub mod text;
-pub mod variance;
 
 pub use error::{Error, InputError, Result};

@@ -14,9 +14,7 @@ use crate::study::batch::run_all;
 use crate::study::plan::Plan;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{Accuracy, Shaking, simulate};
-
-/// Standard deviations of a normal distribution that hold 95 %.
-const Z_95: f64 = 1.959_963_984_540_054;
+use mrbd_statistics::normal::NINETY_FIVE_PERCENT;
 
 /// One run as stored and as it came out again.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,10 +52,10 @@ impl Conditioning {
         if self.runs == 0 {
             return None;
         }
-        let (n, z2) = (self.runs as f64, Z_95 * Z_95);
+        let (n, z2) = (self.runs as f64, NINETY_FIVE_PERCENT * NINETY_FIVE_PERCENT);
         let p = self.ill_conditioned as f64 / n;
         let middle = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
-        let half = Z_95 / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
+        let half = NINETY_FIVE_PERCENT / (1.0 + z2 / n) * (p * (1.0 - p) / n + z2 / (4.0 * n * n)).sqrt();
         Some([p, middle - half, middle + half])
     }
 }

@@ -13,9 +13,9 @@ use crate::error::Result;
 use crate::findings::{
     Conclusions, conclusions, report, report_distributions, report_sequences, write_findings,
 };
+use crate::sensitivity::variance::{self, Shares};
 use crate::study::pipeline::Kind;
 use crate::study::runs::{Completeness, Manifest};
-use crate::variance::{self, Shares};
 
 /// Read the runs of a study, write medians.parquet (and findings.csv of a sweep, sequences.parquet of sequences,
 /// indices.parquet of a study of variance) beside them, print tables and findings.

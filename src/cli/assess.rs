@@ -7,9 +7,8 @@ use clap::Args;
 use super::progress::Bar;
 use super::threads::Threads;
 use super::{Answer, output};
-use crate::assessment::{
-    Assessed, Compared, FILES, KIND, Language, SuiteNote, WallNumbers, csv_bytes, governing_run,
-};
+use crate::assessment::governing::{csv_bytes, governing_run};
+use crate::assessment::wall::{Assessed, Compared, FILES, KIND, Language, SuiteNote, WallNumbers};
 use crate::error::{Error, InputError, Result};
 use crate::store::{WholeFolder, write_durably};
 use crate::text::aligned;

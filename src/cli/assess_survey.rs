@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::threads::Threads;
 use super::{output, progress};
+use crate::assessment::portfolio::{COLUMNS, FILES, KIND, Portfolio, Question, by_factor, shares};
 use crate::error::{Error, InputError, Result};
-use crate::portfolio::{COLUMNS, FILES, KIND, Portfolio, Question, by_factor, shares};
 use crate::store::{WholeFolder, print_csv, write_durably, write_table};
 use crate::survey::Survey;
 use mrbd_assessment::{SiteFile, motions};

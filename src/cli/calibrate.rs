@@ -8,7 +8,7 @@ use clap::Args;
 use super::progress::Bar;
 use super::shell::shell_word;
 use super::threads::Threads;
-use super::{output, threads};
+use super::{output, stop};
 use crate::error::{InputError, Result};
 use crate::results::calibration::{OutputNames, finished, write_results};
 use mrbd_lab::calibrate::{Archive, Calibration, Experiment, calibrate, print_parameters, simulate, summary};
@@ -64,7 +64,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<()> {
         return print(&stored);
     }
     let names = OutputNames::prepare(out, &experiment, args.resume)?;
-    threads::end_on_signals(format!("what was simulated is stored; to go on: {}", again(args, out)))?;
+    stop::end_on_signals(format!("what was simulated is stored; to go on: {}", again(args, out)))?;
     let progress = Box::new(Bar::of_simulations());
     let archive = Archive::open(&names.journal, &experiment.request, args.resume, progress)?;
     let calibration = pool.install(|| calibrate(&experiment, &archive))?;

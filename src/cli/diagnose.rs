@@ -8,7 +8,7 @@ use super::progress::Bar;
 use super::report::write_page;
 use super::shell::shell_word;
 use super::threads::Threads;
-use super::{output, threads};
+use super::{output, stop};
 use crate::error::Result;
 use crate::report::numbers_of;
 use crate::results::diagnosis::{OutputNames, write_results};
@@ -48,7 +48,7 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     let pool = args.threads.pool()?;
     let names = OutputNames::prepare(&args.out)?;
     let (file, out) = (shell_word(&args.experiment), shell_word(&args.out));
-    threads::end_on_signals(format!(
+    stop::end_on_signals(format!(
         "a diagnosis stores nothing before it is done; to begin again: mrbd diagnose {file} --out {out}"
     ))?;
     let bar = Bar::of_steps();

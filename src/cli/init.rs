@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::starter::{Floor, write_starter};
 use crate::error::Result;
-use crate::starter::{Floor, write_starter};
 
 use super::shell::shell_word;
 

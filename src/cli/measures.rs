@@ -8,7 +8,7 @@ use clap::Args;
 use super::output;
 use super::threads::Threads;
 use crate::error::{Error, Result};
-use crate::measures::{FILES, KIND, Measures, OfFloor, OfMeasure, of_folder};
+use crate::sensitivity::measures::{FILES, KIND, Measures, OfFloor, OfMeasure, of_folder};
 use crate::store::{WholeFolder, now_unix_s, write_durably};
 use crate::text::{TERMINAL, aligned, wrapped};
 use mrbd_files::FileNote;

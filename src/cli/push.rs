@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::{Answer, output};
+use crate::assessment::push::{FILES, KIND, Measured, PushCurve, PushPoint, Pushed, Question};
 use crate::error::{Error, InputError, Result};
-use crate::push::{FILES, KIND, Measured, PushCurve, PushPoint, Pushed, Question};
 use crate::report::push_svg;
 use crate::store::{WholeFolder, write_durably};
 use mrbd_files::{FileNote, load_static_wall};

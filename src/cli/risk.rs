@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::Answer;
+use crate::assessment::risk::{Risk, read_fragilities, read_hazard};
 use crate::error::{InputError, Result};
-use crate::risk::{Risk, read_fragilities, read_hazard};
 use crate::text::aligned;
 
 /// Annual rate and return period of each limit state: fragilities and a hazard curve.

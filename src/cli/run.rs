@@ -8,7 +8,7 @@ use std::time::Instant;
 use clap::Args;
 
 use super::threads::Threads;
-use super::{output, progress, threads};
+use super::{output, progress, stop};
 use crate::classics::overturning;
 use crate::error::{Error, InputError, Result};
 use crate::study::batch::{Finished, SideBySide, Tally};
@@ -141,7 +141,7 @@ impl RunCommand {
         let todo = |block: &Block| shard.has(block.index) && !standing.has(block);
         let missing = layout.iter().filter(todo).map(|block| block.runs.end - block.runs.start).sum();
         eprintln!("mrbd: {missing} runs to do on {} thread(s)", pool.current_num_threads());
-        let stop = threads::on_signals()?;
+        let stop = stop::on_signals()?;
         let start = Instant::now();
         let progress = progress::of_runs(missing);
         let mut failures = 0;

@@ -7,9 +7,9 @@ use clap::Args;
 use super::threads::Threads;
 use super::{output, progress};
 use crate::error::{Error, InputError, Result};
+use crate::sensitivity::suites::{FILES, KIND, Suites, of_folder, print_table, records_drawn, write_csv};
 use crate::store::{WholeFolder, now_unix_s, write_durably};
 use crate::study::runs::Manifest;
-use crate::suites::{FILES, KIND, Suites, of_folder, print_table, records_drawn, write_csv};
 use mrbd_files::FileNote;
 use mrbd_lab::Progress;
 

@@ -7,8 +7,8 @@ use clap::Args;
 use super::output;
 use super::threads::Threads;
 use crate::error::{Error, Result};
+use crate::sensitivity::variance::{FILES, KIND, Shares, of_folder, print_csv, print_tables, write_table};
 use crate::store::{WholeFolder, write_durably};
-use crate::variance::{FILES, KIND, Shares, of_folder, print_csv, print_tables, write_table};
 use mrbd_files::FileNote;
 
 /// Which share of the variance of rotations and collapse each input has: Sobol' indices with intervals.

@@ -6,9 +6,9 @@ use super::chart::{Axis, COLLAPSE, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{Note, read_json};
 use super::words;
+use crate::assessment::margin::{Capacity, Curve, MEASURES, Margin, Status};
 use crate::error::Result;
 use crate::fragility::LogNormal;
-use crate::margin::{Capacity, Curve, MEASURES, Margin, Status};
 
 /// Steps of a curve.
 const STEPS: u32 = 80;

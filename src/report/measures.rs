@@ -7,7 +7,7 @@ use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{Note, read_json};
 use super::words;
 use crate::error::Result;
-use crate::measures::{Measures, OfFloor, OfMeasure};
+use crate::sensitivity::measures::{Measures, OfFloor, OfMeasure};
 
 /// The page of a folder of `mrbd measures`.
 ///

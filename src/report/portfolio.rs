@@ -6,8 +6,8 @@ use super::chart::{Axis, COLLAPSE, Colour, Dot, Format, Graph, INK, Layer, Mark,
 use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{Note, read_json};
 use super::words::floor;
+use crate::assessment::portfolio::{ByFactor, LADDER, Portfolio, Row, agreement_name};
 use crate::error::Result;
-use crate::portfolio::{ByFactor, LADDER, Portfolio, Row, agreement_name};
 use crate::survey::Configuration;
 use mrbd_assessment::Agreement;
 

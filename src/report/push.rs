@@ -5,8 +5,8 @@ use std::path::Path;
 use super::chart::{Axis, Dot, Format, Graph, INK, Layer, Mark, PALETTE};
 use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{Note, read_json};
+use crate::assessment::push::{Measured, PushCurve, Pushed};
 use crate::error::Result;
-use crate::push::{Measured, PushCurve, Pushed};
 
 /// The page of a folder of `mrbd push`.
 ///
@@ -111,7 +111,7 @@ fn graph(pushed: &Pushed) -> Graph {
         line(&pushed.curve, PALETTE[0], false, "the wall"),
     ];
     layers.extend(pushed.measured.as_ref().map(|measured| {
-        let dot = |point: &crate::push::MeasuredPoint| Dot {
+        let dot = |point: &crate::assessment::push::MeasuredPoint| Dot {
             x: point.displacement_m,
             y: point.force_over_weight,
             tip: format!(
@@ -122,10 +122,10 @@ fn graph(pushed: &Pushed) -> Graph {
         let dots = measured.points.iter().map(dot).collect();
         Layer::Dots { colour: INK, mark: Mark::Circle, size: 9, hollow: true, dots }
     }));
-    let all = |of: fn(&crate::push::PushPoint) -> f64| {
+    let all = |of: fn(&crate::assessment::push::PushPoint) -> f64| {
         pushed.curve.points.iter().chain(&pushed.rigid.points).map(of).collect::<Vec<_>>()
     };
-    let measured = |of: fn(&crate::push::MeasuredPoint) -> f64| {
+    let measured = |of: fn(&crate::assessment::push::MeasuredPoint) -> f64| {
         pushed.measured.iter().flat_map(|measured| &measured.points).map(of).collect::<Vec<_>>()
     };
     let [x, y] = [
@@ -157,7 +157,7 @@ fn curves(pushed: &Pushed) -> Table {
 
 fn measured(measured: &Measured) -> Table {
     let head = ["displacement, m", "measured", "the wall", "rigid line"];
-    let row = |point: &crate::push::MeasuredPoint| {
+    let row = |point: &crate::assessment::push::MeasuredPoint| {
         let forces = [point.force_over_weight, point.model_over_weight, point.rigid_over_weight];
         let forces = forces.map(|force| format!("{force:.4}"));
         std::iter::once(format!("{:.5}", point.displacement_m)).chain(forces).collect::<Vec<String>>()

@@ -8,7 +8,7 @@ use super::provenance::{Note, read_json};
 use super::words;
 use crate::error::Result;
 use crate::findings::{FINDINGS, Finding, SURE, sure_rules};
-use crate::suites::{OfSuite, Quartiles, Suites, Told, short, title};
+use crate::sensitivity::suites::{OfSuite, Quartiles, Suites, Told, short, title};
 use crate::survey::Configuration;
 
 /// The page of a folder of `mrbd suites`.

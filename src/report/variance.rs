@@ -7,7 +7,7 @@ use super::page::{Figure, Key, Link, Number, Page, Section, Table};
 use super::provenance::{Note, read_json};
 use super::words;
 use crate::error::Result;
-use crate::variance::{MAIN, OfFloor, OfOutput, Output, Share, Shares};
+use crate::sensitivity::variance::{MAIN, OfFloor, OfOutput, Output, Share, Shares};
 
 /// How far the bars of the two indices stand from the place of their input.
 const APART: f64 = 0.19;

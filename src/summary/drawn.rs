@@ -7,7 +7,7 @@ use super::file::{first, found_again};
 use super::fragility::{LimitFragility, fragilities};
 use super::spectra::Spectra;
 use super::sweep::run_files;
-use crate::aggregate::{Distributions, Sequences, distributions, sequences};
+use crate::aggregate::{Distributions, distributions};
 use crate::error::Result;
 use crate::fragility::Table;
 use crate::study::runs::Manifest;
@@ -128,30 +128,4 @@ fn variables(table: &Table, rows: &[usize], sampler: Option<&FacadeSampler>) -> 
         }
     }
     Ok(varying)
-}
-
-/// A study of sequences as its page shows it.
-#[derive(Debug)]
-pub struct AfterOthers {
-    /// Its manifest.
-    pub manifest: Manifest,
-    /// What records do after others; there is at least one variant.
-    pub sequences: Sequences,
-    /// Spectra of the records; `None` where they are gone or other ones now.
-    pub spectra: Option<Spectra>,
-    /// Run files, from the folder of the results.
-    pub run_files: Vec<PathBuf>,
-}
-
-impl AfterOthers {
-    /// Reads the study in a folder.
-    ///
-    /// # Errors
-    /// An input error for a folder without results; [`crate::Error::Table`] for files that cannot be read.
-    pub fn read(folder: &Path, manifest: Manifest, site: Option<&Site>) -> Result<Self> {
-        let sequences = sequences(folder)?;
-        first(folder, &sequences.variants)?;
-        let spectra = Spectra::of(folder, &manifest, site);
-        Ok(Self { run_files: run_files(folder)?, spectra, sequences, manifest })
-    }
 }

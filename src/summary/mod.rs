@@ -3,10 +3,9 @@
 //! | module | what |
 //! | --- | --- |
 //! | `sweep` | medians, the paper's conclusions, the reference façades record by record |
-//! | `drawn` | distributions over drawn façades |
+//! | `drawn` | distributions over drawn façades, the façades drawn beside the survey's |
 //! | `sequences` | what records do after others |
 //! | `fragility` | the probability of reaching each limit |
-//! | `samples` | the façades drawn, and the survey's distributions |
 //! | `spectra` | response spectra of the records |
 //! | `calibration` | the tests simulated again with the calibrated wall |
 //! | `file` | files of results, and inputs found again |
@@ -15,13 +14,15 @@ mod calibration;
 mod drawn;
 mod file;
 mod fragility;
+mod sequences;
 mod spectra;
 mod sweep;
 
 pub use calibration::{Calibrated, Rotations, TestRotations};
-pub use drawn::{AfterOthers, Drawn, FloorSamples, Samples};
+pub use drawn::{Drawn, FloorSamples, Samples};
 pub use file::{Note, read_json};
 pub use fragility::{DEFAULT_INTENSITY, LEVEL, LimitFragility};
+pub use sequences::AfterOthers;
 pub use spectra::{CodeSpectrum, Spectra};
 pub use sweep::Sweep;
 
@@ -134,13 +135,13 @@ fn of_folder(folder: &Path, manifest: &Path, site: Option<&Site>) -> Result<Summ
     match kind.as_deref() {
         Some(results::calibration::KIND) => Ok(Summary::Calibration(Box::new(Calibrated::read(folder)?))),
         Some(results::diagnosis::KIND) => Ok(Summary::Diagnosis(folder.to_path_buf())),
-        Some(crate::suites::KIND) => Ok(Summary::Suites(folder.to_path_buf())),
-        Some(crate::measures::KIND) => Ok(Summary::Measures(folder.to_path_buf())),
-        Some(crate::variance::KIND) => Ok(Summary::Variance(folder.to_path_buf())),
-        Some(crate::margin::KIND) => Ok(Summary::Margin(folder.to_path_buf())),
-        Some(crate::assessment::KIND) => Ok(Summary::Assessment(folder.to_path_buf())),
-        Some(crate::portfolio::KIND) => Ok(Summary::Portfolio(folder.to_path_buf())),
-        Some(crate::push::KIND) => Ok(Summary::Push(folder.to_path_buf())),
+        Some(crate::sensitivity::suites::KIND) => Ok(Summary::Suites(folder.to_path_buf())),
+        Some(crate::sensitivity::measures::KIND) => Ok(Summary::Measures(folder.to_path_buf())),
+        Some(crate::sensitivity::variance::KIND) => Ok(Summary::Variance(folder.to_path_buf())),
+        Some(crate::assessment::margin::KIND) => Ok(Summary::Margin(folder.to_path_buf())),
+        Some(crate::assessment::wall::KIND) => Ok(Summary::Assessment(folder.to_path_buf())),
+        Some(crate::assessment::portfolio::KIND) => Ok(Summary::Portfolio(folder.to_path_buf())),
+        Some(crate::assessment::push::KIND) => Ok(Summary::Push(folder.to_path_buf())),
         Some(crate::classics::comparison::KIND) => Ok(Summary::Comparison(folder.to_path_buf())),
         _ => of_study(folder, manifest, site),
     }

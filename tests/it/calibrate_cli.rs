@@ -77,7 +77,7 @@ fn regress_results_are_the_same_on_any_threads_and_after_a_stop() {
 
 /// The experiment that `mrbd init` writes: a wall measured in three tests.
 fn first_experiment(folder: &Path) -> PathBuf {
-    mrbd::starter::write_starter(folder, None).expect("the files to begin with");
+    mrbd::cli::starter::write_starter(folder, None).expect("the files to begin with");
     folder.join("experiment.toml")
 }
 

@@ -232,7 +232,7 @@ fn rejects_vertical_records_at_another_step() {
 /// The wall and the record of `mrbd init`, a factor on the record, and one line of the wall's file replaced.
 fn starter_run(scale: &str, (old, new): (&str, &str), further: &[&str]) -> Output {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let wall = include_str!("../../src/starter/wall.toml");
+    let wall = include_str!("../../src/cli/starter/wall.toml");
     assert!(wall.contains(old), "{old}");
     let path = folder.path().join("wall.toml");
     std::fs::write(&path, wall.replacen(old, new, 1)).expect("the wall");

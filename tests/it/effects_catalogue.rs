@@ -60,7 +60,7 @@ fn analytic_every_variant_survives_a_file_and_its_parameters() {
 
 #[test]
 fn analytic_a_wall_file_keeps_every_effect_of_the_catalogue() {
-    let wall = include_str!("../../src/starter/wall.toml");
+    let wall = include_str!("../../src/cli/starter/wall.toml");
     for variant in EffectKind::ALL.iter().flat_map(|kind| kind.variants()) {
         let file = File { effects: vec![variant.example()] };
         let text = format!("{wall}\n{}", toml::to_string(&file).expect("a table"));

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::pipeline_cli::{mrbd, stdout};
 
-const WALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src/starter/wall.toml");
+const WALL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src/cli/starter/wall.toml");
 
 /// A suite of one record of `inputs/records/emilia7`.
 fn suite(folder: &Path) {

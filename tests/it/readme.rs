@@ -39,6 +39,7 @@ fn regress_the_readme_is_what_the_program_gives() {
         conclusions::blocks(page);
         fragility::blocks(page);
         beds::conclusion_block(page);
+        beds::collapse_block(page);
     });
 }
 

@@ -11,6 +11,11 @@ const TAIL: f64 = -6.0;
 /// Terms of the continued fraction of Mills' ratio; at 6 and beyond 40 terms are exact to rounding.
 const FRACTION_TERMS: u32 = 40;
 
+/// Half widths of the intervals about the mean that hold 90 and 95 %, in standard deviations: Φ⁻¹(0.95) and Φ⁻¹(0.975).
+pub const NINETY_PERCENT: f64 = 1.644_853_626_951_472_2;
+/// See [`NINETY_PERCENT`].
+pub const NINETY_FIVE_PERCENT: f64 = 1.959_963_984_540_054;
+
 /// Φ(z).
 pub fn cdf(z: f64) -> f64 {
     0.5 * erfc(-z / SQRT_2)
@@ -92,5 +97,8 @@ mod tests {
             assert!((cdf(quantile(p)) / p - 1.0).abs() < 1e-13, "{p}");
         }
         assert!(quantile(1.5).is_nan());
+        for (half_width, p) in [(NINETY_PERCENT, 0.95), (NINETY_FIVE_PERCENT, 0.975)] {
+            assert!((cdf(half_width) / p - 1.0).abs() < 1e-13, "{p}");
+        }
     }
 }

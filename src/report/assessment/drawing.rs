@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::words::Words;
-use crate::assessment::Assessed;
+use crate::assessment::wall::Assessed;
 use mrbd_assessment::{Governing, LIMIT_STATES};
 
 /// Height of the wall in the drawing, its own units.

@@ -7,7 +7,7 @@ use super::super::chart::{
 };
 use super::super::page::{Figure, Key};
 use super::words::Words;
-use crate::assessment::GoverningRow;
+use crate::assessment::governing::GoverningRow;
 use mrbd_assessment::{Assessment, DAMPING, Dynamic, LIMIT_STATES, Place, RecordRun};
 use mrbd_records::Site;
 

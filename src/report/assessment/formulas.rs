@@ -2,7 +2,7 @@
 
 use super::super::page::Table;
 use super::words::Words;
-use crate::assessment::{Assessed, Compared};
+use crate::assessment::wall::{Assessed, Compared};
 use mrbd_assessment::{Assessment, DAMPING, Dynamic, EdgeName, Governing, StaticCheck};
 use mrbd_kernel::model::G_M_S2;
 use mrbd_statics::Mechanism;

@@ -2,7 +2,7 @@
 
 use super::super::page::Table;
 use super::words::Words;
-use crate::assessment::Assessed;
+use crate::assessment::wall::Assessed;
 
 /// Inputs: name, key, value, source.
 pub fn table(w: Words, assessed: &Assessed) -> Table {

@@ -11,7 +11,8 @@ use std::path::Path;
 
 use super::page::{Figure, Link, Number, Page, Section, Table};
 use super::provenance::{Note, read_json};
-use crate::assessment::{Assessed, GoverningRow, read_governing};
+use crate::assessment::governing::{GoverningRow, read_governing};
+use crate::assessment::wall::Assessed;
 use crate::error::Result;
 use mrbd_assessment::{Assessment, Dynamic};
 use words::Words;

@@ -1,6 +1,6 @@
 //! Words of the page in two languages, and what it says of its assumptions.
 
-use crate::assessment::{Assessed, Language, SuiteNote};
+use crate::assessment::wall::{Assessed, Language, SuiteNote};
 use mrbd_assessment::{Agreement, Governing};
 
 /// The language of a page.

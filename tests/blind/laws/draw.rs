@@ -82,8 +82,7 @@ fn group_of(set: &str, number: u64) -> &'static str {
 pub fn of_group(set: &str, number: u64, group: &'static str, before: usize) -> Case {
     let (noise_rad, size, simulator) = combination(set, group, before);
     let mut rng = generator(set, number, 0);
-    // The library has no laws with a memory or hidden bodies but its catalogue's.
-    let simulator = if group == "memory or a hidden body" { Simulator::Compliant } else { simulator };
+    let simulator = if is_foreign(group, before) { Simulator::Compliant } else { simulator };
     let size = if group == "nothing" { 1.0 } else { size };
     let table = rng.random_range(0.0..1.0) < 0.5;
     let described = if table { WallNumbers::table() } else { WallNumbers::facade(&mut rng) };
@@ -116,6 +115,20 @@ pub fn of_group(set: &str, number: u64, group: &'static str, before: usize) -> C
     }
 }
 
+/// Whether only the second simulator can have the law: the library has no laws with a memory or hidden bodies but its
+/// catalogue's, and refuses an exponential that grows beyond any force where a wall has long fallen.
+fn is_foreign(group: &str, before: usize) -> bool {
+    match group {
+        "memory or a hidden body" => true,
+        "outside the grammar" => outside(before) == "hardening",
+        _ => false,
+    }
+}
+
+fn outside(before: usize) -> &'static str {
+    OUTSIDE[before % OUTSIDE.len()]
+}
+
 fn hidden_of(group: &str, before: usize, scale: &Scale, rng: &mut ChaCha8Rng) -> Vec<Hidden> {
     let law = |form: &str, rng: &mut ChaCha8Rng| Hidden::Law(at_top(form, scale, rng));
     match group {
@@ -124,7 +137,7 @@ fn hidden_of(group: &str, before: usize, scale: &Scale, rng: &mut ChaCha8Rng) ->
         "one atom" => vec![law(FORMS[before % FORMS.len()], rng)],
         "two atoms" => TWO[before % TWO.len()].map(|form| law(form, rng)).to_vec(),
         "joint" => vec![Hidden::Law(at_joint(before, scale, rng))],
-        "outside the grammar" => vec![law(OUTSIDE[before % OUTSIDE.len()], rng)],
+        "outside the grammar" => vec![law(outside(before), rng)],
         _ => vec![hidden(WITH_MEMORY[before % WITH_MEMORY.len()], scale, rng)],
     }
 }

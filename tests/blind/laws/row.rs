@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::super::diagnose::Outcome;
-use super::super::score::reading::{json, list, number, text, texts};
+use super::super::score::reading::{Diagnosed, list, number, text, texts};
 use super::super::score::recorded::Recorded;
 use super::super::score::row::held_out;
 use super::found::{Excited, curve_error, function_error, is_spelled_as, number_errors};
@@ -81,13 +81,7 @@ impl LawRow {
     /// # Errors
     /// Text for people if a file cannot be read.
     pub fn load(case: &Path) -> Result<Option<Self>, String> {
-        let Some(outcome) = Outcome::load(case) else { return Ok(None) };
-        let answer = json(&case.join("answer.json"))?;
-        let diagnosis = match outcome.exit_code {
-            Some(0) => Some(json(&case.join("diagnosis").join("diagnosis.json"))?),
-            _ => None,
-        };
-        Ok(Some(Self::new(&answer, diagnosis.as_ref(), &outcome)))
+        Ok(Diagnosed::load(case)?.map(|case| Self::new(&case.answer, case.diagnosis.as_ref(), &case.outcome)))
     }
 
     fn new(answer: &Value, diagnosis: Option<&Summary>, outcome: &Outcome) -> Self {

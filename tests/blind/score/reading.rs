@@ -2,8 +2,35 @@
 
 use std::path::Path;
 
+use mrbd_lab::diagnose::answer::Summary;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+
+use super::super::diagnose::Outcome;
+
+/// A diagnosed case: what was hidden, what was said, and how that went.
+pub struct Diagnosed {
+    pub answer: Value,
+    /// None where the diagnosis failed.
+    pub diagnosis: Option<Summary>,
+    pub outcome: Outcome,
+}
+
+impl Diagnosed {
+    /// Reads a case; none if it has not been diagnosed.
+    ///
+    /// # Errors
+    /// Text for people if a file cannot be read.
+    pub fn load(case: &Path) -> Result<Option<Self>, String> {
+        let Some(outcome) = Outcome::load(case) else { return Ok(None) };
+        let answer = json(&case.join("answer.json"))?;
+        let diagnosis = match outcome.exit_code {
+            Some(0) => Some(json(&case.join("diagnosis").join("diagnosis.json"))?),
+            _ => None,
+        };
+        Ok(Some(Self { answer, diagnosis, outcome }))
+    }
+}
 
 /// A JSON file.
 ///

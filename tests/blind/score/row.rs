@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::super::diagnose::Outcome;
-use super::reading::{json, list, median, number, text, texts};
+use super::reading::{Diagnosed, list, median, number, text, texts};
 use super::recorded::Recorded;
 use mrbd_lab::diagnose::answer::{BeforeAfter, FoundEffect, Summary};
 use mrbd_lab::experiment_file::Purpose;
@@ -67,14 +67,7 @@ impl Row {
     /// # Errors
     /// Text for people if a file cannot be read.
     pub fn load(case: &Path) -> Result<Option<Self>, String> {
-        let Some(outcome) = Outcome::load(case) else { return Ok(None) };
-        let answer = json(&case.join("answer.json"))?;
-        let path = case.join("diagnosis").join("diagnosis.json");
-        let diagnosis = match outcome.exit_code {
-            Some(0) => Some(json(&path)?),
-            _ => None,
-        };
-        Ok(Some(Self::new(&answer, diagnosis.as_ref(), &outcome)))
+        Ok(Diagnosed::load(case)?.map(|case| Self::new(&case.answer, case.diagnosis.as_ref(), &case.outcome)))
     }
 
     /// The row of a case with this answer; without a diagnosis where that failed.

@@ -29,7 +29,7 @@ fn put(folder: &Path, name: &str, text: &str) -> Result<(), String> {
 
 /// The example of `mrbd init` as it is, or with the program's own budgets.
 fn example(twin: &Twin, to: &Path) -> Result<serde_json::Value, String> {
-    mrbd::starter::write_starter(to, None).map_err(|e| e.to_string())?;
+    mrbd::cli::starter::write_starter(to, None).map_err(|e| e.to_string())?;
     let path = to.join("experiment.toml");
     let text = std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     let budgets = ["most_generations", "refine_vectors", "replicates"];

@@ -7,7 +7,7 @@ use mrbd::findings::{Conclusions, FINDINGS, Slender, View, conclusions};
 use mrbd::survey::Configuration;
 
 use super::ROOT;
-use super::block::{Page, row};
+use super::block::{Page, grouped, row};
 
 /// Written by `make beds`; without it what stands in the page is kept.
 fn medians() -> Option<Medians> {
@@ -15,15 +15,20 @@ fn medians() -> Option<Medians> {
     folder.join("manifest.json").is_file().then(|| aggregate(&folder).expect("the study of beds"))
 }
 
-/// Heads of the columns, a softness each.
-fn head(first: &str, all: &[Conclusions]) -> String {
-    let names = all.iter().map(|under| match under.variant.strip_prefix("bed ") {
+/// A softness in words.
+fn softness(variant: &str) -> String {
+    match variant.strip_prefix("bed ") {
         Some(of) => match of.split_once(", ") {
             Some((stiffness, damping)) => format!("{stiffness} Pa/m, {damping}"),
             None => format!("{of} Pa/m"),
         },
         None => "sharp edges".to_owned(),
-    });
+    }
+}
+
+/// Heads of the columns, a softness each.
+fn head(first: &str, all: &[Conclusions]) -> String {
+    let names = all.iter().map(|under| softness(&under.variant));
     let cells = std::iter::once(first.to_owned()).chain(names).collect::<Vec<_>>();
     row(&cells) + &row(&vec!["---"; cells.len()])
 }
@@ -38,6 +43,19 @@ pub fn conclusion_block(page: &mut Page) {
     };
     let rows = FINDINGS.iter().enumerate().map(of).collect::<String>();
     page.put_lines("beds", &(head("conclusion of the paper", &all) + &rows));
+}
+
+/// How many runs collapse on each softness.
+pub fn collapse_block(page: &mut Page) {
+    let Some(medians) = medians() else { return page.keep("collapses on beds") };
+    let counts =
+        medians.variants.iter().map(|note| format!("{} on {}", note.collapsed, softness(&note.name)));
+    let runs = medians.variants.iter().map(|note| note.runs).max().expect("a variant");
+    let counts = counts.collect::<Vec<_>>().join("; ");
+    page.put_prose(
+        "collapses on beds",
+        &format!("Of {} runs each, so many collapse: {counts}.", grouped(runs)),
+    );
 }
 
 /// Medians of the lower body of the reference façades under each softness, and how all runs ended.

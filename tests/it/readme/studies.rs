@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use indicatif::ProgressBar;
-use mrbd::starter::write_starter;
+use mrbd::cli::starter::write_starter;
 use mrbd::study::batch::SideBySide;
 use mrbd::study::campaign::{BLOCK_RUNS, Layout, Shard, Standing, Work, compact, run_missing};
 use mrbd::study::pipeline::Pipeline;

@@ -256,7 +256,7 @@ impl Flow<'_> {
         })
     }
 
-    /// The numbers fitted by likelihood from every vector for all tests, and from those of single tests.
+    /// The numbers fitted by likelihood from the best vector of every method and from the middle of the bounds.
     fn by_likelihood(&self, methods: &[MethodResult]) -> Option<ByLikelihood> {
         let mut starts = methods.iter().map(|method| method.best.values.clone()).collect::<Vec<_>>();
         starts.push(self.middle());

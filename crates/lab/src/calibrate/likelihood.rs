@@ -21,28 +21,23 @@ use crate::diagnose::hypothesis::{Hypothesis, Unknown};
 use crate::diagnose::trials::{Data, FittedHypothesis, is_noise, opened_under};
 use crate::experiment::{Freedom, TestData, Window, windows};
 use crate::limits::{LEAST_MOVING, MOVES};
+use mrbd_statistics::normal::NINETY_FIVE_PERCENT;
 
 /// Vectors from which a fit begins, and those that are fitted to the end, of the best at a glance.
 const BEGUN: usize = 3;
 const FINISHED: usize = 2;
-/// Vectors drawn about what was found from which it is fitted again, so many times at most, and their distance in
-/// standard deviations.
+/// Vectors drawn about what was found from which it is fitted again, and their distance in standard deviations.
 const DRAWN: u32 = 3;
-const ROUNDS: u32 = 1;
 const DRAWN_SD: f64 = 3.0;
 /// Vectors drawn anywhere between the bounds from which a fit in windows begins too: other valleys.
 const ANYWHERE: u32 = 2;
 /// Fits that cost no more than this above the best are no worse: in squared noise, twice the logarithm of a likelihood ratio
 /// of e⁶. An interval holds those of all of them.
 const AS_GOOD: f64 = 12.0;
-/// A gain in cost, in squared noise, that is worth another round.
-const WORTH_A_ROUND: f64 = 2.0;
 /// Values over whole tests must lie within so many standard deviations of those over windows.
 const CONSISTENT_SD: f64 = 5.0;
 /// Samples in which the wall must stand for a test to be run from rest.
 const AT_REST: usize = 20;
-/// Half width of a 95 % interval of a normal variable, in standard deviations.
-const NINETY_FIVE_PERCENT: f64 = 1.959_963_984_540_054;
 
 /// What of a test is followed at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -276,20 +271,10 @@ impl Likelihood<'_> {
         self.judged(windows, best)
     }
 
-    /// A fit again from about itself, as often as that gains, and what it says.
+    /// The better of a fit and of those from about it, and what it says.
     fn judged(&self, windows: Vec<Window>, fit: Fit) -> Option<Fitted> {
-        let problem = self.problem(&windows);
-        let mut best = fit;
-        for round in 0..ROUNDS {
-            let Some(next) = self.again_about(&problem, &best, round) else { break };
-            let gain = best.cost - next.cost;
-            if gain > 0.0 {
-                best = next;
-            }
-            if gain < WORTH_A_ROUND {
-                break;
-            }
-        }
+        let again = self.again_about(&self.problem(&windows), &fit);
+        let best = again.filter(|again| again.cost < fit.cost).unwrap_or(fit);
         self.told(&windows, best)
     }
 
@@ -320,12 +305,12 @@ impl Likelihood<'_> {
     }
 
     /// The best of fits from about another one.
-    fn again_about(&self, problem: &Problem, best: &Fit, round: u32) -> Option<Fit> {
+    fn again_about(&self, problem: &Problem, best: &Fit) -> Option<Fit> {
         let h = &self.hypothesis;
         let root = best.covariance.clone()?.cholesky()?.l();
         let states = best.windows.iter().map(|window| window.x.clone()).collect::<Vec<_>>();
         let drawn = |number: u32| {
-            let normal = |v: usize| StandardNormal.sample(&mut self.draws.of(round, number, v as u32));
+            let normal = |v: usize| StandardNormal.sample(&mut self.draws.of(0, number, v as u32));
             let step = &root * DVector::<f64>::from_fn(best.values.len(), |v, _| normal(v)) * DRAWN_SD;
             let moved = best.values.iter().zip(step.iter()).zip(&h.unknowns);
             let values =

@@ -10,15 +10,13 @@ pub use super::next_tests::{NextPull, NextShaking, NextTests, next_tests};
 use super::trials::{Data, FittedHypothesis};
 use crate::limits::{DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
 use mrbd_kernel::model::Wall;
+use mrbd_statistics::normal::NINETY_PERCENT;
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-
-/// Half width of a 90 % interval of a normal variable, in standard deviations.
-pub const NINETY_PERCENT: f64 = 1.644_853_626_951_472_2;
 
 /// 90 % intervals of the values of a fitted hypothesis; all that a number may be where the tests do not tell.
 ///

@@ -14,7 +14,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-const STARTER: &str = include_str!("../../../../../src/starter/wall.toml");
+const STARTER: &str = include_str!("../../../../../src/cli/starter/wall.toml");
 const STEP_S: f64 = 1.0 / 256.0;
 const SHAKEN_S: f64 = 10.0;
 const TAIL_S: f64 = 4.0;

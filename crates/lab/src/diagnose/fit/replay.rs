@@ -165,7 +165,7 @@ mod tests {
 
     /// Sways to 0.01 rad to either side, in pattern 3; a spring that yields after 0.01 mm.
     fn swaying() -> (TestData, Physics) {
-        let text = include_str!("../../../../../src/starter/wall.toml");
+        let text = include_str!("../../../../../src/cli/starter/wall.toml");
         let spring =
             "[[effects]]\nkind = \"yielding_spring\"\nstiffness_n_per_m = 3e7\nyield_force_n = 300.0\n";
         let wall = parse_wall(Path::new("wall.toml"), &format!("{text}\n{spring}")).expect("a wall");

@@ -1,10 +1,10 @@
 //! What the missing force looks like: at the top or not, a curve against one quantity, bent, or a law of the catalogue.
 
 use super::points::{ForcePoint, median_share_off_top};
-use crate::diagnose::certainty::NINETY_PERCENT;
 use crate::diagnose::trials::FittedHypothesis;
 use crate::limits::{ALONG_TOP, EXPLAINED_BY_ONE, FORCE_CLEAR, LEAST_DIRECTIONS};
 use mrbd_kernel::model::{RockingWall, Wall, WallParameters};
+use mrbd_statistics::normal::NINETY_PERCENT;
 use nalgebra::{DMatrix, DVector};
 
 /// Whether the points lie along the direction of a force at the top, and on a curve against what the top does.

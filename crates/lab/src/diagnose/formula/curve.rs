@@ -1,7 +1,7 @@
 //! A force without a formula: a curve of displacement and one of velocity, straight between knots, nothing at rest.
 
-use crate::diagnose::certainty::NINETY_PERCENT;
 use mrbd_formula::{Formula, Parameter, Place};
+use mrbd_statistics::normal::NINETY_PERCENT;
 
 /// Knots on either side of rest, as shares of the largest displacement or velocity: closer where laws bend most.
 const KNOTS: [f64; 5] = [0.08, 0.2, 0.4, 0.7, 1.0];

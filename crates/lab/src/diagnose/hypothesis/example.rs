@@ -20,7 +20,7 @@ pub const SCALES: Scales = Scales {
 
 /// The starter's wall with the effects of these names.
 pub fn starter_with(names: &[&str]) -> Hypothesis {
-    let wall = parse_wall(Path::new("wall.toml"), include_str!("../../../../../src/starter/wall.toml"))
+    let wall = parse_wall(Path::new("wall.toml"), include_str!("../../../../../src/cli/starter/wall.toml"))
         .expect("the starter's wall");
     let all = candidates(wall.parameters());
     let named = |name: &&str| {

@@ -155,8 +155,9 @@ mod tests {
 
     /// A window of free rocking that reads as pattern 3, of a wall that starts in a state of both bodies; the wall.
     fn reads_as_closed(x: &[f64; 4]) -> (TestData, Window, Physics) {
-        let wall = parse_wall(Path::new("wall.toml"), include_str!("../../../../../src/starter/wall.toml"))
-            .expect("the starter's wall");
+        let wall =
+            parse_wall(Path::new("wall.toml"), include_str!("../../../../../src/cli/starter/wall.toml"))
+                .expect("the starter's wall");
         let physics = Physics { wall, reversed_ratio: 0.0 };
         let mut test = TestData {
             name: "free rocking".to_owned(),

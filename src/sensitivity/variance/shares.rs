@@ -100,9 +100,9 @@ fn drawn(design: &PickFreeze) -> Vec<Indices> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sensitivity::variance::outputs::Ended;
     use crate::survey::Configuration;
     use crate::survey::sampling::{Design, Points};
-    use crate::variance::outputs::Ended;
 
     /// Y = Σ c_i x_i of three uniform numbers and a record of four values −3, −1, 1, 3 with the factor 0.1.
     const C: [f64; 3] = [3.0, 2.0, 1.0];

@@ -21,7 +21,7 @@ const EXPERIMENT: StarterFile = ("experiment.toml", include_str!("experiment.tom
 
 macro_rules! record {
     ($name:literal) => {
-        (concat!("records/", $name), include_str!(concat!("../../inputs/records/emilia7/", $name)))
+        (concat!("records/", $name), include_str!(concat!("../../../inputs/records/emilia7/", $name)))
     };
 }
 
@@ -32,8 +32,8 @@ const FILES: [StarterFile; 13] = [
     WALL,
     ("pipeline.toml", include_str!("pipeline.toml")),
     EXPERIMENT,
-    ("survey.toml", include_str!("../../inputs/survey.toml")),
-    ("coefficients.toml", include_str!("../../inputs/coefficients.toml")),
+    ("survey.toml", include_str!("../../../inputs/survey.toml")),
+    ("coefficients.toml", include_str!("../../../inputs/coefficients.toml")),
     record!("suite.toml"),
     record!("generated_1_879xa.csv"),
     record!("generated_2_879ya.csv"),

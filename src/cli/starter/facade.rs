@@ -69,7 +69,7 @@ mod tests {
 
     /// The middle value of a key of the survey.
     fn survey(table: &str, key: &str) -> f64 {
-        let survey: toml::Table = include_str!("../../inputs/survey.toml").parse().expect("the survey");
+        let survey: toml::Table = include_str!("../../../inputs/survey.toml").parse().expect("the survey");
         survey[table][key][1].as_float().expect("a number")
     }
 

@@ -129,8 +129,8 @@ pub fn concordance(runs: &Runs, k: usize) -> Option<f64> {
 #[cfg(test)]
 pub mod tests {
     use super::*;
-    use crate::measures::MEASURES;
-    use crate::measures::runs::About;
+    use crate::sensitivity::measures::MEASURES;
+    use crate::sensitivity::measures::runs::About;
 
     /// Two façades under six records: ln θ/α = façade + 2 ln IM_0 + ε of the record; the other measures do not vary.
     pub fn made(epsilon: [f64; 6]) -> Runs {

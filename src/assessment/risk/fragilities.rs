@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::nrml;
+use crate::assessment::margin::Margin;
 use crate::error::{InputError, Result};
-use crate::margin::Margin;
 use mrbd_files::toml_file;
 
 /// What a fragility file is.
@@ -67,7 +67,7 @@ fn from_json(path: &Path, text: &str) -> Result<Vec<LimitState>> {
     }
     let margin: Margin =
         serde_json::from_value(value).map_err(|e| InputError::file(path, e.to_string(), ALLOWED))?;
-    let state = |curve: crate::margin::Curve| {
+    let state = |curve: crate::assessment::margin::Curve| {
         Some(LimitState {
             name: format!("{}, {}", margin.wall, margin.limit),
             measure: Some(curve.measure),

@@ -43,7 +43,7 @@ fn slope_p(points: &[(f64, f64)]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measures::efficiency::tests::made;
+    use crate::sensitivity::measures::efficiency::tests::made;
 
     #[test]
     fn verified_p_value_of_a_slope() {
