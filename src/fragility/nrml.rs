@@ -96,7 +96,7 @@ pub fn document(
         "<nrml xmlns=\"http://openquake.org/xmlns/nrml/0.5\">\n",
         "  <fragilityModel id=\"mrbd\" assetCategory=\"buildings\" lossCategory=\"structural\">\n",
     ));
-    let limit_states: Vec<String> = limit_states.iter().map(|state| escaped(state)).collect();
+    let limit_states: Vec<String> = limit_states.iter().map(|state| escaped(state).into_owned()).collect();
     let note = note.map_or(String::new(), |note| format!("; {}", escaped(note)));
     // Writing to a String cannot fail.
     let _ = writeln!(

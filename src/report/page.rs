@@ -1,11 +1,11 @@
 //! A page: sections of text, figures and tables, made into one HTML file that needs nothing else.
 
 use minijinja::{AutoEscape, Environment, context};
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Serialize;
 
 use super::chart::{Colour, Mark};
 use crate::error::{Error, Result};
-use crate::text::percent_escaped;
 
 /// A page.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -199,9 +199,12 @@ impl Page {
     }
 }
 
+/// Bytes that are odd in an address: all but letters, digits and these (RFC 3986, section 2.1).
+const ODD: &AsciiSet = &NON_ALPHANUMERIC.remove(b'/').remove(b'.').remove(b'_').remove(b'-').remove(b'=');
+
 /// A relative address of a file.
 pub fn address(path: &str) -> String {
-    percent_escaped(path, b"/._-=")
+    utf8_percent_encode(path, ODD).to_string()
 }
 
 fn failed(error: minijinja::Error) -> Error {
@@ -216,6 +219,11 @@ pub fn script_safe(json: &serde_json::Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn analytic_odd_bytes_are_escaped_and_plain_ones_stay() {
+        assert_eq!(address("a b/c=ü"), "a%20b/c=%C3%BC");
+    }
 
     #[test]
     fn regress_texts_cannot_become_markup() {

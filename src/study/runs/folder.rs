@@ -14,9 +14,10 @@ use std::path::{Path, PathBuf};
 
 use super::manifest::Manifest;
 use super::manifest::differences;
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
+
 use crate::error::{Error, InputError, Result};
 use crate::store::durable::{UNFINISHED, make_writable, write_durably};
-use crate::text::percent_escaped;
 
 /// What to do with results that are in the folder already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -203,12 +204,18 @@ fn other_file(path: &Path) -> Result<Option<String>> {
 
 /// A record's name as part of a folder's name, as Hive and its readers write it: odd bytes as %XX.
 pub(super) fn as_folder_name(name: &str) -> String {
-    percent_escaped(name, b"._-")
+    const ODD: &AsciiSet = &NON_ALPHANUMERIC.remove(b'.').remove(b'_').remove(b'-');
+    utf8_percent_encode(name, ODD).to_string()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn analytic_odd_bytes_of_folders_are_escaped_and_plain_ones_stay() {
+        assert_eq!(as_folder_name("a b/c=ü"), "a%20b%2Fc%3D%C3%BC");
+    }
     use crate::study::pipeline::Pipeline;
     use crate::study::plan::Plan;
 
