@@ -31,6 +31,8 @@ pub struct Test {
     pub collapse_s: Option<f64>,
     /// How the clocks of record and measurement were brought together.
     pub alignment: Alignment,
+    /// Whether the top was held sideways.
+    pub top_held: bool,
     /// The ground motion as recorded.
     pub shaking: Shaking,
     /// The measured state from which the wall moves by itself; `None`: it starts from rest.
@@ -86,6 +88,7 @@ impl Test {
         Ok(Self {
             name: table.name.clone(),
             purpose: table.purpose,
+            top_held: table.top_held,
             collapse_s: measured.collapse_s,
             alignment,
             simulator: Simulator::new(wall, &until(&shaking, target.end_s()), accuracy),
@@ -146,6 +149,11 @@ impl Test {
             }
             (length_s > 0.0).then(|| (squares / length_s).sqrt())
         })
+    }
+
+    /// When the wall was released, s; `None`: it starts from rest.
+    pub fn release_s(&self) -> Option<f64> {
+        self.release.map(|start| start.time_s)
     }
 
     /// How many segments it is simulated in.
