@@ -151,9 +151,18 @@ impl Test {
         })
     }
 
-    /// When the wall was released, s; `None`: it starts from rest.
-    pub fn release_s(&self) -> Option<f64> {
-        self.release.map(|start| start.time_s)
+    /// When the wall was released, s, and its state there; `None`: it starts from rest.
+    pub fn release(&self) -> Option<(f64, State)> {
+        self.release.map(|start| (start.time_s, start.state))
+    }
+
+    /// The same test released from another state, at the same time.
+    #[must_use]
+    pub fn released_from(&self, state: State) -> Self {
+        let release = self.release.map(|start| Start { state, ..start });
+        let mut other = Self { release, ..self.clone() };
+        other.segments.iter_mut().take(1).for_each(|first| first.start = release);
+        other
     }
 
     /// How many segments it is simulated in.

@@ -54,6 +54,16 @@ pub struct LawNumber {
     by_size: bool,
 }
 
+impl LawNumber {
+    fn scaled(&self, value: f64) -> f64 {
+        if self.by_size { value.ln() } else { value }
+    }
+
+    fn value(&self, scaled: f64) -> f64 {
+        if self.by_size { scaled.exp() } else { scaled }
+    }
+}
+
 const fn sized(name: &'static str, from: f64, to: f64) -> LawNumber {
     LawNumber { name, range: [from, to], by_size: true }
 }
@@ -116,44 +126,94 @@ impl Law {
 
 /// Every law fitted to every release.
 pub(super) fn fitted(strip: &HeldStrip, releases: &[Measurement]) -> Vec<FittedLaw> {
-    let each = LawKind::ALL.into_iter().flat_map(|kind| releases.iter().map(move |release| (kind, release)));
-    each.map(|(kind, release)| {
-        let law = Law { kind, values: sought(strip, kind, &release.rows) };
-        let loss = Losses::of(strip, &law, &release.rows).map(|found| found.values);
-        let left = releases.iter().map(|other| left(strip, &law, &other.rows, loss.as_ref())).collect();
-        FittedLaw { law, fitted_to: release.moment.test.clone(), left }
+    let asked = releases.iter().map(|release| Asked::of(&release.rows)).collect::<Vec<_>>();
+    let each = LawKind::ALL.into_iter().flat_map(|kind| (0..releases.len()).map(move |own| (kind, own)));
+    each.map(|(kind, own)| {
+        let law = asked[own].best(strip, kind);
+        let loss = asked[own].loss(strip, &law);
+        let left = |other: &Asked| other.left(&other.beyond(strip, &law), loss.as_ref());
+        let left = asked.iter().map(left).collect();
+        FittedLaw { law, fitted_to: releases[own].moment.test.clone(), left }
     })
     .collect()
 }
 
-/// Places of a number on each grid, and grids one inside the other.
-const PLACES: usize = 9;
+/// Places of a number on each grid, and grids one inside the other: 3⁵ and more between the first places.
+const PLACES: usize = 7;
 const GRIDS: usize = 6;
 
-/// The numbers of least error: the best of a grid, then of a grid about it, and so on.
-fn sought(strip: &HeldStrip, kind: LawKind, rows: &[Row]) -> Vec<f64> {
-    let numbers = kind.numbers();
-    let scale = |n: &LawNumber, x: f64| if n.by_size { x.ln() } else { x };
-    let mut ranges = numbers.iter().map(|n| n.range.map(|x| scale(n, x))).collect::<Vec<_>>();
-    let at = |place: &[f64]| -> Vec<f64> {
-        place.iter().zip(numbers).map(|(x, n)| if n.by_size { x.exp() } else { *x }).collect()
-    };
-    let mut best = (f64::INFINITY, Vec::new());
-    for _ in 0..GRIDS {
-        for place in grid(&ranges) {
-            let law = Law { kind, values: at(&place) };
-            let error = Losses::of(strip, &law, rows).map_or(f64::INFINITY, |found| found.left);
-            if error < best.0 {
-                best = (error, place);
+/// Displacements over the thickness at which laws are read, straight between: a plateau's ends move by less.
+const TABLE_STEP: f64 = 0.0025;
+const TABLE: usize = 401;
+
+/// Displacements over the thickness between which the loss near closing falls.
+const LOSS_ENDS: [f64; 3] = [0.0, 0.05, 0.1];
+
+/// What the rows of a release ask for, as sums over a table of displacements.
+struct Asked {
+    asked: DVector<f64>,
+    by_share: DMatrix<f64>,
+    by_loss: DMatrix<f64>,
+}
+
+impl Asked {
+    fn of(rows: &[Row]) -> Self {
+        let mut by_share = DMatrix::zeros(rows.len(), TABLE);
+        let mut by_loss = DMatrix::zeros(rows.len(), 2);
+        for (k, row) in rows.iter().enumerate() {
+            for node in &row.nodes {
+                let place = (node.displacement / TABLE_STEP).min((TABLE - 1) as f64 - 1e-9);
+                let (before, share) = (place.floor() as usize, place.fract());
+                by_share[(k, before)] += (1.0 - share) * node.of_share;
+                by_share[(k, before + 1)] += share * node.of_share;
+                let falls = loss_hats(node.displacement);
+                (0..2).for_each(|column| by_loss[(k, column)] += falls[column] * node.of_rate);
             }
         }
-        for ((range, middle), n) in ranges.iter_mut().zip(&best.1).zip(numbers) {
-            let step = (range[1] - range[0]) / (PLACES - 1) as f64;
-            let [low, high] = n.range.map(|x| scale(n, x));
-            *range = [(middle - step).max(low), (middle + step).min(high)];
-        }
+        let asked = DVector::from_iterator(rows.len(), rows.iter().map(|row| row.asked));
+        Self { asked, by_share, by_loss }
     }
-    at(&best.1)
+
+    /// What is asked for beyond a static law.
+    fn beyond(&self, strip: &HeldStrip, law: &Law) -> DVector<f64> {
+        let shares = DVector::from_fn(TABLE, |k, _| law.share(strip, TABLE_STEP * k as f64));
+        &self.asked - &self.by_share * shares
+    }
+
+    /// The loss that goes best with a law.
+    fn loss(&self, strip: &HeldStrip, law: &Law) -> Option<DVector<f64>> {
+        newton_step(&self.by_loss, &-self.beyond(strip, law))
+    }
+
+    /// Root mean square of what is left with a loss.
+    fn left(&self, beyond: &DVector<f64>, loss: Option<&DVector<f64>>) -> f64 {
+        let left = loss.map_or(beyond.clone(), |loss| beyond - &self.by_loss * loss);
+        left.norm() / (beyond.len() as f64).sqrt()
+    }
+
+    /// The law of least error: the best of a grid, then of a grid about it, and so on.
+    fn best(&self, strip: &HeldStrip, kind: LawKind) -> Law {
+        let numbers = kind.numbers();
+        let mut ranges = numbers.iter().map(|n| n.range.map(|x| n.scaled(x))).collect::<Vec<_>>();
+        let at = |place: &[f64]| place.iter().zip(numbers).map(|(x, n)| n.value(*x)).collect::<Vec<_>>();
+        let mut best = (f64::INFINITY, vec![0.0; numbers.len()]);
+        for _ in 0..GRIDS {
+            for place in grid(&ranges) {
+                let beyond = self.beyond(strip, &Law { kind, values: at(&place) });
+                let loss = newton_step(&self.by_loss, &-&beyond);
+                let error = self.left(&beyond, loss.as_ref());
+                if error < best.0 {
+                    best = (error, place);
+                }
+            }
+            for ((range, middle), n) in ranges.iter_mut().zip(&best.1).zip(numbers) {
+                let step = (range[1] - range[0]) / (PLACES - 1) as f64;
+                let [low, high] = n.range.map(|x| n.scaled(x));
+                *range = [(middle - step).max(low), (middle + step).min(high)];
+            }
+        }
+        Law { kind, values: at(&best.1) }
+    }
 }
 
 /// All places of a grid over ranges.
@@ -170,46 +230,10 @@ fn grid(ranges: &[[f64; 2]]) -> Vec<Vec<f64>> {
     places
 }
 
-/// Displacements over the thickness between which the loss near closing falls.
-const LOSS_ENDS: [f64; 3] = [0.0, 0.05, 0.1];
-
-/// The loss that goes with a law.
-struct Losses {
-    values: DVector<f64>,
-    left: f64,
-}
-
-impl Losses {
-    fn of(strip: &HeldStrip, law: &Law, rows: &[Row]) -> Option<Self> {
-        let terms = loss_terms(rows);
-        let asked = beyond(strip, law, rows);
-        let values = newton_step(&terms, &-&asked)?;
-        let left = (&asked - &terms * &values).norm() / (rows.len() as f64).sqrt();
-        Some(Self { values, left })
-    }
-}
-
-/// What a law leaves of a release with a loss from another.
-fn left(strip: &HeldStrip, law: &Law, rows: &[Row], loss: Option<&DVector<f64>>) -> f64 {
-    let asked = beyond(strip, law, rows);
-    let left = loss.map_or(asked.clone(), |loss| &asked - loss_terms(rows) * loss);
-    left.norm() / (rows.len() as f64).sqrt()
-}
-
-/// What rows ask for beyond a static law.
-fn beyond(strip: &HeldStrip, law: &Law, rows: &[Row]) -> DVector<f64> {
-    let by_law = |row: &Row| row.nodes.iter().map(|n| n.of_share * law.share(strip, n.displacement)).sum::<f64>();
-    DVector::from_iterator(rows.len(), rows.iter().map(|row| row.asked - by_law(row)))
-}
-
-/// What losses of one at the first two of [`LOSS_ENDS`] add to the rows.
-fn loss_terms(rows: &[Row]) -> DMatrix<f64> {
+/// Shares of losses of one at the first two of [`LOSS_ENDS`].
+fn loss_hats(displacement: f64) -> [f64; 2] {
     let [start, middle, end] = LOSS_ENDS;
-    let hats = |x: f64| {
-        let falls = ((middle - x) / (middle - start)).clamp(0.0, 1.0);
-        [falls, (1.0 - falls).min(((end - x) / (end - middle)).max(0.0))]
-    };
-    DMatrix::from_fn(rows.len(), 2, |row, column| {
-        rows[row].nodes.iter().map(|node| node.of_rate * hats(node.displacement)[column]).sum()
-    })
+    let falls = ((middle - displacement) / (middle - start)).clamp(0.0, 1.0);
+    let beyond = ((end - displacement) / (end - middle)).clamp(0.0, 1.0);
+    [falls, (1.0 - falls).min(beyond)]
 }

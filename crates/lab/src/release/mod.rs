@@ -19,6 +19,7 @@ mod weak;
 pub use laws::{FittedLaw, Law, LawKind, LawNumber};
 pub use moment::{MomentPoint, ReleaseMoment, Told};
 pub use strip::HeldStrip;
+pub use weak::HALF_S;
 
 use crate::experiment::Test;
 use mrbd_kernel::model::Wall;

@@ -105,7 +105,7 @@ impl Measurement {
 
 /// θ_1 of a release of a held top against time, from where the wall moves by itself.
 fn samples(test: &Test) -> Option<Vec<(f64, f64)>> {
-    let from_s = test.release_s().filter(|_| test.top_held)?;
+    let (from_s, _) = test.release().filter(|_| test.top_held)?;
     let theta = test.measured.theta_rad[0].as_ref()?;
     let all = test.measured.time_s.iter().copied().zip(theta.iter().copied());
     Some(all.filter(|(t, theta)| *t >= from_s && theta.is_finite()).collect())
@@ -224,7 +224,8 @@ fn of_knots(row: &Row) -> DVector<f64> {
 /// West 1987, with the weights of Bartlett).
 fn covariance(rows: &[Row], terms: &DMatrix<f64>, left: &DVector<f64>) -> Option<DMatrix<f64>> {
     let inverse = (terms.transpose() * terms).cholesky()?.inverse();
-    let pulls = DMatrix::from_fn(terms.nrows(), terms.ncols(), |row, column| terms[(row, column)] * left[row]);
+    let pulls =
+        DMatrix::from_fn(terms.nrows(), terms.ncols(), |row, column| terms[(row, column)] * left[row]);
     let near = |i: usize, k: usize| (1.0 - (rows[i].time_s - rows[k].time_s).abs() / (2.0 * HALF_S)).max(0.0);
     let weights = DMatrix::from_fn(rows.len(), rows.len(), near);
     let middle = pulls.transpose() * weights * pulls;

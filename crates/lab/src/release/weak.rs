@@ -8,7 +8,7 @@
 use nalgebra::{DMatrix, DVector};
 
 /// Half the length of a test function, s: a swing lasts some tenths.
-pub(super) const HALF_S: f64 = 0.06;
+pub const HALF_S: f64 = 0.06;
 /// Fewest samples under a test function: two more than a parabola has numbers.
 const LEAST_SAMPLES: usize = 5;
 /// Samples farther apart than this share of the half length leave too much to the cubics.
