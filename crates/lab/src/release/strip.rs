@@ -90,6 +90,11 @@ impl HeldStrip {
         self.lean_n_m() * self.rotations_rad(displacement)[0] / self.sharp_moment_n_m()
     }
 
+    /// Largest force at the crack on the rigid line over the weight: G/(h_1 W).
+    pub fn rigid_force_over_weight(&self) -> f64 {
+        self.sharp_moment_n_m() / (self.height_1_m * self.loads_n()[0])
+    }
+
     /// M, kg m², where the joints carry this share of the moment of their sharp edges.
     pub fn inertia_kg_m2(&self, share: f64) -> f64 {
         let [a1, a2] = self.width_m.map(|b| share * b / 2.0);
