@@ -6,7 +6,6 @@ mod beds;
 mod block;
 mod conclusions;
 mod fragility;
-mod measured;
 mod studies;
 mod survey;
 
@@ -52,9 +51,4 @@ fn regress_the_guide_tells_medians_on_beds() {
 #[test]
 fn regress_the_guide_tells_how_drawn_facades_meet_table_3() {
     check("docs/files.md", survey::blocks);
-}
-
-#[test]
-fn regress_the_guide_tells_the_moment_of_measured_joints() {
-    check("docs/measured-walls.md", measured::blocks);
 }
