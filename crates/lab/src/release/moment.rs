@@ -2,9 +2,9 @@
 
 use super::strip::HeldStrip;
 use super::weak::{HALF_S, Support, supports};
-use crate::diagnose::certainty::NINETY_PERCENT;
 use crate::experiment::Test;
 use crate::least_squares::newton_step;
+use mrbd_statistics::normal::NINETY_PERCENT;
 use nalgebra::{DMatrix, DVector};
 
 /// Displacements of the crack over the thickness through which the curve goes; beyond the ends it stays as it is there.
