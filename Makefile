@@ -39,6 +39,9 @@ fragility: ## run drawn façades under scaled records, fit θ/α > 0.1, θ/α > 
 measured: ## joints that give fitted to a wall that was measured, judged on a release held out, both ways round
 	cargo run --release --locked --bin mrbd -- calibrate inputs/measured/griffith_2004/experiment_a.toml --out outputs/measured_a --resume
 	cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/experiment_b.toml --out outputs/measured_b --resume
+	cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/after_a.toml --out outputs/measured_after_a --resume
+	cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/after_b.toml --out outputs/measured_after_b --resume
+	cargo run --release --locked --quiet --bin mrbd -- report outputs/measured_a
 
 assess-table: ## the survey's façades by the code's check and by their own dynamics: table and picture
 	cargo run --release --locked --bin mrbd -- assess-survey inputs/survey.toml --coefficients inputs/coefficients.toml \
@@ -88,6 +91,7 @@ check: ## run a smaller sweep and compare its medians with the accepted ones
 
 readme: ## figures of README.md and of the guide made anew from runs
 	UPDATE_README=1 cargo test --release --locked --test it readme::
+	UPDATE_README=1 cargo test --release --locked --package mrbd-lab --test measured_wall guide
 
 test: ## all tests, of the program and of its crates
 	cargo test --release --locked --workspace

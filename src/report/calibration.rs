@@ -2,21 +2,32 @@
 
 mod convergence;
 mod misfits;
+mod moments;
 mod parameters;
 
 use super::page::{Link, Number, Page};
+use crate::results::calibration::MOMENTS;
 use crate::summary::{Calibrated, Note};
 use mrbd_lab::calibrate::{Calibration, Identifiability, disagreement};
 
 /// The page of a calibration.
 pub fn page(calibrated: &Calibrated) -> Page {
-    let Calibrated { stored, note, tests } = calibrated;
-    let files = [
+    let Calibrated { stored, note, tests, moments } = calibrated;
+    let mut files = vec![
         "manifest.json",
         "calibration.json",
         "candidates.parquet",
         "generations.parquet",
         "wall.calibrated.toml",
+    ];
+    files.extend(moments.as_ref().map(|_| MOMENTS));
+    let measured = moments.as_ref().map(moments::section);
+    let sections = [
+        Some(misfits::histories(tests.as_deref(), stored)),
+        measured,
+        Some(parameters::section(stored)),
+        Some(misfits::section(stored)),
+        Some(convergence::section(stored)),
     ];
     Page {
         title: "Calibration".into(),
@@ -24,14 +35,9 @@ pub fn page(calibrated: &Calibrated) -> Page {
         unfinished: None,
         numbers: numbers(stored),
         notes: notes(stored),
-        sections: vec![
-            misfits::histories(tests.as_deref(), stored),
-            parameters::section(stored),
-            misfits::section(stored),
-            convergence::section(stored),
-        ],
+        sections: sections.into_iter().flatten().collect(),
         provenance: origin(stored, note),
-        files: files.map(Link::to).to_vec(),
+        files: files.into_iter().map(Link::to).collect(),
         ..Page::default()
     }
 }

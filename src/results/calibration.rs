@@ -5,6 +5,7 @@
 //! calibration.json         everything found
 //! candidates.parquet       every simulation, one a row
 //! generations.parquet      how every search converged, one generation a row (the paper's Fig. 6)
+//! moments.parquet          of releases of a held strip: what moment its joints carried, no law assumed
 //! wall.calibrated.toml     the wall with the vector for all tests, for `mrbd simulate`
 //! journal.tsv              simulations so far, while the calibration runs
 //! ```
@@ -13,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::folder::{MANIFEST, Manifest, entries, refuse};
+use super::moments::write_moments;
 use crate::error::{Error, InputError, Result};
 use crate::store::{Column, Read, now_unix_s, write_durably, write_table};
 use arrow_array::{ArrayRef, Float64Array, RecordBatch, StringArray, UInt32Array, UInt64Array};
@@ -20,12 +22,16 @@ use arrow_schema::{DataType, Field, Schema};
 use mrbd_files::FileNote;
 use mrbd_lab::calibrate::{Archive, Calibration, Experiment, MethodResult, Parameter, Row, method_names};
 use mrbd_lab::experiment::Test;
+use mrbd_lab::release::Moments;
 use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, ZstdLevel};
 use parquet::file::properties::WriterProperties;
 
 /// Kind of results, by which a report tells the folder of a calibration from that of a study.
 pub const KIND: &str = "calibration";
+
+/// The table of moments; only releases of a held strip have one.
+pub const MOMENTS: &str = "moments.parquet";
 
 /// Where things go in the output folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -38,6 +44,8 @@ pub struct OutputNames {
     pub candidates: PathBuf,
     /// How every search converged.
     pub generations: PathBuf,
+    /// The moment of the joints in every release of a held strip.
+    pub moments: PathBuf,
     /// The wall with the joint vector, for `mrbd simulate`.
     pub wall: PathBuf,
     /// Simulations of a calibration that is running or was stopped.
@@ -52,6 +60,7 @@ impl OutputNames {
             calibration: folder.join("calibration.json"),
             candidates: folder.join("candidates.parquet"),
             generations: folder.join("generations.parquet"),
+            moments: folder.join(MOMENTS),
             wall: folder.join("wall.calibrated.toml"),
             journal: folder.join("journal.tsv"),
         }
@@ -131,6 +140,10 @@ pub fn write_results(
     let rows = archive.rows(&method_names(experiment));
     write_candidates(&names.candidates, &rows, &experiment.space.parameters, &experiment.tests)?;
     write_generations(&names.generations, &calibration.methods)?;
+    let given = experiment.given()?;
+    if let Some(moments) = Moments::of(&given, &experiment.tests) {
+        write_moments(&names.moments, &given, &moments)?;
+    }
     write_durably(&names.wall, wall_text(experiment, calibration).as_bytes())?;
     let json = serde_json::to_string_pretty(calibration)
         .map_err(|e| Error::io("write the results", &names.calibration, e.into()))?;

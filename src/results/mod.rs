@@ -3,6 +3,7 @@
 pub mod calibration;
 pub mod diagnosis;
 mod folder;
+mod moments;
 mod parts;
 mod run;
 

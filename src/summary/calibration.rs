@@ -7,6 +7,7 @@ use crate::error::Result;
 use mrbd_kernel::model::Wall;
 use mrbd_lab::calibrate::{Calibration, Experiment};
 use mrbd_lab::experiment::Measured;
+use mrbd_lab::release::{HeldStrip, Moments};
 
 /// Rows of a simulated history, s.
 const STEP_S: f64 = 0.01;
@@ -20,6 +21,17 @@ pub struct Calibrated {
     pub note: Note,
     /// The tests in the order of the experiment; `None` where its files are gone or other ones now.
     pub tests: Option<Vec<TestRotations>>,
+    /// What releases of a held strip say of its joints; `None` where there are none, or their files are gone.
+    pub moments: Option<JointMoments>,
+}
+
+/// The moment of joints, and the strip that laws need.
+#[derive(Debug)]
+pub struct JointMoments {
+    /// What is drawn.
+    pub moments: Moments,
+    /// Of which strip.
+    pub strip: HeldStrip,
 }
 
 /// Rotations over slenderness angles by time, s; a value that is no number breaks the line.
@@ -43,19 +55,29 @@ impl Calibrated {
         let stored: Calibration =
             read_json(&folder.join("calibration.json"), "results as `mrbd calibrate` writes them, finished")?;
         let note = Note::read(&folder.join("manifest.json"))?;
-        let tests = tests(folder, &note, &stored);
-        Ok(Self { stored, note, tests })
+        let experiment = experiment(folder, &note, &stored);
+        let tests = experiment.as_ref().and_then(|experiment| tests(experiment, &stored));
+        let moments = experiment.as_ref().and_then(joint_moments);
+        Ok(Self { stored, note, tests, moments })
     }
 }
 
-fn tests(folder: &Path, note: &Note, stored: &Calibration) -> Option<Vec<TestRotations>> {
+/// The experiment as it was calibrated; `None` where its files are gone or other ones now.
+fn experiment(folder: &Path, note: &Note, stored: &Calibration) -> Option<Experiment> {
     let path = found_again(folder, &note.inputs, "experiment")?;
     let experiment = Experiment::load(&path, Some(stored.seed)).ok()?;
-    if experiment.request != stored.request_sha256 {
-        return None;
-    }
+    (experiment.request == stored.request_sha256).then_some(experiment)
+}
+
+fn tests(experiment: &Experiment, stored: &Calibration) -> Option<Vec<TestRotations>> {
     let wall = experiment.space.wall(&stored.joint.values).ok()?;
-    Some((0..experiment.tests.len()).map(|index| rotations(&experiment, &wall, index)).collect())
+    Some((0..experiment.tests.len()).map(|index| rotations(experiment, &wall, index)).collect())
+}
+
+fn joint_moments(experiment: &Experiment) -> Option<JointMoments> {
+    let given = experiment.given().ok()?;
+    let moments = Moments::of(&given, &experiment.tests)?;
+    Some(JointMoments { moments, strip: HeldStrip::of(&given)? })
 }
 
 fn rotations(experiment: &Experiment, wall: &Wall, index: usize) -> TestRotations {

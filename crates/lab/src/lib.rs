@@ -16,6 +16,7 @@
 //! | [`experiment`] | an experiment file | tests in the record's time, with noise, contact patterns and starts |
 //! | [`calibrate`] | tests | one vector for all of them, with intervals ([`calibrate::Calibration`]) |
 //! | [`diagnose`] | tests | a verdict, and everything it rests on ([`diagnose::Diagnosis`]) |
+//! | [`release`] | free releases of a held strip | the moment of its joints against rotation, no law assumed |
 //! | [`limits`] | nothing | every number that decides a diagnosis |
 //!
 //! # A calibration from the file to the result
@@ -76,6 +77,7 @@ pub mod experiment;
 mod least_squares;
 pub mod limits;
 mod progress;
+pub mod release;
 
 pub use experiment::file as experiment_file;
 pub use progress::Progress;

@@ -31,6 +31,8 @@ pub struct Test {
     pub collapse_s: Option<f64>,
     /// How the clocks of record and measurement were brought together.
     pub alignment: Alignment,
+    /// Whether the top was held sideways.
+    pub top_held: bool,
     /// The ground motion as recorded.
     pub shaking: Shaking,
     /// The measured state from which the wall moves by itself; `None`: it starts from rest.
@@ -86,6 +88,7 @@ impl Test {
         Ok(Self {
             name: table.name.clone(),
             purpose: table.purpose,
+            top_held: table.top_held,
             collapse_s: measured.collapse_s,
             alignment,
             simulator: Simulator::new(wall, &until(&shaking, target.end_s()), accuracy),
@@ -146,6 +149,20 @@ impl Test {
             }
             (length_s > 0.0).then(|| (squares / length_s).sqrt())
         })
+    }
+
+    /// When the wall was released, s, and its state there; `None`: it starts from rest.
+    pub fn release(&self) -> Option<(f64, State)> {
+        self.release.map(|start| (start.time_s, start.state))
+    }
+
+    /// The same test released from another state, at the same time.
+    #[must_use]
+    pub fn released_from(&self, state: State) -> Self {
+        let release = self.release.map(|start| Start { state, ..start });
+        let mut other = Self { release, ..self.clone() };
+        other.segments.iter_mut().take(1).for_each(|first| first.start = release);
+        other
     }
 
     /// How many segments it is simulated in.
