@@ -226,10 +226,10 @@ fn most_confused(effect: &Trace, all: &[Trace]) -> Option<Confused> {
         share,
         parameter: unknown.key.clone(),
         unit: unknown.unit.to_owned(),
-        told_from_nothing: DETECTED_SD / alone.sqrt(),
+        told_from_nothing: unknown.sized(DETECTED_SD / alone.sqrt()),
         // Half the square of the size over its standard deviation is what speaks for one and against the other.
-        told_apart: (2.0 * EQUIVALENT / left).sqrt(),
-        matters: unknown.scale,
+        told_apart: unknown.sized((2.0 * EQUIVALENT / left).sqrt()),
+        matters: unknown.sized(unknown.scale),
         told_by: variant.entry().told_by.to_owned(),
     })
 }

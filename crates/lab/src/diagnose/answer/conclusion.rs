@@ -111,11 +111,11 @@ impl Findings<'_> {
                 name: h.additions[0].name(),
                 parameter: unknown.key.clone(),
                 unit: unknown.unit.to_owned(),
-                estimate: tried.fit.values[h.nuisances] - unknown.start,
-                sd: power.sd,
-                smallest_detectable: power.detected_from,
-                named_from: power.named_from,
-                matters: power.matters,
+                estimate: unknown.sized(tried.fit.values[h.nuisances] - unknown.start),
+                sd: unknown.measure.sd(tried.fit.values[h.nuisances], power.sd),
+                smallest_detectable: unknown.sized(power.detected_from),
+                named_from: unknown.sized(power.named_from),
+                matters: unknown.sized(power.matters),
             })
         };
         singles.filter_map(row).collect()
@@ -139,7 +139,7 @@ impl Findings<'_> {
             is_answer: kinds(tried).is_some(),
             parameter: h.unknowns[i].key.clone(),
             unit: h.unknowns[i].unit,
-            value: tried.fit.values[i],
+            value: h.unknowns[i].number(tried.fit.values[i]),
             sd: sd(tried, i),
             error: tried.errors(),
             against: against(&data, tried),
@@ -153,8 +153,14 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
     let (h, values) = (&after.hypothesis, &after.fit.values);
     let addition = &h.additions[index];
     let numbers = |keys: &[(String, usize)]| {
-        let parameters = keys.iter().map(|(key, i)| (key.clone(), values[*i])).collect();
-        (parameters, keys.iter().map(|(key, i)| (key.clone(), intervals[*i])).collect())
+        let parameters =
+            keys.iter().map(|(key, i)| (key.clone(), h.unknowns[*i].measure.number(values[*i]))).collect();
+        (
+            parameters,
+            keys.iter()
+                .map(|(key, i)| (key.clone(), h.unknowns[*i].measure.interval(intervals[*i])))
+                .collect(),
+        )
     };
     if let Some(friction) = giving_friction(h, values, index) {
         let (parameters, interval) = numbers(&[("force_n".to_owned(), friction.force)]);
@@ -213,7 +219,9 @@ pub(super) fn name_of(h: &Hypothesis) -> String {
 
 /// Standard deviation of a fitted number; `None` where it leaves no trace.
 pub(super) fn sd(tried: &FittedHypothesis, i: usize) -> Option<f64> {
-    finite(tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt()))
+    let measure = tried.hypothesis.unknowns[i].measure;
+    let sd = tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt());
+    finite(sd.map(|sd| measure.sd(tried.fit.values[i], sd)))
 }
 
 /// A number that files can hold.
@@ -254,7 +262,7 @@ impl Findings<'_> {
         let number = |i: usize| FittedNumber {
             key: h.unknowns[i].key.clone(),
             unit: h.unknowns[i].unit.to_owned(),
-            value: tried.fit.values[i],
+            value: h.unknowns[i].number(tried.fit.values[i]),
             sd: sd(tried, i),
         };
         let data = self.data();
