@@ -12,14 +12,14 @@ use super::summary::{
     Against, BeforeAfter, CouldHide, FitHeldOut, FittedNumber, FoundEffect, KIND, Rival, Stages, Summary,
     TestErrors, WallFit, WindowCounts,
 };
-use crate::diagnose::certainty::{confused, ensemble, intervals, next_tests};
+use crate::diagnose::certainty::{confused, ensemble, intervals, intervals_beside_own_error, next_tests};
 use crate::diagnose::fit::{WindowFit, windowed_error};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Physics};
 use crate::diagnose::trials::{FRICTION, FittedHypothesis, against, giving_friction, joint_error, kinds};
 use crate::diagnose::verdict::{Verdict, names, power};
 use crate::experiment::TestData;
 use crate::experiment::{Purpose, Test};
-use mrbd_kernel::model::Wall;
+use mrbd_kernel::model::{Role, Wall};
 use mrbd_kernel::simulate::Accuracy;
 use rayon::prelude::*;
 
@@ -46,6 +46,7 @@ impl Findings<'_> {
             equivalent: found.equivalent.clone(),
             wall: wall_fits(&found.after),
             tests: self.test_errors(physics),
+            remainder: found.remainder.clone(),
             other_law: found.other_law.clone(),
             windowed_error: staged(stages.map(joint_error).map(finite)),
             against: staged(stages.map(|tried| against(&data, tried))),
@@ -93,7 +94,10 @@ impl Findings<'_> {
     /// The effects of an answer with their numbers and 90 % intervals.
     fn named_effects(&self) -> Vec<FoundEffect> {
         let after = &self.found.after;
-        let intervals = intervals(&self.data(), after);
+        let intervals = match self.found.remainder {
+            Some(_) => intervals_beside_own_error(&self.data(), after),
+            None => intervals(&self.data(), after),
+        };
         (0..after.hypothesis.additions.len()).map(|index| found_effect(after, &intervals, index)).collect()
     }
 
@@ -101,7 +105,9 @@ impl Findings<'_> {
     /// matter.
     fn could_hide(&self) -> Vec<CouldHide> {
         let data = self.data();
-        let singles = self.found.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
+        // A bed does nothing where it is stiff: what could hide is no size above nothing.
+        let shown = |a: &Addition| a.role() != Some(Role::Bed);
+        let singles = self.found.tried.iter().filter(|t| matches!(&t.hypothesis.additions[..], [one] if shown(one)));
         let row = |tried: &FittedHypothesis| {
             let power = power(&data, &self.found.recalibrated, tried)?;
             let h = &tried.hypothesis;
@@ -111,11 +117,11 @@ impl Findings<'_> {
                 name: h.additions[0].name(),
                 parameter: unknown.key.clone(),
                 unit: unknown.unit.to_owned(),
-                estimate: unknown.sized(tried.fit.values[h.nuisances] - unknown.start),
-                sd: unknown.measure.sd(tried.fit.values[h.nuisances], power.sd),
-                smallest_detectable: unknown.sized(power.detected_from),
-                named_from: unknown.sized(power.named_from),
-                matters: unknown.sized(power.matters),
+                estimate: tried.fit.values[h.nuisances] - unknown.start,
+                sd: power.sd,
+                smallest_detectable: power.detected_from,
+                named_from: power.named_from,
+                matters: power.matters,
             })
         };
         singles.filter_map(row).collect()

@@ -130,17 +130,14 @@ impl Unknown {
         value.clamp(self.lower, self.upper)
     }
 
+    /// Whether it is the softness of a bed.
+    pub fn is_softness(&self) -> bool {
+        self.measure == Measure::Softness
+    }
+
     /// The number of the wall file that a value means.
     pub fn number(&self, value: f64) -> f64 {
         self.measure.number(value)
-    }
-
-    /// A size, away from doing nothing, as the wall file would have it: of a bed its stiffness.
-    pub fn sized(&self, size: f64) -> f64 {
-        match self.measure {
-            Measure::Itself => size,
-            Measure::Softness => self.number(self.start + size),
-        }
     }
 
     /// A value with a share of its distance from the start.

@@ -5,11 +5,13 @@
 //! | `search` | one hypothesis: where its fit may start, the fit, and whether it is worth fitting to the end |
 //! | `fitted_hypothesis` | what came of it: whether it follows the tests within noise, closes a gap, does something |
 //! | `effects` | the wall as given, its own numbers, effects one by one and in pairs, an answer fitted again |
+//! | `beds` | joints that give |
 //! | `imitation` | hypotheses that could imitate the best |
 //! | `own` | laws of the user's own |
 //! | `friction` | friction that gives a little first |
 //! | `patterns` | patterns read again, without a sensor's gain and with joints open by less than the noise |
 
+mod beds;
 mod effects;
 mod fitted_hypothesis;
 mod friction;
@@ -18,7 +20,8 @@ mod own;
 mod patterns;
 mod search;
 
-pub use effects::FirstFits;
+pub use beds::{excess, own_error, widened};
+pub use effects::{FirstFits, WallFits};
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
     against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds,
