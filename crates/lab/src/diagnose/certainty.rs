@@ -41,8 +41,10 @@ pub fn intervals_beside_own_error(data: &Data, tried: &FittedHypothesis) -> Vec<
     let found = intervals(&Data { fit: Problem { tests: &tests, ..data.fit }, ..*data }, &wider);
     let h = &tried.hypothesis;
     let all = found.into_iter().zip(&tried.fit.values).enumerate();
-    all.map(|(i, (interval, value))| if i < h.nuisances { interval } else { wider_by_model(interval, *value) })
-        .collect()
+    all.map(
+        |(i, (interval, value))| if i < h.nuisances { interval } else { wider_by_model(interval, *value) },
+    )
+    .collect()
 }
 
 /// An interval about a number of a bed with what another way to model it would move that number by.

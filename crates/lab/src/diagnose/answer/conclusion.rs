@@ -107,7 +107,8 @@ impl Findings<'_> {
         let data = self.data();
         // A bed does nothing where it is stiff: what could hide is no size above nothing.
         let shown = |a: &Addition| a.role() != Some(Role::Bed);
-        let singles = self.found.tried.iter().filter(|t| matches!(&t.hypothesis.additions[..], [one] if shown(one)));
+        let singles =
+            self.found.tried.iter().filter(|t| matches!(&t.hypothesis.additions[..], [one] if shown(one)));
         let row = |tried: &FittedHypothesis| {
             let power = power(&data, &self.found.recalibrated, tried)?;
             let h = &tried.hypothesis;

@@ -5,8 +5,8 @@ mod addition;
 pub mod example;
 mod unknown;
 
-pub use addition::{beds, candidates};
 pub use addition::{ACTING, Addition};
+pub use addition::{beds, candidates};
 pub use unknown::Nuisance;
 pub use unknown::Scales;
 pub use unknown::{Measure, Unknown};

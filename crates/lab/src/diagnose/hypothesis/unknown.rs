@@ -117,7 +117,17 @@ impl Unknown {
     ) -> Self {
         let scale = if start == 0.0 { upper - lower } else { start.abs() };
         let slot = Slot::Sought(index);
-        Self { key: key.into(), unit: "", start, scale, lower, upper, prior_sd, measure: Measure::Itself, slot }
+        Self {
+            key: key.into(),
+            unit: "",
+            start,
+            scale,
+            lower,
+            upper,
+            prior_sd,
+            measure: Measure::Itself,
+            slot,
+        }
     }
 
     /// Whether it is a number of the addition with this index.

@@ -75,7 +75,8 @@ impl<P: Progress> Trials<'_, P> {
         let mut begun = probe.begun(probed);
         begun.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
         let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
-        begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best);
+        // A bed may follow within the noise: then another must come near that.
+        begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
         self.progress.begin("joints that give", begun.len());
         let fit = |(bed, begun): &(Addition, Fit)| {
             let fitted = self.bed(*bed, begun);
@@ -159,7 +160,8 @@ impl<P: Progress> Probe<'_, P> {
     fn states(&self, bed: Addition, stiffness_pa_per_m: f64, damping_s: f64) -> Option<(Hypothesis, Fit)> {
         let h = self.trials.hypothesis(&[], &[bed]);
         let of = |measure| if measure == Measure::Softness { stiffness_pa_per_m } else { damping_s };
-        let values = h.unknowns.iter().map(|u| u.within(u.measure.value_of(of(u.measure)))).collect::<Vec<_>>();
+        let values =
+            h.unknowns.iter().map(|u| u.within(u.measure.value_of(of(u.measure)))).collect::<Vec<_>>();
         let problem = self.problem();
         let fit = problem.states(&h, &values, &problem.measured_states(), 1, false)?;
         Some((h, fit))

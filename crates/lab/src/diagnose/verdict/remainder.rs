@@ -151,16 +151,18 @@ mod tests {
         assert!(remainder(0.95, 0.5).holds());
         assert!(!remainder(0.7, 0.0).holds(), "too much is left");
         assert!(!remainder(0.95, 0.93).holds(), "a rival comes near");
-        assert!(!Remainder { taken_small_swings: 0.1, ..remainder(0.95, 0.5) }.holds(), "not in small swings");
+        assert!(
+            !Remainder { taken_small_swings: 0.1, ..remainder(0.95, 0.5) }.holds(),
+            "not in small swings"
+        );
         assert!(!Remainder { taken_fit: 0.5, ..remainder(0.95, 0.5) }.holds());
         assert!(Remainder { next_rival: None, ..remainder(0.9, 0.0) }.holds());
     }
 
     #[test]
     fn analytic_shares_are_of_the_squared_error_above_noise() {
-        let windows = |reduced: f64| {
-            vec![WindowFit { x: vec![0.0; 4], squares: 200.0 * reduced, freedom: 200.0 }; 10]
-        };
+        let windows =
+            |reduced: f64| vec![WindowFit { x: vec![0.0; 4], squares: 200.0 * reduced, freedom: 200.0 }; 10];
         // From 10 noises to 4: 99 to 15.
         let share = share_taken(&windows(100.0), &windows(16.0)).expect("a gap");
         assert!((share - (1.0 - 15.0 / 99.0)).abs() < 1e-12, "{share}");
