@@ -7,6 +7,7 @@ use clap::Args;
 use super::progress::Bar;
 use super::report::write_page;
 use super::shell::shell_word;
+use super::so_far::{SoFar, Watched};
 use super::threads::Threads;
 use super::{output, stop};
 use crate::error::Result;
@@ -49,10 +50,13 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     let pool = args.threads.pool()?;
     let names = OutputNames::prepare(&args.out)?;
     let (file, out) = (shell_word(&args.experiment), shell_word(&args.out));
-    stop::end_on_signals(format!(
-        "a diagnosis stores nothing before it is done; to begin again: mrbd diagnose {file} --out {out}"
-    ))?;
-    let bar = Bar::of_steps();
+    let so_far = SoFar::default();
+    let (known, folder) = (so_far.clone(), args.out.clone());
+    stop::end_on_signals(move || {
+        let left = known.leave_in(&folder);
+        format!("{left}\nTo begin again: mrbd diagnose {file} --out {out}")
+    })?;
+    let bar = Watched { bar: Bar::of_steps(), so_far };
     let diagnosis = pool.install(|| -> Result<Diagnosis> {
         check_data(&experiment)?;
         Ok(diagnose(&experiment, &bar)?)

@@ -78,4 +78,4 @@ pub mod limits;
 mod progress;
 
 pub use experiment::file as experiment_file;
-pub use progress::Progress;
+pub use progress::{Progress, Tried};

@@ -14,7 +14,7 @@ use super::summary::{
 };
 use crate::diagnose::certainty::{confused, ensemble, intervals, intervals_beside_own_error, next_tests};
 use crate::diagnose::fit::{WindowFit, windowed_error};
-use crate::diagnose::hypothesis::{Addition, Hypothesis, Physics};
+use crate::diagnose::hypothesis::{Addition, Physics};
 use crate::diagnose::trials::{FRICTION, FittedHypothesis, against, giving_friction, joint_error, kinds};
 use crate::diagnose::verdict::{Verdict, names, power};
 use crate::experiment::TestData;
@@ -141,7 +141,7 @@ impl Findings<'_> {
         let h = &tried.hypothesis;
         let row = |i: usize| RivalRow {
             rank,
-            name: name_of(h),
+            name: h.name(),
             place: h.additions.first().map_or("none", |a| a.place()),
             is_answer: kinds(tried).is_some(),
             parameter: h.unknowns[i].key.clone(),
@@ -219,11 +219,6 @@ fn staged<T>([before, recalibrated, after]: [T; 3]) -> Stages<T> {
     Stages { before, recalibrated, after }
 }
 
-/// What is added to the wall.
-pub(super) fn name_of(h: &Hypothesis) -> String {
-    h.additions.iter().map(|a| a.name()).collect::<Vec<_>>().join(" + ")
-}
-
 /// Standard deviation of a fitted number; `None` where it leaves no trace.
 pub(super) fn sd(tried: &FittedHypothesis, i: usize) -> Option<f64> {
     let measure = tried.hypothesis.unknowns[i].measure;
@@ -277,7 +272,7 @@ impl Findings<'_> {
         let wme = self.ensemble_wme(tried);
         let fitted = |all: &Vec<Option<f64>>| all.first().copied().flatten();
         Rival {
-            name: name_of(h),
+            name: h.name(),
             kinds: names(tried),
             place: h.additions.first().map(|a| a.place().to_owned()),
             parameters: (h.nuisances..h.unknowns.len()).map(number).collect(),

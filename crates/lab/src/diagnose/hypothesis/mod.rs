@@ -54,6 +54,11 @@ pub struct Hypothesis {
 }
 
 impl Hypothesis {
+    /// What is added to the wall; empty where nothing is.
+    pub fn name(&self) -> String {
+        self.additions.iter().map(Addition::name).collect::<Vec<_>>().join(" + ")
+    }
+
     /// The wall with these uncertainties and additions.
     pub fn new(
         base: &WallParameters,

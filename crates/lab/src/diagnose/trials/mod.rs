@@ -33,12 +33,15 @@ pub use search::{refit, shared_states, untouched, with_values};
 
 use rayon::prelude::*;
 
-use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
 use crate::limits::{POLISHED, WORTH_POLISH};
+use crate::{Progress, Tried};
 use search::{Coarse, worth_finishing};
 use search::{finish, try_coarsely};
+
+/// Of hypotheses fitted together, as many are told while others are tried.
+const MOST_TOLD: usize = 10;
 
 /// Where hypotheses are tried.
 pub struct Trials<'a, P> {
@@ -94,10 +97,24 @@ impl<P: Progress> Trials<'_, P> {
         self.ordered(coarse)
     }
 
-    /// In the order of what speaks against them.
+    /// In the order of what speaks against them; the best are told.
     pub fn ordered(&self, mut tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
         tried.sort_by(|a, b| against(&self.data, a).total_cmp(&against(&self.data, b)));
+        let told = tried.iter().take(MOST_TOLD).map(|tried| self.as_told(tried)).collect::<Vec<_>>();
+        self.progress.tried(&told);
         tried
+    }
+
+    /// A hypothesis as far as it is fitted.
+    fn as_told(&self, tried: &FittedHypothesis) -> Tried {
+        let h = &tried.hypothesis;
+        let added = h.unknowns.iter().zip(&tried.fit.values).skip(h.nuisances);
+        Tried {
+            name: h.name(),
+            numbers: added.map(|(u, value)| (u.key.clone(), u.number(*value), u.unit.to_owned())).collect(),
+            windowed_error: tried.errors(),
+            against: against(&self.data, tried),
+        }
     }
 
     /// The best of hypotheses with the same additions, in order.
