@@ -64,7 +64,8 @@ pub fn execute(args: &CalibrateArgs) -> Result<()> {
         return print(&stored);
     }
     let names = OutputNames::prepare(out, &experiment, args.resume)?;
-    stop::end_on_signals(format!("what was simulated is stored; to go on: {}", again(args, out)))?;
+    let last_words = format!("what was simulated is stored; to go on: {}", again(args, out));
+    stop::end_on_signals(|| last_words)?;
     let progress = Box::new(Bar::of_simulations());
     let archive = Archive::open(&names.journal, &experiment.request, args.resume, progress)?;
     let calibration = pool.install(|| calibrate(&experiment, &archive))?;

@@ -7,12 +7,14 @@ use clap::Args;
 use super::progress::Bar;
 use super::report::write_page;
 use super::shell::shell_word;
+use super::so_far::{SoFar, Watched};
 use super::threads::Threads;
 use super::{output, stop};
 use crate::error::Result;
 use crate::report::numbers_of;
 use crate::results::diagnosis::{OutputNames, write_results};
 use mrbd_lab::diagnose::answer::{FittedNumber, FoundEffect, OwnHypothesis, Summary};
+use mrbd_lab::diagnose::verdict::Remainder;
 use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
 
 /// Find where model and measurement disagree, and name the missing effect.
@@ -48,10 +50,13 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
     let pool = args.threads.pool()?;
     let names = OutputNames::prepare(&args.out)?;
     let (file, out) = (shell_word(&args.experiment), shell_word(&args.out));
-    stop::end_on_signals(format!(
-        "a diagnosis stores nothing before it is done; to begin again: mrbd diagnose {file} --out {out}"
-    ))?;
-    let bar = Bar::of_steps();
+    let so_far = SoFar::default();
+    let (known, folder) = (so_far.clone(), args.out.clone());
+    stop::end_on_signals(move || {
+        let left = known.leave_in(&folder);
+        format!("{left}\nTo begin again: mrbd diagnose {file} --out {out}")
+    })?;
+    let bar = Watched { bar: Bar::of_steps(), so_far };
     let diagnosis = pool.install(|| -> Result<Diagnosis> {
         check_data(&experiment)?;
         Ok(diagnose(&experiment, &bar)?)
@@ -68,6 +73,7 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
 fn in_words(summary: &Summary) -> String {
     let mut lines = vec![format!("verdict: {}", summary.verdict.name())];
     lines.extend(summary.effects.iter().flat_map(effect_in_words));
+    lines.extend(summary.remainder.as_ref().map(remainder_in_words));
     if !summary.equivalent.is_empty() {
         lines.push(format!("  these tests cannot tell apart: {}", summary.equivalent.join(", ")));
     }
@@ -98,6 +104,19 @@ fn own_in_words(own: &OwnHypothesis) -> String {
             format!("your {:?}: {closes}, windowed error {fit:.2}{held_out}; {numbers}", own.name)
         }
     }
+}
+
+/// What a name with a remainder takes away and leaves.
+fn remainder_in_words(found: &Remainder) -> String {
+    let next = found.next_rival.as_ref().map_or_else(String::new, |next| {
+        format!("; next, {}: {:.1} %", next.name, 100.0 * next.taken_held_out.max(0.0))
+    });
+    format!(
+        "  a name with a remainder: of the squared error above noise it takes away {:.1} % in the tests held out, \
+         and leaves {:.1} times the noise{next}",
+        100.0 * found.taken_held_out,
+        found.left_held_out
+    )
 }
 
 /// An effect and its place, and a line for each of its numbers; those of curves stand in the files.

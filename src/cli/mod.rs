@@ -29,6 +29,7 @@ mod run;
 mod shell;
 mod simulate;
 mod slurm;
+mod so_far;
 pub mod starter;
 mod status;
 mod stop;

@@ -18,17 +18,17 @@ const STOPPED: i32 = 1;
 
 /// Ends the process with these words when it is asked to stop.
 ///
-/// For work that is stored as it goes, or not at all: nothing has to be finished first.
+/// For work that is stored as it goes, or can be as it stands: nothing has to be finished first.
 ///
 /// # Errors
 /// [`mrbd_files::Error::Io`] if the system has no such signals.
-pub(super) fn end_on_signals(last_words: String) -> Result<()> {
+pub(super) fn end_on_signals(last_words: impl FnOnce() -> String + Send + 'static) -> Result<()> {
     let mut signals = Signals::new([SIGINT, SIGTERM])
         .map_err(|e| Error::io("watch for signals", Path::new("process"), e))?;
     std::thread::spawn(move || {
         if signals.forever().next().is_some() {
             // The line of a bar may stand there.
-            eprintln!("\nmrbd: stopped; {last_words}");
+            eprintln!("\nmrbd: stopped; {}", last_words());
             std::process::exit(STOPPED);
         }
     });

@@ -22,8 +22,8 @@ use crate::error::Result;
 use crate::results::diagnosis::tables::TABLES;
 use mrbd_lab::diagnose::answer::{Summary, WallFit};
 use mrbd_lab::experiment_file::Purpose;
-pub use words::numbers_of;
-use words::{number, unit_of, with_sd};
+pub use words::{number, numbers_of};
+use words::{unit_of, with_sd};
 
 /// Measured: dark grey.
 const MEASURED: Colour = PALETTE[6];

@@ -34,6 +34,9 @@ struct Options {
     /// Cases of laws that no catalogue has, told as formulas.
     #[arg(long)]
     laws: bool,
+    /// Cases of walls whose joints give.
+    #[arg(long, conflicts_with = "laws")]
+    beds: bool,
     /// How many cases.
     #[arg(long, default_value_t = 40)]
     cases: u64,
@@ -81,7 +84,11 @@ fn main() -> ExitCode {
 fn go(options: &Options) -> Result<(), String> {
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("outputs/blind").join(&options.set));
     let only = |kind: &cases::kind::Kind| options.only.as_ref().is_none_or(|part| kind.name().contains(part));
-    let draw = if options.laws { laws::draw::draw } else { cases::draw::draw };
+    let draw = match (options.laws, options.beds) {
+        (true, _) => laws::draw::draw,
+        (_, true) => cases::beds::draw,
+        _ => cases::draw::draw,
+    };
     let drawn = options.numbers().map(|number| draw(&options.set, number));
     let known = options.recorded_numbers()?;
     let is_new = |case: &cases::draw::Case| !known.contains(&case.number);

@@ -325,3 +325,21 @@ fn verified_carriage_lumped_into_the_floor_is_named() {
     // 5 % is the target for the median of such errors.
     assert!((value / 663.0 - 1.0).abs() < 0.05, "{value}");
 }
+
+#[test]
+fn verified_soft_crack_of_another_simulation_is_named_with_a_remainder() {
+    let Some(measured) = shared::folder("measured") else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out");
+    let found = diagnosed(&measured.join("bed_c_crack_only/experiment.toml"), &out);
+    assert_eq!(found["verdict"], "named", "{found:#}");
+    assert_eq!(found["effects"][0]["name"], "compliant_joint.crack");
+    let value = found["effects"][0]["parameters"]["stiffness_pa_per_m"].as_f64().expect("a number");
+    // 10 % is the target for the median of such errors.
+    assert!((value / 1.5e8 - 1.0).abs() < 0.1, "{value}");
+    let taken = found["remainder"]["taken_held_out"].as_f64().expect("a share");
+    // What a name with a remainder asks for; springs 300 times as stiff at the ground are left.
+    assert!((0.8..1.0).contains(&taken), "{taken}");
+    let updated = std::fs::read_to_string(out.join("wall.updated.toml")).expect("written");
+    assert!(updated.contains("compliant_joint"), "{updated}");
+}

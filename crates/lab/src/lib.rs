@@ -80,4 +80,4 @@ mod progress;
 pub mod release;
 
 pub use experiment::file as experiment_file;
-pub use progress::Progress;
+pub use progress::{Progress, Tried};

@@ -3,7 +3,7 @@
 use mrbd_lab::diagnose::Verdict;
 use mrbd_lab::diagnose::answer::{FittedNumber, FoundEffect, Summary};
 use mrbd_lab::diagnose::discovery::{Stability, UnseenGain};
-use mrbd_lab::diagnose::verdict::OtherLaw;
+use mrbd_lab::diagnose::verdict::{OtherLaw, Remainder};
 use mrbd_lab::limits::SMALL_SWING;
 
 /// Standard deviations over the value itself beyond which the tests do not tell it.
@@ -91,6 +91,10 @@ pub fn lead(summary: &Summary) -> String {
         Verdict::Recalibrated => {
             "Recalibrated: the gap closes within what was known of the wall’s own numbers.".to_owned()
         }
+        Verdict::Named if summary.remainder.is_some() => {
+            let left = summary.remainder.as_ref().map_or(String::new(), remainder);
+            format!("Named, with a remainder: {effects}. {left}")
+        }
         Verdict::Named => format!("Named: {effects}. Nothing else in the catalogue explains these tests."),
         Verdict::Class => format!(
             "A class: {} explain these tests alike. The first of them: {effects}.",
@@ -123,6 +127,22 @@ pub fn lead(summary: &Summary) -> String {
                 .to_owned()
         }
     }
+}
+
+/// What a name takes away and leaves, where it leaves more than noise.
+fn remainder(found: &Remainder) -> String {
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let next = found.next_rival.as_ref().map_or(String::new(), |next| {
+        format!(" The next effect, {}, takes away {}.", next.name, percent(next.taken_held_out.max(0.0)))
+    });
+    format!(
+        "Of the squared error above noise it takes away {} in the tests held out ({} in those fitted; {} in small swings, {} in large ones), and leaves {} times the noise there: the model’s own error, with which the intervals are told.{next}",
+        percent(found.taken_held_out),
+        percent(found.taken_fit),
+        percent(found.taken_small_swings),
+        percent(found.taken_large_swings),
+        number(found.left_held_out)
+    )
 }
 
 /// How sure the form of a formula is.

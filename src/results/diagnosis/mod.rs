@@ -4,10 +4,12 @@
 //! manifest.json        `kind`: `diagnosis`; program, files that were read; written first
 //! *.parquet            what the figures show, see [`tables`]
 //! wall.updated.toml    the wall with the effect added, for every other command
+//! unfinished.csv       of a diagnosis that was stopped: the hypotheses fitted until then, and no verdict
 //! diagnosis.json       the verdict, with everything it rests on; written last: where it is, all is there
 //! ```
 
 pub mod tables;
+mod unfinished;
 
 use std::path::{Path, PathBuf};
 
@@ -19,6 +21,7 @@ use mrbd_lab::diagnose::Diagnosis;
 pub use mrbd_lab::diagnose::answer::KIND;
 use mrbd_lab::diagnose::answer::Summary;
 use tables::TABLES;
+pub use unfinished::{UNFINISHED, write_unfinished};
 
 /// Writes a diagnosis and the files it was made from; every file is whole or absent.
 ///
@@ -67,7 +70,8 @@ impl OutputNames {
             wall: folder.join("wall.updated.toml"),
             started_unix_s: now_unix_s(),
         };
-        let earlier = entries.contains(&names.diagnosis) || holds(folder, KIND);
+        let stopped = entries.contains(&folder.join(UNFINISHED));
+        let earlier = entries.contains(&names.diagnosis) || holds(folder, KIND) || stopped;
         if !entries.is_empty() && !earlier {
             let found = format!("{}, which holds other files", folder.display());
             return Err(refuse(found, "an empty folder, or one of an earlier diagnosis").into());
@@ -80,7 +84,7 @@ impl OutputNames {
         let tables = TABLES.map(|name| self.folder.join(name));
         let own = [&self.diagnosis, &self.wall, &self.manifest].into_iter().chain(&tables);
         let page = self.folder.join(crate::store::PAGE_NAME);
-        remove_all(own.chain([&page]))
+        remove_all(own.chain([&page, &self.folder.join(UNFINISHED)]))
     }
 }
 

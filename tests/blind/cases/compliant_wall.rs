@@ -1,6 +1,6 @@
 //! The true wall of a case for the simulator with compliant corners.
 
-use super::super::compliant::wall::LooseMass;
+use super::super::compliant::wall::{Bed, LooseMass};
 use super::super::compliant::{CompliantWall, TopLaw};
 use super::super::laws::atom::Site;
 use super::draw::Case;
@@ -29,6 +29,7 @@ pub fn wall(numbers: &WallNumbers) -> CompliantWall {
         eccentricity_m: 0.0,
         top: vec![TopLaw::Spring { stiffness_n_per_m: numbers.stiffness_n_per_m, slack_m: 0.0 }],
         joint_damping_n_m_s: [0.0; 2],
+        beds: [None; 2],
         joint_laws: [Vec::new(), Vec::new()],
         coefficients: numbers.coefficients,
         loose: None,
@@ -61,6 +62,12 @@ fn add(wall: &mut CompliantWall, effect: &Hidden, numbers: &WallNumbers) {
         }
         Hidden::ImpactDissipation { factors } => {
             wall.coefficients.iter_mut().zip(factors).for_each(|(c, factor)| *c *= factor);
+        }
+        Hidden::CompliantJoint { joints, stiffness_pa_per_m, damping_s } => {
+            for joint in joints.indices() {
+                let stiffness_n_per_m2 = stiffness_pa_per_m * numbers.length_m;
+                wall.beds[*joint] = Some(Bed { stiffness_n_per_m2, damping_s });
+            }
         }
         Hidden::JointDamping { joint, coefficient_n_m_s_per_rad } => {
             wall.joint_damping_n_m_s[joint as usize] += coefficient_n_m_s_per_rad;

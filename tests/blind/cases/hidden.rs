@@ -3,18 +3,49 @@
 //! The nominal size of an effect shows about as much as the effects of the paper's tests would: a tenth or so of the
 //! force or the mass that is there anyway.
 
+use std::path::Path;
+
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
 
 use super::super::laws::atom::Atom;
-use super::walls::WallNumbers;
+use super::own_wall;
+use super::walls::{WallNumbers, rounded};
 
 /// A joint, as wall files name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Joint {
     Ground,
     Crack,
+}
+
+/// Joints that give, as wall files name them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Joints {
+    Ground,
+    Crack,
+    Both,
+}
+
+impl Joints {
+    /// Name in wall files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Joints::Ground => "ground",
+            Joints::Crack => "crack",
+            Joints::Both => "both",
+        }
+    }
+
+    /// The joints by their numbers, from 0 at the ground.
+    pub fn indices(self) -> &'static [usize] {
+        match self {
+            Joints::Ground => &[0],
+            Joints::Crack => &[1],
+            Joints::Both => &[0, 1],
+        }
+    }
 }
 
 /// One effect.
@@ -53,6 +84,12 @@ pub enum Hidden {
     /// Factors on C_1 … C_8.
     ImpactDissipation {
         factors: [f64; 8],
+    },
+    /// A bed of springs in place of sharp edges.
+    CompliantJoint {
+        joints: Joints,
+        stiffness_pa_per_m: f64,
+        damping_s: f64,
     },
     JointDamping {
         joint: Joint,
@@ -148,6 +185,7 @@ pub fn hidden(name: &'static str, scale: &Scale, rng: &mut ChaCha8Rng) -> Hidden
             let coefficient = 0.2 * size * wall.weight_n() * arm_m;
             Hidden::JointDamping { joint, coefficient_n_m_s_per_rad: coefficient }
         }
+        "compliant_joint" => compliant_joint(wall, rng),
         "vertical_ground_motion" => Hidden::VerticalGroundMotion { ratio: sign * 0.3 * size },
         "record_gain" => Hidden::RecordGain { gain: 1.0 + sign * 0.05 * size },
         // Whole samples, so that the wall's own record can be shifted.
@@ -158,11 +196,35 @@ pub fn hidden(name: &'static str, scale: &Scale, rng: &mut ChaCha8Rng) -> Hidden
     }
 }
 
+/// Stiffness of beds that are drawn, Pa/m, and their damping times, s.
+const BED_STIFFNESS: [f64; 2] = [5e7, 5e10];
+const BED_DAMPING_S: [f64; 2] = [2e-4, 2e-3];
+
+/// A bed that the wall stands on: drawn again where it would fall by its own weight.
+fn compliant_joint(wall: &WallNumbers, rng: &mut ChaCha8Rng) -> Hidden {
+    let joints = [Joints::Both, Joints::Both, Joints::Crack, Joints::Ground][rng.random_range(0..4)];
+    let mut even = |[low, high]: [f64; 2]| low * f64::powf(high / low, rng.random_range(0.0..1.0));
+    loop {
+        let [k, damping_s] = [even(BED_STIFFNESS), even(BED_DAMPING_S)].map(three_digits);
+        let text = wall.to_toml(&[own_wall::bed(joints, k, damping_s)]);
+        if mrbd_files::parse_wall(Path::new("wall.toml"), &text).is_ok() {
+            return Hidden::CompliantJoint { joints, stiffness_pa_per_m: k, damping_s };
+        }
+    }
+}
+
+fn three_digits(value: f64) -> f64 {
+    let unit = 10f64.powi(value.log10().floor() as i32 - 2);
+    rounded(value / unit, 1.0) * unit
+}
+
 impl Hidden {
     /// Where it acts, in the words of a diagnosis.
     pub fn place(&self) -> &'static str {
         match self {
             Hidden::CornerIndentation { joint, .. } | Hidden::JointDamping { joint, .. } => joint.name(),
+            Hidden::CompliantJoint { joints: Joints::Both, .. } => "joint",
+            Hidden::CompliantJoint { joints, .. } => joints.name(),
             Hidden::ImpactDissipation { .. } => "impacts",
             Hidden::VerticalGroundMotion { .. } | Hidden::RecordGain { .. } | Hidden::RecordLag { .. } => {
                 "ground motion"
@@ -194,6 +256,9 @@ impl Hidden {
             Hidden::JointDamping { coefficient_n_m_s_per_rad: c, .. } => {
                 ("joint_damping", Some(("coefficient_n_m_s_per_rad", c)))
             }
+            Hidden::CompliantJoint { stiffness_pa_per_m: k, .. } => {
+                ("compliant_joint", Some(("stiffness_pa_per_m", k)))
+            }
             Hidden::VerticalGroundMotion { ratio } => ("vertical_ground_motion", Some(("ratio", ratio))),
             Hidden::RecordGain { gain } => ("record_gain", Some(("gain", gain))),
             Hidden::RecordLag { lag_s } => ("record_lag", Some(("lag_s", lag_s))),
@@ -213,6 +278,7 @@ impl Hidden {
             Hidden::CornerIndentation { joint, .. } | Hidden::JointDamping { joint, .. } => {
                 Some(joint.name())
             }
+            Hidden::CompliantJoint { joints, .. } => Some(joints.name()),
             Hidden::OneSidedSpring { side, .. } => Some(side_name(side)),
             _ => None,
         }

@@ -6,12 +6,14 @@
 //! | --- | --- |
 //! | [`kind`] | what may be hidden, and how often |
 //! | [`draw`] | a number becomes a case: kind, simulator, wall, noise, prior, size, tests |
+//! | [`beds`] | the same of walls whose joints give |
 //! | [`walls`] | the walls of the cases |
 //! | [`hidden`] | the effects with their sizes |
 //! | [`compliant_wall`], [`own_wall`] | the true wall for each simulator |
 //! | [`tests`] | ground motions, scaled so that the wall rocks and stands; what is measured |
 //! | [`folder`] | the experiment as files |
 
+pub mod beds;
 pub mod compliant_wall;
 pub mod draw;
 pub mod folder;

@@ -3,7 +3,7 @@
 use toml::Table;
 
 use super::draw::Case;
-use super::hidden::{Hidden, side_name};
+use super::hidden::{Hidden, Joints, side_name};
 
 /// The wall file.
 pub fn true_wall(case: &Case) -> String {
@@ -36,6 +36,9 @@ pub fn true_wall(case: &Case) -> String {
                 damping.insert("joint".into(), joint.name().into());
                 effects.push(damping);
             }
+            Hidden::CompliantJoint { joints, stiffness_pa_per_m: k, damping_s } => {
+                effects.push(bed(joints, k, damping_s));
+            }
             // Both corners move inwards: the joint is narrower.
             Hidden::CornerIndentation { joint, depth_m } => {
                 numbers.widths_m[joint as usize] -= depth_m;
@@ -54,6 +57,14 @@ pub fn true_wall(case: &Case) -> String {
         }
     }
     numbers.to_toml(&effects)
+}
+
+/// A bed as wall files have it.
+pub fn bed(joints: Joints, stiffness_pa_per_m: f64, damping_s: f64) -> Table {
+    let numbers = [("stiffness_pa_per_m", stiffness_pa_per_m), ("damping_s", damping_s)];
+    let mut bed = table("compliant_joint", &numbers);
+    bed.insert("joint".into(), joints.name().into());
+    bed
 }
 
 fn table(kind: &str, numbers: &[(&str, f64)]) -> Table {

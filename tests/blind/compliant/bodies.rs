@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::corner::{Corner, Relative};
-use super::wall::{CORNERS, CompliantWall, JOINTS};
+use super::wall::{CompliantWall, JOINTS};
 use super::{Coordinates, G_M_S2};
 
 /// A wall with its corners, ready to move.
@@ -63,8 +63,16 @@ impl Bodies {
     pub fn new(wall: CompliantWall) -> (Self, Coordinates) {
         // At a corner the other end of a slender body hardly moves with it: about a quarter of its mass does.
         let moved_kg = 0.25 * wall.mass_kg[0].min(wall.mass_kg[1]);
-        let corners = Corner::of_wall(wall.weight_above_n(0), moved_kg);
-        let depth = |joint: usize| 0.5 * wall.weight_above_n(joint) / corners[joint].stiffness_n_per_m;
+        let mut corners = Corner::of_wall(wall.weight_above_n(0), moved_kg);
+        for joint in JOINTS {
+            if let Some(bed) = wall.beds[joint] {
+                corners[joint] = Corner::of_bed(bed, wall.weight_above_n(joint), wall.width_m(joint));
+            }
+        }
+        let depth = |joint: usize| {
+            let springs = wall.contacts_m(joint).len() as f64;
+            wall.weight_above_n(joint) / (springs * corners[joint].stiffness_n_per_m)
+        };
         let mut rest = Coordinates::zeros();
         rest[1] = -depth(0);
         rest[4] = -depth(0) - depth(1);
@@ -83,7 +91,11 @@ impl Bodies {
 
     /// The two faces of a corner: the one above, and the one below where a body is below.
     fn faces(&self, joint: usize, side: usize, pose: &Pose) -> (Point, Option<Point>) {
-        let x = self.wall.corner_x_m[joint][side];
+        self.faces_at(joint, self.wall.corner_x_m[joint][side], pose)
+    }
+
+    /// The same at a distance from the wall's axis, m.
+    fn faces_at(&self, joint: usize, x: f64, pose: &Pose) -> (Point, Option<Point>) {
         let above = pose.point(joint, [x, -0.5 * self.wall.height_m[joint]]);
         let below = (joint == 1).then(|| pose.point(0, [x, 0.5 * self.wall.height_m[0]]));
         (above, below)
@@ -99,8 +111,8 @@ impl Bodies {
     fn corner_forces(&self, pose: &Pose, total: &mut Coordinates) {
         for joint in JOINTS {
             let axes = pose.axes(joint);
-            for side in CORNERS {
-                let (above, below) = self.faces(joint, side, pose);
+            for x in self.wall.contacts_m(joint) {
+                let (above, below) = self.faces_at(joint, x, pose);
                 let relative = between_faces(axes, &above, below.as_ref());
                 if relative.gap_m >= 0.0 {
                     continue;

@@ -1,5 +1,7 @@
 //! One corner under pressure: a spring and a damper that push and do not pull, and a spring and a damper against sliding.
 
+use super::wall::{Bed, SPRINGS};
+
 /// What all corners are made of.
 #[derive(Debug, Clone, Copy)]
 pub struct Corner {
@@ -51,6 +53,16 @@ impl Corner {
                 ramp_m: 0.1 * 0.5 * weight_n / stiffness_n_per_m,
             }
         })
+    }
+
+    /// One of the springs of a bed, which carries its share of a weight, N, at rest over a width, m.
+    ///
+    /// As stiff along the joint as across it.
+    pub fn of_bed(bed: Bed, weight_n: f64, width_m: f64) -> Self {
+        let stiffness_n_per_m = bed.stiffness_n_per_m2 * width_m / SPRINGS as f64;
+        let depth_m = weight_n / (bed.stiffness_n_per_m2 * width_m);
+        let damping_n_s_per_m = bed.damping_s * stiffness_n_per_m;
+        Self { stiffness_n_per_m, damping_n_s_per_m, ramp_m: 0.01 * depth_m }
     }
 
     /// Time in which the corners take up an impact, s: that of the damper against the mass, c / k at the longest.

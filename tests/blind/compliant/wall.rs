@@ -6,6 +6,9 @@ use super::top::TopLaw;
 /// Left and right corner of a joint.
 pub const CORNERS: [usize; 2] = [0, 1];
 
+/// Springs of a bed: moments of the row and of a continuous bed differ by their inverse squared, 6e-4.
+pub const SPRINGS: usize = 40;
+
 /// Ground and crack; also the lower and the upper body.
 pub const JOINTS: [usize; 2] = [0, 1];
 
@@ -30,12 +33,23 @@ pub struct CompliantWall {
     pub top: Vec<TopLaw>,
     /// Rotational dampers at the joints, N m s/rad.
     pub joint_damping_n_m_s: [f64; 2],
+    /// Beds of springs in the place of corners.
+    pub beds: [Option<Bed>; 2],
     /// Laws of the moments across the joints.
     pub joint_laws: [Vec<Atom>; 2],
     /// C_1 … C_8, applied by the law `contact`.
     pub coefficients: [f64; 8],
     /// A mass that lies loose on the top.
     pub loose: Option<LooseMass>,
+}
+
+/// A bed of springs without tension, with dampers beside them.
+#[derive(Debug, Clone, Copy)]
+pub struct Bed {
+    /// Stiffness of a length of the joint, k L, N/m per m.
+    pub stiffness_n_per_m2: f64,
+    /// Damping time ζ, s.
+    pub damping_s: f64,
 }
 
 /// A mass that slides freely between two stops on the top of the wall and rattles.
@@ -74,5 +88,22 @@ impl CompliantWall {
     pub fn weight_above_n(&self, joint: usize) -> f64 {
         let bodies: f64 = self.mass_kg[joint..].iter().sum();
         (bodies + self.top_mass_kg) * super::G_M_S2
+    }
+
+    /// Width between the corners of a joint, m.
+    pub fn width_m(&self, joint: usize) -> f64 {
+        self.corner_x_m[joint][1] - self.corner_x_m[joint][0]
+    }
+
+    /// Where springs of a joint act, m from the wall's axis: its two corners, or all along its bed.
+    pub fn contacts_m(&self, joint: usize) -> Vec<f64> {
+        let [left, right] = self.corner_x_m[joint];
+        let count = if self.beds[joint].is_some() { SPRINGS } else { 2 };
+        // Corners lie at the ends, springs in the middle of their share of the width.
+        let [first, apart] = match self.beds[joint] {
+            Some(_) => [0.5 / count as f64, 1.0 / count as f64],
+            None => [0.0, 1.0],
+        };
+        (0..count).map(move |i| left + (first + apart * i as f64) * (right - left)).collect()
     }
 }

@@ -4,12 +4,12 @@
 //! uncertain of the wall, and the states at the starts of the windows may imitate a share of a trace. The tests cannot
 //! tell that share.
 
-use super::fit::{Fit, Loss, WindowSlopes};
+use super::fit::{Fit, Loss, Problem, WindowSlopes};
 use super::hypothesis::Addition;
 pub use super::next_tests::{NextPull, NextShaking, NextTests, next_tests};
-use super::trials::{Data, FittedHypothesis};
-use crate::limits::{DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
-use mrbd_kernel::model::Wall;
+use super::trials::{Data, FittedHypothesis, own_error, widened};
+use crate::limits::{BED_MODEL_SD, DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
+use mrbd_kernel::model::{Role, Wall};
 use mrbd_statistics::normal::NINETY_PERCENT;
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
@@ -30,6 +30,29 @@ pub fn intervals(data: &Data, tried: &FittedHypothesis) -> Vec<[f64; 2]> {
         [(value - half).max(unknown.lower), (value + half).min(unknown.upper)]
     };
     tried.fit.values.iter().enumerate().map(interval).collect()
+}
+
+/// The same for a model that does not follow to the noise, with what it leaves in the noise's place.
+pub fn intervals_beside_own_error(data: &Data, tried: &FittedHypothesis) -> Vec<[f64; 2]> {
+    let error = own_error(tried);
+    let tests = widened(data.fit.tests, error);
+    let mut wider = tried.clone();
+    wider.fit.windows.iter_mut().for_each(|window| window.squares /= error * error);
+    let found = intervals(&Data { fit: Problem { tests: &tests, ..data.fit }, ..*data }, &wider);
+    let h = &tried.hypothesis;
+    let all = found.into_iter().zip(&tried.fit.values).enumerate();
+    all.map(
+        |(i, (interval, value))| if i < h.nuisances { interval } else { wider_by_model(interval, *value) },
+    )
+    .collect()
+}
+
+/// An interval about a number of a bed with what another way to model it would move that number by.
+///
+/// A softness is 1/√k: its relative deviation is half that of k.
+fn wider_by_model([low, high]: [f64; 2], value: f64) -> [f64; 2] {
+    let own = NINETY_PERCENT * 0.5 * BED_MODEL_SD * value.abs();
+    [value - (value - low).hypot(own), value + (high - value).hypot(own)]
 }
 
 /// Covariance of the values of a fitted hypothesis; see [`intervals`]. `None` where the curvature cannot be told; variances
@@ -171,7 +194,9 @@ struct Trace<'t> {
 /// that leave no trace when they are small are not listed, such as a spring that yields at once.
 pub fn confused(data: &Data, recalibrated: &FittedHypothesis, tried: &[FittedHypothesis]) -> Vec<Confused> {
     let singles = tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
-    let real = singles.filter(|t| t.hypothesis.additions[0] != Addition::Placebo).collect::<Vec<_>>();
+    // A bed that hardly gives is a stiff one: what it does near nothing takes long to simulate and tells little.
+    let left_out = |a: &Addition| *a == Addition::Placebo || a.role() == Some(Role::Bed);
+    let real = singles.filter(|t| !left_out(&t.hypothesis.additions[0])).collect::<Vec<_>>();
     let traces = real.par_iter().filter_map(|t| trace(data, recalibrated, t)).collect::<Vec<_>>();
     let one = |t: &&Trace| t.tried.hypothesis.unknowns.len() == t.tried.hypothesis.nuisances + 1;
     let effects = traces.iter().filter(|t| t.tried.hypothesis.additions[0].kind().is_some()).filter(one);

@@ -37,10 +37,10 @@ use answer::Findings;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use trials::{
-    Data, FirstFits, Trials, gain_misread, opened_as_given, opened_windows, reads_better, set_gain,
+    Data, FirstFits, Trials, WallFits, gain_misread, opened_as_given, opened_windows, reads_better, set_gain,
 };
 pub use verdict::Verdict;
-use verdict::judge;
+use verdict::{Found, judge, on_beds};
 
 /// Diagnoses an experiment: the verdict, everything it rests on, and the updated wall.
 ///
@@ -57,24 +57,7 @@ pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Dia
 /// As [`diagnose`].
 pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Result<Findings<'e>> {
     let mut flow = Flow { experiment, progress, tests: experiment.tests.clone() };
-    let (mut windows, mut first_fits) = flow.try_first_fits()?;
-    for _ in 0..READ_AGAIN {
-        let Some(gain) = first_fits.singles.first().and_then(|best| gain_misread(&flow.tests, best)) else {
-            break;
-        };
-        let before = set_gain(&mut flow.tests, gain);
-        let (new_windows, new) = flow.try_first_fits()?;
-        if !reads_better(&first_fits.singles, &new.singles) {
-            set_gain(&mut flow.tests, before);
-            break;
-        }
-        (windows, first_fits) = (new_windows, new);
-    }
-    if let Some(new_windows) = opened_windows(&Data::new(&flow.tests, &windows), &first_fits) {
-        first_fits = flow.first_fits_in(&new_windows, Some(&first_fits.recalibrated.fit.values))?;
-        windows = new_windows;
-    }
-    let found = judge(&flow.trials(&windows), first_fits);
+    let (windows, found) = flow.answered()?;
     let own = flow.trials(&windows).own_hypotheses(&found.before);
     Ok(Findings { experiment, tests: flow.tests, windows, found, own })
 }
@@ -87,18 +70,58 @@ struct Flow<'e, P> {
 }
 
 impl<P: Progress> Flow<'_, P> {
-    /// Windows of the tests, and what effects do to them one by one.
-    fn try_first_fits(&self) -> Result<([Vec<Window>; 2], FirstFits)> {
+    /// The windows and the answer in them; a sensor's gain that shows is kept with the tests.
+    fn answered(&mut self) -> Result<([Vec<Window>; 2], Found)> {
+        let (mut windows, wall) = self.wall()?;
+        if let Some(found) = on_beds(&self.trials(&windows), &wall) {
+            return Ok((windows, found));
+        }
+        let mut first_fits = self.trials(&windows).first_fits(wall);
+        for _ in 0..READ_AGAIN {
+            let Some(gain) = first_fits.singles.first().and_then(|best| gain_misread(&self.tests, best))
+            else {
+                break;
+            };
+            let before = set_gain(&mut self.tests, gain);
+            let (new_windows, new) = self.try_first_fits()?;
+            if !reads_better(&first_fits.singles, &new.singles) {
+                set_gain(&mut self.tests, before);
+                break;
+            }
+            (windows, first_fits) = (new_windows, new);
+        }
+        if let Some(new_windows) = opened_windows(&Data::new(&self.tests, &windows), &first_fits) {
+            first_fits = self.first_fits_in(&new_windows, Some(&first_fits.recalibrated.fit.values))?;
+            windows = new_windows;
+        }
+        let found = judge(&self.trials(&windows), first_fits);
+        Ok((windows, found))
+    }
+
+    /// Windows of the tests, and the wall without effects in them.
+    fn wall(&self) -> Result<([Vec<Window>; 2], WallFits)> {
         let (fit, held_out) = windows(&self.tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
         let windows: [Vec<Window>; 2] = [fit, held_out];
         let opened = opened_as_given(self.experiment, &Data::new(&self.tests, &windows));
         let windows = opened.unwrap_or(windows);
-        let first_fits = self.first_fits_in(&windows, None)?;
+        let wall = self.wall_in(&windows, None)?;
+        Ok((windows, wall))
+    }
+
+    /// Windows of the tests, and what effects do to them one by one.
+    fn try_first_fits(&self) -> Result<([Vec<Window>; 2], FirstFits)> {
+        let (windows, wall) = self.wall()?;
+        let first_fits = self.trials(&windows).first_fits(wall);
         Ok((windows, first_fits))
     }
 
     /// What effects do to windows one by one, where values of the wall's uncertain numbers may be known from other windows.
     fn first_fits_in(&self, windows: &[Vec<Window>; 2], known: Option<&[f64]>) -> Result<FirstFits> {
+        let wall = self.wall_in(windows, known)?;
+        Ok(self.trials(windows).first_fits(wall))
+    }
+
+    fn wall_in(&self, windows: &[Vec<Window>; 2], known: Option<&[f64]>) -> Result<WallFits> {
         let no_window = || {
             let allowed = "some stretches of a tenth of a second at rest or in one pattern, without gaps";
             let found = "no window that starts in a pattern beyond doubt";
@@ -107,7 +130,7 @@ impl<P: Progress> Flow<'_, P> {
         if !self.tests.iter().any(|test| test.purpose == Purpose::Fit && is_readable(test)) {
             return Err(no_window().into());
         }
-        Ok(self.trials(windows).first_fits(known).ok_or_else(no_window)?)
+        Ok(self.trials(windows).wall_fits(known).ok_or_else(no_window)?)
     }
 
     /// Where hypotheses are tried.

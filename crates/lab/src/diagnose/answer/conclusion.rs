@@ -12,14 +12,14 @@ use super::summary::{
     Against, BeforeAfter, CouldHide, FitHeldOut, FittedNumber, FoundEffect, KIND, Rival, Stages, Summary,
     TestErrors, WallFit, WindowCounts,
 };
-use crate::diagnose::certainty::{confused, ensemble, intervals, next_tests};
+use crate::diagnose::certainty::{confused, ensemble, intervals, intervals_beside_own_error, next_tests};
 use crate::diagnose::fit::{WindowFit, windowed_error};
-use crate::diagnose::hypothesis::{Addition, Hypothesis, Physics};
+use crate::diagnose::hypothesis::{Addition, Physics};
 use crate::diagnose::trials::{FRICTION, FittedHypothesis, against, giving_friction, joint_error, kinds};
 use crate::diagnose::verdict::{Verdict, names, power};
 use crate::experiment::TestData;
 use crate::experiment::{Purpose, Test};
-use mrbd_kernel::model::Wall;
+use mrbd_kernel::model::{Role, Wall};
 use mrbd_kernel::simulate::Accuracy;
 use rayon::prelude::*;
 
@@ -46,6 +46,7 @@ impl Findings<'_> {
             equivalent: found.equivalent.clone(),
             wall: wall_fits(&found.after),
             tests: self.test_errors(physics),
+            remainder: found.remainder.clone(),
             other_law: found.other_law.clone(),
             windowed_error: staged(stages.map(joint_error).map(finite)),
             against: staged(stages.map(|tried| against(&data, tried))),
@@ -93,7 +94,10 @@ impl Findings<'_> {
     /// The effects of an answer with their numbers and 90 % intervals.
     fn named_effects(&self) -> Vec<FoundEffect> {
         let after = &self.found.after;
-        let intervals = intervals(&self.data(), after);
+        let intervals = match self.found.remainder {
+            Some(_) => intervals_beside_own_error(&self.data(), after),
+            None => intervals(&self.data(), after),
+        };
         (0..after.hypothesis.additions.len()).map(|index| found_effect(after, &intervals, index)).collect()
     }
 
@@ -101,7 +105,10 @@ impl Findings<'_> {
     /// matter.
     fn could_hide(&self) -> Vec<CouldHide> {
         let data = self.data();
-        let singles = self.found.tried.iter().filter(|t| t.hypothesis.additions.len() == 1);
+        // A bed does nothing where it is stiff: what could hide is no size above nothing.
+        let shown = |a: &Addition| a.role() != Some(Role::Bed);
+        let singles =
+            self.found.tried.iter().filter(|t| matches!(&t.hypothesis.additions[..], [one] if shown(one)));
         let row = |tried: &FittedHypothesis| {
             let power = power(&data, &self.found.recalibrated, tried)?;
             let h = &tried.hypothesis;
@@ -134,12 +141,12 @@ impl Findings<'_> {
         let h = &tried.hypothesis;
         let row = |i: usize| RivalRow {
             rank,
-            name: name_of(h),
+            name: h.name(),
             place: h.additions.first().map_or("none", |a| a.place()),
             is_answer: kinds(tried).is_some(),
             parameter: h.unknowns[i].key.clone(),
             unit: h.unknowns[i].unit,
-            value: tried.fit.values[i],
+            value: h.unknowns[i].number(tried.fit.values[i]),
             sd: sd(tried, i),
             error: tried.errors(),
             against: against(&data, tried),
@@ -153,8 +160,14 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
     let (h, values) = (&after.hypothesis, &after.fit.values);
     let addition = &h.additions[index];
     let numbers = |keys: &[(String, usize)]| {
-        let parameters = keys.iter().map(|(key, i)| (key.clone(), values[*i])).collect();
-        (parameters, keys.iter().map(|(key, i)| (key.clone(), intervals[*i])).collect())
+        let parameters =
+            keys.iter().map(|(key, i)| (key.clone(), h.unknowns[*i].measure.number(values[*i]))).collect();
+        (
+            parameters,
+            keys.iter()
+                .map(|(key, i)| (key.clone(), h.unknowns[*i].measure.interval(intervals[*i])))
+                .collect(),
+        )
     };
     if let Some(friction) = giving_friction(h, values, index) {
         let (parameters, interval) = numbers(&[("force_n".to_owned(), friction.force)]);
@@ -206,14 +219,11 @@ fn staged<T>([before, recalibrated, after]: [T; 3]) -> Stages<T> {
     Stages { before, recalibrated, after }
 }
 
-/// What is added to the wall.
-pub(super) fn name_of(h: &Hypothesis) -> String {
-    h.additions.iter().map(|a| a.name()).collect::<Vec<_>>().join(" + ")
-}
-
 /// Standard deviation of a fitted number; `None` where it leaves no trace.
 pub(super) fn sd(tried: &FittedHypothesis, i: usize) -> Option<f64> {
-    finite(tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt()))
+    let measure = tried.hypothesis.unknowns[i].measure;
+    let sd = tried.fit.covariance.as_ref().map(|c| c[(i, i)].max(0.0).sqrt());
+    finite(sd.map(|sd| measure.sd(tried.fit.values[i], sd)))
 }
 
 /// A number that files can hold.
@@ -254,7 +264,7 @@ impl Findings<'_> {
         let number = |i: usize| FittedNumber {
             key: h.unknowns[i].key.clone(),
             unit: h.unknowns[i].unit.to_owned(),
-            value: tried.fit.values[i],
+            value: h.unknowns[i].number(tried.fit.values[i]),
             sd: sd(tried, i),
         };
         let data = self.data();
@@ -262,7 +272,7 @@ impl Findings<'_> {
         let wme = self.ensemble_wme(tried);
         let fitted = |all: &Vec<Option<f64>>| all.first().copied().flatten();
         Rival {
-            name: name_of(h),
+            name: h.name(),
             kinds: names(tried),
             place: h.additions.first().map(|a| a.place().to_owned()),
             parameters: (h.nuisances..h.unknowns.len()).map(number).collect(),

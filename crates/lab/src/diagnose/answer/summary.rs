@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::diagnose::certainty::{Confused, NextTests};
 use crate::diagnose::discovery::Stability;
-use crate::diagnose::verdict::{OtherLaw, Verdict};
+use crate::diagnose::verdict::{OtherLaw, Remainder, Verdict};
 use crate::experiment::Purpose;
 use mrbd_kernel::model::Pair;
 
@@ -42,6 +42,9 @@ pub struct Summary {
     pub wall: Vec<WallFit>,
     /// Errors and noise of every test.
     pub tests: Vec<TestErrors>,
+    /// What a named effect takes away and leaves, where it leaves more than noise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remainder: Option<Remainder>,
     /// What speaks for another law than the best of the catalogue, where that closes the gap.
     pub other_law: Option<OtherLaw>,
     /// Windowed error over all tests, in standard deviations of the noise.

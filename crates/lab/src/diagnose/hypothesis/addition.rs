@@ -1,6 +1,6 @@
 //! What may be added to a wall, and all the additions that are tried.
 
-use super::unknown::{Slot, wall_number};
+use super::unknown::{Measure, Slot, wall_number};
 use super::{Scales, Unknown, WallNumber};
 use crate::diagnose::formula::{Law, LawSlot, Meaning};
 use crate::limits::{FACTOR_SD, MOST_OF_LAW, STRONGEST_DAMPER};
@@ -73,6 +73,7 @@ impl Addition {
     pub(super) fn unknowns(&self, base: &WallParameters, scales: &Scales, index: usize) -> Vec<Unknown> {
         let alone = |key: &str, quantity: Quantity, start, lower, upper| {
             vec![Unknown {
+                measure: Measure::Itself,
                 key: key.into(),
                 unit: quantity.unit(),
                 start,
@@ -122,13 +123,20 @@ fn effect_unknowns(variant: EffectVariant, scales: &Scales, index: usize) -> Vec
     let unknown = |(i, parameter): (usize, &EffectParameter)| {
         let scale = scales.size(parameter.quantity);
         let damper = variant.entry().role == Role::Damper;
+        let most = if damper { parameter.most.min(STRONGEST_DAMPER * scale) } else { parameter.most };
+        let measure = match parameter.quantity {
+            Quantity::BedStiffness => Measure::Softness,
+            _ => Measure::Itself,
+        };
+        let [lower, upper] = [parameter.least, most].map(|number| measure.value_of(number));
         Unknown {
             key: parameter.key.into(),
             unit: parameter.unit(),
-            start: parameter.neutral,
-            scale,
-            lower: parameter.least,
-            upper: if damper { parameter.most.min(STRONGEST_DAMPER * scale) } else { parameter.most },
+            start: measure.value_of(parameter.neutral),
+            scale: measure.value_of(scale),
+            lower: lower.min(upper),
+            upper: lower.max(upper),
+            measure,
             prior_sd: (parameter.quantity == Quantity::ImpactFactor).then_some(FACTOR_SD),
             slot: Slot::Added(index, i),
         }
@@ -149,6 +157,7 @@ fn law_unknowns(law: &Law, index: usize) -> Vec<Unknown> {
                 lower,
                 upper,
                 prior_sd: None,
+                measure: Measure::Itself,
                 slot: Slot::Added(index, i),
             };
         match slot {
@@ -186,7 +195,7 @@ const RIVAL_NUMBERS: [&str; 5] = [
 /// Every addition to a wall that is tried alone: the catalogue, the lumped carriage, numbers outside what was known of
 /// them, and a placebo.
 pub fn candidates(wall: &WallParameters) -> Vec<Addition> {
-    // Beds are looked for by softness, not by a number that is neutral where it is largest.
+    // Beds are tried apart: walls on them take long to simulate.
     let sought = EffectKind::ALL.iter().filter(|kind| kind.entry().role != Role::Bed);
     let mut all = sought.flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();
     if wall.diaphragm_mass_kg > 0.0 {
@@ -197,4 +206,10 @@ pub fn candidates(wall: &WallParameters) -> Vec<Addition> {
     all.extend(RIVAL_NUMBERS.iter().filter_map(|key| wall_number(key)).filter(present).map(Addition::Number));
     all.push(Addition::Placebo);
     all
+}
+
+/// Joints that give: at the ground, at the crack, and both alike.
+pub fn beds() -> Vec<Addition> {
+    let beds = EffectKind::ALL.iter().filter(|kind| kind.entry().role == Role::Bed);
+    beds.flat_map(|kind| kind.variants()).map(Addition::Effect).collect()
 }

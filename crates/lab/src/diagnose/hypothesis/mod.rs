@@ -5,11 +5,11 @@ mod addition;
 pub mod example;
 mod unknown;
 
-pub use addition::candidates;
 pub use addition::{ACTING, Addition};
+pub use addition::{beds, candidates};
 pub use unknown::Nuisance;
 pub use unknown::Scales;
-pub use unknown::Unknown;
+pub use unknown::{Measure, Unknown};
 pub use unknown::{WALL_NUMBERS, WallNumber, wall_number};
 
 use std::fmt::Debug;
@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::diagnose::formula::{Curve, Law, LawSlot};
 use mrbd_formula::Formula;
-use mrbd_kernel::model::{Effect, EffectKind, EffectVariant, Role, Wall, WallParameters};
+use mrbd_kernel::model::{Effect, EffectKind, EffectParameter, EffectVariant, Role, Wall, WallParameters};
 use unknown::Slot;
 
 /// The wall under a hypothesis, and the share of the reversed record that a placebo shakes it with upwards.
@@ -54,6 +54,11 @@ pub struct Hypothesis {
 }
 
 impl Hypothesis {
+    /// What is added to the wall; empty where nothing is.
+    pub fn name(&self) -> String {
+        self.additions.iter().map(Addition::name).collect::<Vec<_>>().join(" + ")
+    }
+
     /// The wall with these uncertainties and additions.
     pub fn new(
         base: &WallParameters,
@@ -240,6 +245,12 @@ impl Hypothesis {
 
     fn parameters(&self, variant: EffectVariant, index: usize, values: &[f64]) -> Vec<f64> {
         let parameters = variant.entry().parameters.iter().enumerate();
-        parameters.map(|(i, p)| self.added(index, i, values).unwrap_or(p.neutral)).collect()
+        let number = |(i, p): (usize, &EffectParameter)| {
+            let slot = Slot::Added(index, i);
+            let found = self.unknowns.iter().zip(values).find(|(u, _)| u.slot == slot);
+            // A number at its bound is within roundings of it.
+            found.map_or(p.neutral, |(u, value)| u.measure.number(*value).clamp(p.least, p.most))
+        };
+        parameters.map(number).collect()
     }
 }

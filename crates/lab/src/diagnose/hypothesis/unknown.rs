@@ -37,8 +37,53 @@ pub struct Unknown {
     pub upper: f64,
     /// Standard deviation known beforehand, about the start.
     pub prior_sd: Option<f64>,
+    /// What its value means.
+    pub measure: Measure,
     /// Where its value goes.
     pub(super) slot: Slot,
+}
+
+/// What the value of an unknown means.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Measure {
+    /// The number itself.
+    Itself,
+    /// 1/sqrt(k) of a stiffness k: the width of contact on a bed goes with it, and a sharp edge is zero.
+    Softness,
+}
+
+impl Measure {
+    /// The value of a number of the wall file.
+    pub fn value_of(self, number: f64) -> f64 {
+        match self {
+            Measure::Itself => number,
+            Measure::Softness => number.sqrt().recip(),
+        }
+    }
+
+    /// The number of the wall file that a value means.
+    pub fn number(self, value: f64) -> f64 {
+        match self {
+            Measure::Itself => value,
+            Measure::Softness => (value * value).recip(),
+        }
+    }
+
+    /// The standard deviation of the number by that of the value.
+    pub fn sd(self, value: f64, sd: f64) -> f64 {
+        match self {
+            Measure::Itself => sd,
+            Measure::Softness => 2.0 * sd * self.number(value) / value,
+        }
+    }
+
+    /// The interval of the number by that of the value, its lower end first.
+    pub fn interval(self, [low, high]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Measure::Itself => [low, high],
+            Measure::Softness => [self.number(high), self.number(low)],
+        }
+    }
 }
 
 /// A parameter of a formula of the user's own reaches from this share of what is written to this multiple.
@@ -54,6 +99,7 @@ impl Unknown {
             unit: "",
             start: parameter.value,
             scale: parameter.value.abs(),
+            measure: Measure::Itself,
             lower: ends[0].min(ends[1]),
             upper: ends[0].max(ends[1]),
             prior_sd: None,
@@ -71,7 +117,17 @@ impl Unknown {
     ) -> Self {
         let scale = if start == 0.0 { upper - lower } else { start.abs() };
         let slot = Slot::Sought(index);
-        Self { key: key.into(), unit: "", start, scale, lower, upper, prior_sd, slot }
+        Self {
+            key: key.into(),
+            unit: "",
+            start,
+            scale,
+            lower,
+            upper,
+            prior_sd,
+            measure: Measure::Itself,
+            slot,
+        }
     }
 
     /// Whether it is a number of the addition with this index.
@@ -82,6 +138,16 @@ impl Unknown {
     /// The value nearest to this one between its bounds.
     pub fn within(&self, value: f64) -> f64 {
         value.clamp(self.lower, self.upper)
+    }
+
+    /// Whether it is the softness of a bed.
+    pub fn is_softness(&self) -> bool {
+        self.measure == Measure::Softness
+    }
+
+    /// The number of the wall file that a value means.
+    pub fn number(&self, value: f64) -> f64 {
+        self.measure.number(value)
     }
 
     /// A value with a share of its distance from the start.
@@ -134,6 +200,7 @@ impl Nuisance {
         // A prior as wide as the value itself does not reach what no wall has.
         let lower = if value > 0.0 { (value - reach).max(0.02 * value) } else { value - reach };
         Unknown {
+            measure: Measure::Itself,
             key: self.key(),
             unit,
             start: value,

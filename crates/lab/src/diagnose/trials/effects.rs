@@ -7,7 +7,7 @@
 //! answer, and its intervals mean something.
 
 use super::imitation::seconds;
-use super::search::{promise, refit, shared_states, try_hypothesis, try_second};
+use super::search::{promise, refit, shared_states, try_coarsely, try_hypothesis, try_second};
 use super::{FittedHypothesis, Trials, against, kinds, untouched};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
@@ -17,6 +17,14 @@ use crate::limits::{
 };
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;
+
+/// The wall without effects.
+pub struct WallFits {
+    /// As it was given.
+    pub before: FittedHypothesis,
+    /// Its uncertain numbers fitted.
+    pub recalibrated: FittedHypothesis,
+}
 
 /// The wall as given, its numbers fitted, and single effects, best first; none of these where too little moves.
 pub struct FirstFits {
@@ -29,27 +37,47 @@ pub struct FirstFits {
 }
 
 impl<P: Progress> Trials<'_, P> {
-    /// Everything that is tried alone; `None` if there is no window to start in. The wall's uncertain numbers are fitted from
-    /// values `known` from elsewhere too.
-    pub fn first_fits(&self, known: Option<&[f64]>) -> Option<FirstFits> {
+    /// The wall without effects; `None` if there is no window to start in. Its uncertain numbers are fitted from values
+    /// `known` from elsewhere too, unless too little moves.
+    pub fn wall_fits(&self, known: Option<&[f64]>) -> Option<WallFits> {
         let nuisances = &self.experiment.nuisances;
         self.progress.begin("the wall as given", 2);
         let before = untouched(&self.data, self.hypothesis(&[], &[]))?;
         self.progress.advance(1);
         if self.data.fit.windows.len() < LEAST_MOVING {
-            let recalibrated = before.clone();
-            return Some(FirstFits { before, recalibrated, singles: Vec::new() });
+            return Some(WallFits { recalibrated: before.clone(), before });
         }
         let recalibrated = try_hypothesis(&self.data, self.hypothesis(nuisances, &[]), &before)?;
         let known = known.and_then(|v| refit(&self.data, self.hypothesis(nuisances, &[]), &before, v));
         let better = known.filter(|known| against(&self.data, known) < against(&self.data, &recalibrated));
         let recalibrated = better.unwrap_or(recalibrated);
         self.progress.advance(1);
+        Some(WallFits { before, recalibrated })
+    }
+
+    /// Everything that is tried alone.
+    pub fn first_fits(&self, WallFits { before, recalibrated }: WallFits) -> FirstFits {
+        if self.data.fit.windows.len() < LEAST_MOVING {
+            return FirstFits { before, recalibrated, singles: Vec::new() };
+        }
         let (recalibrated, singles) = self.singles(&before, recalibrated);
         let best = singles.iter().take(STATES_FOR_WALL).collect::<Vec<_>>();
         let [before, recalibrated] =
             [before, recalibrated].map(|tried| shared_states(&self.data, &tried, &best));
-        Some(FirstFits { before, recalibrated, singles })
+        FirstFits { before, recalibrated, singles }
+    }
+
+    /// Single effects fitted coarsely, best first: enough for what lies far above the noise.
+    pub fn coarse_singles(&self, from: &FittedHypothesis) -> Vec<FittedHypothesis> {
+        let additions = candidates(self.experiment.wall.parameters());
+        self.progress.begin("single effects on sharp edges", additions.len());
+        let one = |addition: &Addition| {
+            let h = self.hypothesis(&self.experiment.nuisances, &[*addition]);
+            let tried = try_coarsely(&self.data, h, &[from]);
+            self.progress.advance(1);
+            tried
+        };
+        self.ordered(additions.par_iter().filter_map(one).collect())
     }
 
     /// Single effects, best first, and the wall without effects, each fitted again from what the other found.

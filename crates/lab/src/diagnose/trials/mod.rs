@@ -5,11 +5,13 @@
 //! | `search` | one hypothesis: where its fit may start, the fit, and whether it is worth fitting to the end |
 //! | `fitted_hypothesis` | what came of it: whether it follows the tests within noise, closes a gap, does something |
 //! | `effects` | the wall as given, its own numbers, effects one by one and in pairs, an answer fitted again |
+//! | `beds` | joints that give |
 //! | `imitation` | hypotheses that could imitate the best |
 //! | `own` | laws of the user's own |
 //! | `friction` | friction that gives a little first |
 //! | `patterns` | patterns read again, without a sensor's gain and with joints open by less than the noise |
 
+mod beds;
 mod effects;
 mod fitted_hypothesis;
 mod friction;
@@ -18,7 +20,8 @@ mod own;
 mod patterns;
 mod search;
 
-pub use effects::FirstFits;
+pub use beds::{excess, own_error, widened};
+pub use effects::{FirstFits, WallFits};
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
     against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds,
@@ -30,12 +33,15 @@ pub use search::{refit, shared_states, untouched, with_values};
 
 use rayon::prelude::*;
 
-use crate::Progress;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
 use crate::limits::{POLISHED, WORTH_POLISH};
+use crate::{Progress, Tried};
 use search::{Coarse, worth_finishing};
 use search::{finish, try_coarsely};
+
+/// Of hypotheses fitted together, as many are told while others are tried.
+const MOST_TOLD: usize = 10;
 
 /// Where hypotheses are tried.
 pub struct Trials<'a, P> {
@@ -91,10 +97,24 @@ impl<P: Progress> Trials<'_, P> {
         self.ordered(coarse)
     }
 
-    /// In the order of what speaks against them.
+    /// In the order of what speaks against them; the best are told.
     pub fn ordered(&self, mut tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
         tried.sort_by(|a, b| against(&self.data, a).total_cmp(&against(&self.data, b)));
+        let told = tried.iter().take(MOST_TOLD).map(|tried| self.as_told(tried)).collect::<Vec<_>>();
+        self.progress.tried(&told);
         tried
+    }
+
+    /// A hypothesis as far as it is fitted.
+    fn as_told(&self, tried: &FittedHypothesis) -> Tried {
+        let h = &tried.hypothesis;
+        let added = h.unknowns.iter().zip(&tried.fit.values).skip(h.nuisances);
+        Tried {
+            name: h.name(),
+            numbers: added.map(|(u, value)| (u.key.clone(), u.number(*value), u.unit.to_owned())).collect(),
+            windowed_error: tried.errors(),
+            against: against(&self.data, tried),
+        }
     }
 
     /// The best of hypotheses with the same additions, in order.

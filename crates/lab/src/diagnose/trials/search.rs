@@ -157,6 +157,13 @@ fn judged(
     Some(FittedHypothesis { hypothesis, fit, held_out })
 }
 
+/// A fit with the tests held out beside it, whose states start from the measured ones.
+pub fn judged_from_measured(data: &Data, hypothesis: Hypothesis, fit: Fit) -> Option<FittedHypothesis> {
+    let measured = data.held_out.measured_states();
+    let held_out = data.held_out.states(&hypothesis, &fit.values, &measured, 3, false)?;
+    Some(FittedHypothesis { hypothesis, fit, held_out })
+}
+
 /// Takes the states of another fit of the same values in the windows where they are better.
 fn take_better(own: &mut Fit, other: Fit) {
     for (mine, new) in own.windows.iter_mut().zip(other.windows) {
@@ -184,7 +191,7 @@ pub fn with_values(
     judged(data, hypothesis, fit, from, true)
 }
 
-fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
+pub fn states_of(fit: &Fit) -> Vec<Vec<f64>> {
     fit.windows.iter().map(|w| w.x.clone()).collect()
 }
 

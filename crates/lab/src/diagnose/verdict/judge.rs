@@ -1,7 +1,7 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
 use super::worth_naming::{could_show, leaves_noise, place, worth_two};
-use super::{OtherLaw, Verdict};
+use super::{OtherLaw, Remainder, Verdict};
 use super::{name_of_number, names};
 use crate::Progress;
 use crate::diagnose::discovery::{Discovered, OpenGap};
@@ -39,6 +39,8 @@ pub struct Found {
     pub equivalent: Vec<String>,
     /// Where a force is missing, when no law is named.
     pub place: Option<&'static str>,
+    /// What a named effect leaves, where that is more than noise.
+    pub remainder: Option<Remainder>,
     /// What speaks for another law than the best of the catalogue, where that closes the gap.
     pub other_law: Option<OtherLaw>,
     /// Laws outside the catalogue, where they were looked for and points speak of one.
@@ -91,6 +93,7 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
             before,
             equivalent: Vec::new(),
             place: None,
+            remainder: None,
             other_law: None,
             discovered: None,
             tried: Vec::new(),
@@ -352,6 +355,7 @@ impl<P: Progress> Gap<'_, P> {
             after,
             equivalent,
             place: None,
+            remainder: None,
             other_law: None,
             discovered: None,
             tried,

@@ -4,16 +4,22 @@
 //! | --- | --- |
 //! | `judge` | nothing missing, the wall's own numbers, one effect, two, or a place |
 //! | `worth_naming` | whether tests could show an effect, whether a second one shows, and where a force is missing |
+//! | `remainder` | a name that leaves more than noise |
+//! | `on_beds` | joints that give, where windows ask for them |
 //! | `other_law` | whether a law outside the catalogue is behind a name |
 
 mod judge;
+mod on_beds;
 mod other_law;
+mod remainder;
 mod worth_naming;
 
 use super::hypothesis::{Addition, WallNumber};
 use super::trials::{FittedHypothesis, kind_of};
 pub use judge::{Found, judge};
+pub use on_beds::on_beds;
 pub use other_law::{OtherLaw, Trend};
+pub use remainder::{NextRival, Remainder};
 use serde::{Deserialize, Serialize};
 pub use worth_naming::power;
 
