@@ -174,6 +174,7 @@ impl Motion {
     }
 
     /// The same at a state.
+    #[inline(always)]
     pub fn rate_and_reactions_at(&self, theta: Pair, omega: Pair, ground: Vector) -> (MotionRate, Reactions) {
         if let Some(bedded) = &self.bedded {
             let (rate, reactions) = bedded.reactions(self, [theta, omega], None, ground);

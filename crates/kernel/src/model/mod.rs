@@ -48,7 +48,7 @@ pub(crate) use motion_row::MotionRow;
 pub use parameters::{ImpactLaw, Restitution, WallParameters};
 pub(crate) use regime::Kink;
 pub use regime::{Regime, Side};
-pub(crate) use rocking::opening;
+pub(crate) use rocking::{Carried, opening};
 pub use rocking::{RockingWall, State};
 pub(crate) use side_by_side::{ConfigurationLanes, Motions, RateLanes, ReactionLanes};
 pub use vector::Vector;

@@ -32,6 +32,15 @@ pub struct State {
     pub omega: Pair,
 }
 
+/// The motion in a contact state that carries its forces.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Carried {
+    pub rate: MotionRate,
+    pub reactions: Reactions,
+    /// As [`RockingWall::smallest_reserve`] says.
+    pub reserve: Option<f64>,
+}
+
 /// A wall ready to move.
 #[derive(Debug, Clone)]
 pub struct RockingWall {
@@ -270,16 +279,30 @@ impl RockingWall {
     }
 
     /// [`RockingWall::next_contact`] with the motion in that state, where it is known.
+    ///
+    /// Part of what calls it, so that what it gives is not copied on the way.
+    #[inline(always)]
     pub(crate) fn next_contact_and_motion(
         &self,
         contact: Contact,
         state: &State,
         ground: Vector,
-    ) -> Result<(Contact, Option<(MotionRate, Reactions)>), MechanicsError> {
+    ) -> Result<(Contact, Option<Carried>), MechanicsError> {
         // The one state in which no further joint opens.
-        if let Some(carried) = self.admissible_motion(contact, contact, state, ground) {
-            return Ok((contact, Some(carried)));
+        match self.admissible_motion(contact, contact, state, ground) {
+            Some(carried) => Ok((contact, Some(carried))),
+            None => self.opened_contact_and_motion(contact, state, ground),
         }
+    }
+
+    /// The same where a joint opens.
+    #[inline(never)]
+    fn opened_contact_and_motion(
+        &self,
+        contact: Contact,
+        state: &State,
+        ground: Vector,
+    ) -> Result<(Contact, Option<Carried>), MechanicsError> {
         for opened in 1..=2 {
             for candidate in self.states_opening(contact, opened) {
                 if let Some(carried) = self.admissible_motion(contact, candidate, state, ground) {
@@ -335,22 +358,23 @@ impl RockingWall {
     }
 
     /// The motion in a contact state that carries its forces and whose opened joints accelerate apart.
+    #[inline(always)]
     fn admissible_motion(
         &self,
         before: Contact,
         candidate: Contact,
         state: &State,
         ground: Vector,
-    ) -> Option<(MotionRate, Reactions)> {
+    ) -> Option<Carried> {
         let (rate, reactions) =
             self.motion(candidate).rate_and_reactions_at(state.theta, state.omega, ground);
         let apart = |joint: Joint| {
             let opens = before.at(joint).is_closed() && candidate.at(joint).is_open();
             !opens || candidate.at(joint).sign() * opening(joint, rate.theta_dd) > 0.0
         };
-        let carries = self.joints().all(apart)
-            && self.smallest_reserve(candidate, &reactions).is_none_or(|least| least >= 0.0);
-        carries.then_some((rate, reactions))
+        let reserve = self.smallest_reserve(candidate, &reactions);
+        let carries = self.joints().all(apart) && reserve.is_none_or(|least| least >= 0.0);
+        carries.then_some(Carried { rate, reactions, reserve })
     }
 }
 

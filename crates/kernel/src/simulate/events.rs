@@ -68,10 +68,20 @@ pub(super) fn first_event(
     if stands && motion.keep_to([contact.ground.sign(), contact.crack.sign()]) {
         return opening;
     }
-    let collapse = if stands { None } else { first_collapse(motion, collapse_rad) };
-    let collapse = collapse.map(|share| (Event::Collapse, share));
-    let strike = first_closing(contact, motion);
-    [collapse, strike, opening].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
+    let at_joints = sooner(first_closing(contact, motion), opening);
+    if stands {
+        return at_joints;
+    }
+    sooner(first_collapse(motion, collapse_rad).map(|share| (Event::Collapse, share)), at_joints)
+}
+
+/// The first of two things inside a step, and of two at one instant the one that is named first.
+#[inline(always)]
+pub(super) fn sooner<T>(a: Option<(T, f64)>, b: Option<(T, f64)>) -> Option<(T, f64)> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b.1 < a.1 { b } else { a }),
+        (a, b) => a.or(b),
+    }
 }
 
 fn first_collapse(motion: &Quintic, limit_rad: Pair) -> Option<f64> {
@@ -186,7 +196,7 @@ pub(super) fn first_kink(
         return named;
     }
     let turn = first_turn(wall, contact, start, end, h);
-    [named, turn].into_iter().flatten().reduce(|a, b| if b.1 < a.1 { b } else { a })
+    sooner(named, turn)
 }
 
 #[cold]

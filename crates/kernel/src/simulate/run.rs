@@ -16,13 +16,13 @@ use super::rest::RestLimits;
 use super::simulator::{Placed, Simulator, Start};
 use super::totals::Totals;
 use crate::model::{
-    Contact, MechanicsError, MotionRate, Pair, Pivot, Reactions, RockingWall, State, Vector, opening,
+    Carried, Contact, MechanicsError, Pair, Pivot, Reactions, RockingWall, State, Vector, opening,
 };
 use crate::solver::{Controller, Point, Quintic, STAGES, Step};
 pub(super) use step::StepRequest;
 
 /// A contact state, and the motion in it where that is known.
-type NextContact = (Contact, Option<(MotionRate, Reactions)>);
+type NextContact = (Contact, Option<Carried>);
 
 /// A run between two of its steps.
 pub(super) struct Run<O> {
@@ -111,8 +111,8 @@ impl<O: Observer> Run<O> {
     pub fn into_response(mut self) -> Response {
         let mut reactions = Reactions::default();
         while self.needs_step() {
-            let step = self.step_request().take(&mut reactions);
-            self.finish_step(&step, &reactions);
+            let mut step = self.step_request().take(&mut reactions);
+            self.finish_step(&mut step, &reactions);
         }
         self.end()
     }
@@ -173,16 +173,16 @@ impl<O: Observer> Run<O> {
 
     /// Continues with the step that was requested.
     #[inline]
-    pub fn finish_step(&mut self, step: &Step, reactions: &Reactions) {
+    pub fn finish_step(&mut self, step: &mut Step, reactions: &Reactions) {
         let Some(piece) = self.piece else { return };
         self.totals.work.evaluations += STAGES;
         let result = match self.task {
             Task::Advance { .. } => self.advance(&piece, step, reactions),
-            Task::ReachEvent { event, most_s, .. } => self.refine_event(event, &piece, *step, most_s, 0),
+            Task::ReachEvent { event, most_s, .. } => self.refine_event(event, &piece, step, most_s, 0),
             Task::RefineEvent { event, most_s, step: before, gap, corrections, .. } => {
                 match self.left_to(event, &step.end) {
                     Some((left, _)) if left.abs() < gap => {
-                        self.refine_event(event, &piece, *step, most_s, corrections)
+                        self.refine_event(event, &piece, step, most_s, corrections)
                     }
                     _ => self.apply_event(event, &piece, &before),
                 }
@@ -236,33 +236,32 @@ impl<O: Observer> Run<O> {
             self.totals.opening(contact, next);
         }
         self.contact = next;
-        let (rate, reactions) = known.unwrap_or_else(|| {
-            let rate = self.wall.rate(next, &self.state(), ground);
-            (rate, self.reactions(&Point { acceleration: rate.theta_dd, ..self.now }, ground))
-        });
-        let (rate, reactions) = self.in_its_branches(rate, reactions, ground);
+        let known = known.unwrap_or_else(|| self.motion_now(ground));
+        let Carried { rate, reactions, reserve } = self.in_its_branches(known, ground);
         self.totals.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
-        self.corner_force = self.wall.smallest_reserve(next, &reactions);
+        self.corner_force = reserve;
         self.top_velocity_m_s = reactions.top_velocity_m_s;
         Ok(())
     }
 
     /// The motion once the formulas are in the branches into which it goes.
     #[inline]
-    fn in_its_branches(
-        &mut self,
-        rate: MotionRate,
-        reactions: Reactions,
-        ground: Vector,
-    ) -> (MotionRate, Reactions) {
+    fn in_its_branches(&mut self, known: Carried, ground: Vector) -> Carried {
         let just_turned = self.just_turned.take();
-        if !self.wall.turn_switches(self.contact, &self.state(), rate.theta_dd, just_turned) {
-            return (rate, reactions);
+        if !self.wall.turn_switches(self.contact, &self.state(), known.rate.theta_dd, just_turned) {
+            return known;
         }
+        self.motion_now(ground)
+    }
+
+    /// The motion in the contact state that the wall is in.
+    fn motion_now(&self, ground: Vector) -> Carried {
         let rate = self.wall.rate(self.contact, &self.state(), ground);
-        (rate, self.reactions(&Point { acceleration: rate.theta_dd, ..self.now }, ground))
+        let reactions = self.reactions(&Point { acceleration: rate.theta_dd, ..self.now }, ground);
+        let reserve = self.wall.smallest_reserve(self.contact, &reactions);
+        Carried { rate, reactions, reserve }
     }
 
     /// The contact state that carries the joint forces, with its motion where that is known.

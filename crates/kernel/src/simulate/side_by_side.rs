@@ -151,8 +151,8 @@ impl<'w, O: Observer> Pool<'w, O> {
                 Some(kind) => return Some(kind),
                 None => {
                     let mut reactions = Reactions::default();
-                    let step = run.step_request().take(&mut reactions);
-                    run.finish_step(&step, &reactions);
+                    let mut step = run.step_request().take(&mut reactions);
+                    run.finish_step(&mut step, &reactions);
                 }
             }
         }
@@ -236,7 +236,7 @@ impl<'w, O: Observer> Pool<'w, O> {
             }
             slots[i] = None;
             run.alight(row, i);
-            run.finish_step(&row.step(i), &row.landed.reactions(i));
+            run.finish_step(&mut row.step(i), &row.landed.reactions(i));
         }
         let number = |pool: &Self| pool.slots[slot].as_ref().map(|(number, _)| *number);
         let before = number(self);
@@ -273,8 +273,8 @@ impl<'w, O: Observer> Pool<'w, O> {
             let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
             run.step_request()
         });
-        let taken = steps(self.level, &requests);
-        for (slot, (step, reactions)) in of.into_iter().zip(&taken).take(count) {
+        let mut taken = steps(self.level, &requests);
+        for (slot, (step, reactions)) in of.into_iter().zip(&mut taken).take(count) {
             if let Some((_, run)) = &mut self.slots[slot] {
                 run.finish_step(step, reactions);
             }

@@ -1,7 +1,7 @@
 //! A step, or the part of it up to its first event: found, located, applied.
 
 use super::super::bed_events::first_bed_change;
-use super::super::events::{Event, first_event, first_kink, left_to_kink};
+use super::super::events::{Event, first_event, first_kink, left_to_kink, sooner};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
 use super::super::row::Row;
@@ -45,9 +45,11 @@ impl<O: Observer> Run<O> {
         let corner_force = (self.corner_force, end_force);
         let event = self.first_event(&motion, corner_force, piece, from_s);
         let kink = first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
-        let event = earlier(event, kink).map(|(event, share)| (self.on_edges(event), share));
+        let kink = kink.map(|(kink, share)| (Event::Kink(kink), share));
+        // What happens to the joints goes first.
+        let event = sooner(event, kink).map(|(event, share)| (self.on_edges(event), share));
         let change = first_bed_change(&self.wall, self.contact, self.opened, &motion);
-        match earlier_change(event, change) {
+        match sooner(event, change) {
             None => {
                 self.corner_force = end_force;
                 self.keep(piece.start_s + from_s, step, &motion, reactions);
@@ -200,7 +202,7 @@ impl<O: Observer> Run<O> {
         &mut self,
         event: Event,
         piece: &Piece,
-        mut step: Step,
+        step: &mut Step,
         most_s: f64,
         corrections: u32,
     ) -> Result<(), Stop> {
@@ -213,11 +215,11 @@ impl<O: Observer> Run<O> {
                 step.h -= late_s;
             } else if h > 0.0 && h < 2.0 * step.h {
                 let (gap, corrections) = (gap.abs(), corrections + 1);
-                self.task = Task::RefineEvent { event, h, most_s, step, gap, corrections };
+                self.task = Task::RefineEvent { event, h, most_s, step: *step, gap, corrections };
                 return Ok(());
             }
         }
-        self.apply_event(event, piece, &step)
+        self.apply_event(event, piece, step)
     }
 
     fn progress(&mut self, h: f64, time_s: f64) -> Result<(), Stop> {
@@ -267,23 +269,5 @@ impl<O: Observer> Run<O> {
         let gap = sign * opening(joint, self.now.position);
         let reached = closes || gap <= f64::EPSILON * self.wall.wall().alpha_rad();
         reached && sign * opening(joint, self.now.velocity) <= 0.0
-    }
-}
-
-/// The first of what may happen inside a step and a change of contact on a bed.
-fn earlier_change(event: Option<(Event, f64)>, change: Option<(Event, f64)>) -> Option<(Event, f64)> {
-    match (event, change) {
-        (Some((_, at)), Some((_, share))) if share < at => change,
-        (None, _) => change,
-        _ => event,
-    }
-}
-
-/// The first of what may happen inside a step; what happens to the joints goes first.
-fn earlier(event: Option<(Event, f64)>, kink: Option<(Kink, f64)>) -> Option<(Event, f64)> {
-    match (event, kink) {
-        (Some((_, at)), Some((kink, share))) if share < at => Some((Event::Kink(kink), share)),
-        (None, Some((kink, share))) => Some((Event::Kink(kink), share)),
-        (event, _) => event,
     }
 }
