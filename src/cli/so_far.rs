@@ -105,7 +105,7 @@ mod tests {
         so_far.add(&[tried("coulomb_friction", 20.0), tried("gap", 35.0)]);
         let words = so_far.leave_in(folder.path());
         let place = |name: &str| words.find(name).unwrap_or_else(|| panic!("{name} is missing: {words}"));
-        assert!(place("coulomb_friction, force_n = 250 N: windowed error") < place("  gap"), "{words}");
+        assert!(place("coulomb_friction, force_n = 250.0 N: windowed error") < place("  gap"), "{words}");
         let text = std::fs::read_to_string(folder.path().join(UNFINISHED)).expect("written");
         let lines = text.lines().collect::<Vec<_>>();
         assert_eq!(lines.len(), 3, "{text}");

@@ -9,7 +9,7 @@ use super::hypothesis::{ACTING, Hypothesis, Nuisance, Scales, WALL_NUMBERS, wall
 use super::trials::{Data, untouched};
 use crate::experiment::file::{ExperimentFile, HypothesisTable, TestTable};
 use crate::experiment::test_data::check_radians;
-use crate::experiment::{Purpose, Test, TestData, load_tests, rest_offset_rad, windows};
+use crate::experiment::{Purpose, Test, TestData, load_tests, moves_unevenly, rest_offset_rad, windows};
 use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER, TOO_LARGE_RAD};
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::{FileNote, load_wall, toml_file};
@@ -191,12 +191,19 @@ impl Errors {
     }
 }
 
-/// Refuses tests whose files are wrong in a way that shows: swapped channels, wrong signs, small rotations in degrees.
+/// Refuses tests whose files are wrong in a way that shows: swapped channels, wrong signs, small rotations in degrees; and
+/// motion that is sampled so unevenly that no state can be read from it.
 ///
 /// # Errors
 /// Input errors that name the test and what seems wrong with it.
 pub fn check_data(experiment: &Experiment) -> Result<()> {
     let Experiment { path, wall, scales, tests, .. } = experiment;
+    if let Some(number) = tests.iter().position(moves_unevenly) {
+        let found =
+            format!("test {:?}: the wall moves, and its samples are unevenly spaced", tests[number].name);
+        let allowed = "evenly spaced samples, as the channels were recorded; mrbd calibrate takes others too";
+        return Err(InputError::key(path, format!("tests[{number}].measured"), found, allowed).into());
+    }
     check(&Readings { path, wall, scales, tests: &tests.iter().enumerate().collect::<Vec<_>>() })
 }
 

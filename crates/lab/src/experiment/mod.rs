@@ -34,4 +34,4 @@ pub use pattern::{Freedom, measured_state};
 pub use rotations::Sampled;
 pub use test::{Simulated, Test, load_tests};
 pub use test_data::TestData;
-pub use windows::{Window, is_readable, windows};
+pub use windows::{Window, is_readable, moves_unevenly, windows};

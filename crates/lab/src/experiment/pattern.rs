@@ -82,12 +82,11 @@ pub struct MeasuredState {
 
 /// The pattern about a sample; `None` where the samples around it leave doubt or are not all there.
 pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
-    let from = k.checked_sub(HALF)?;
-    test.theta_rad.get(from..from + COUNT)?;
-    let around: [Pair; COUNT] = std::array::from_fn(|i| test.from_rest_rad(from + i));
-    if !is_even(&test.time_s[from..from + COUNT], test.step_s)
-        || around.iter().flatten().any(|theta| theta.is_nan())
-    {
+    if !stands_among_even(test, k) {
+        return None;
+    }
+    let around: [Pair; COUNT] = std::array::from_fn(|i| test.from_rest_rad(k - HALF + i));
+    if around.iter().flatten().any(|theta| theta.is_nan()) {
         return None;
     }
     let noise = test.noise_rad;
@@ -110,6 +109,12 @@ pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     let fits = [lower_fit, upper_fit];
     let numbers = freedom.numbers_of(fits.map(|fit| fit.value), fits.map(|fit| fit.slope / test.step_s));
     Some(MeasuredState { freedom, numbers })
+}
+
+/// Whether a sample has all its neighbours, evenly spaced.
+pub(super) fn stands_among_even(test: &TestData, k: usize) -> bool {
+    let around = k.checked_sub(HALF).and_then(|from| test.time_s.get(from..from + COUNT));
+    around.is_some_and(|time_s| is_even(time_s, test.step_s))
 }
 
 /// Whether samples are as far apart as those of the whole test: smoothing takes them for evenly spaced.

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::file::Purpose;
-use super::pattern::{Freedom, MeasuredState, measured_state};
+use super::pattern::{Freedom, MeasuredState, measured_state, stands_among_even};
 use super::test_data::TestData;
 use crate::limits::{LEAST_WINDOW_SAMPLES, MOVES, WINDOW_S};
 
@@ -42,6 +42,12 @@ pub struct Window {
 /// Whether a window can start somewhere in a test.
 pub fn is_readable(test: &TestData) -> bool {
     (0..test.time_s.len()).any(|k| measured_state(test, k).is_some())
+}
+
+/// Whether the wall moves in a test, but no sample of its motion stands among evenly spaced ones: no state can be read there.
+pub fn moves_unevenly(test: &TestData) -> bool {
+    let moving = (0..test.time_s.len()).filter(|&k| moves(test, k)).collect::<Vec<_>>();
+    moving.len() >= LEAST_WINDOW_SAMPLES && !moving.into_iter().any(|k| stands_among_even(test, k))
 }
 
 /// The windows of all tests in which the wall moves: where it stands it says little, and would take half of the work.
@@ -140,6 +146,16 @@ mod tests {
     use mrbd_kernel::simulate::Shaking;
 
     const NOISE_RAD: f64 = 1e-5;
+
+    #[test]
+    fn regress_motion_sampled_unevenly_is_told_from_motion_sampled_evenly() {
+        assert!(!moves_unevenly(&swaying(0..800)));
+        // One, two and three steps in turn.
+        let uneven = (0..400).flat_map(|k| [6 * k, 6 * k + 1, 6 * k + 3]).take_while(|k| *k < 800);
+        assert!(moves_unevenly(&swaying(uneven)));
+        let still = TestData { theta_rad: vec![[0.0; 2]; 800], ..swaying(0..800) };
+        assert!(!moves_unevenly(&still));
+    }
 
     /// Four seconds of a wall that sways in pattern 3, at these samples of 200 a second.
     fn swaying(samples: impl Iterator<Item = u32>) -> TestData {
