@@ -52,7 +52,7 @@ fn lead(stored: &Calibration) -> String {
         (apart, _) => format!("the searches disagree, so {apart} of the values are to be distrusted."),
     };
     format!(
-        "{} numbers of a wall sought in {fit} shaking-table test{}, {held} held out; {told}",
+        "{} numbers of a wall sought in {fit} test{}, {held} held out; {told}",
         stored.parameters.len(),
         if fit == 1 { "" } else { "s" }
     )

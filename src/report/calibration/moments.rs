@@ -2,6 +2,7 @@
 
 use super::super::chart::{Axis, Colour, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Key, Link, Section, Table};
+use crate::report::number as number_in_words;
 use crate::results::calibration::MOMENTS;
 use crate::summary::JointMoments;
 use mrbd_lab::release::{FittedLaw, LawKind, MomentPoint, ReleaseMoment, Told};
@@ -124,8 +125,9 @@ fn laws(measured: &JointMoments) -> Table {
         ["law", "fitted to", "numbers"].map(str::to_owned).into_iter().chain(names).collect::<Vec<_>>();
     let row = |fitted: &FittedLaw| {
         let numbers = fitted.law.kind.numbers().iter().zip(&fitted.law.values);
-        let numbers =
-            numbers.map(|(number, value)| format!("{} {value:.3}", number.name)).collect::<Vec<_>>();
+        let numbers = numbers
+            .map(|(number, value)| format!("{} {}", number.name, number_in_words(*value)))
+            .collect::<Vec<_>>();
         let numbers = if numbers.is_empty() { "–".to_owned() } else { numbers.join(", ") };
         let left = fitted.left.iter().map(|left| format!("{left:.3}"));
         let first = [fitted.law.kind.name().to_owned(), fitted.fitted_to.clone(), numbers];

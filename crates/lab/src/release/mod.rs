@@ -6,10 +6,10 @@
 //!
 //! | module | idea |
 //! | --- | --- |
-//! | [`strip`] | the equation of the one motion |
-//! | [`weak`] | that equation under test functions over unevenly sampled motion: nothing is differentiated |
-//! | [`moment`] | the moment as a curve through a few displacements, opening and closing, with its band |
-//! | [`laws`] | static laws held against the same rows: what each leaves, also of a release that it was not fitted to |
+//! | `strip` | the equation of the one motion |
+//! | `weak` | that equation under test functions over unevenly sampled motion: nothing is differentiated |
+//! | `moment` | the moment as a curve through a few displacements, opening and closing, with its band |
+//! | `laws` | static laws held against the same rows: what each leaves, also of a release that it was not fitted to |
 
 mod laws;
 mod moment;
