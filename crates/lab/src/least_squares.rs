@@ -2,14 +2,37 @@
 
 use nalgebra::{DMatrix, DVector};
 
-/// The x of least |J x + r|² for a Jacobian J and residuals r: -R⁻¹ Qᵀ r with J = Q R.
+/// A step of Gauss and Newton.
+#[derive(Debug, Clone)]
+pub(crate) struct NewtonStep {
+    /// The x of least |J x + r|².
+    pub x: DVector<f64>,
+    /// What |J x + r|² is less than |r|²: the gain in the sum of squares where J does not change.
+    pub promise: f64,
+}
+
+impl NewtonStep {
+    /// What a share of the step promises.
+    pub fn promise_of(&self, share: f64) -> f64 {
+        self.promise * share * (2.0 - share)
+    }
+}
+
+/// The step for a Jacobian J and residuals r: x = -R⁻¹ Qᵀ r with J = Q R, which promises |Qᵀ r|².
 ///
 /// J has as many rows as columns, or more. `None` where a column says nothing beside the others. The normal equations
 /// would square the condition of J.
-pub(crate) fn newton_step(jacobian: &DMatrix<f64>, residuals: &DVector<f64>) -> Option<DVector<f64>> {
+pub(crate) fn step_of(jacobian: &DMatrix<f64>, residuals: &DVector<f64>) -> Option<NewtonStep> {
     let qr = jacobian.clone().qr();
-    let step = qr.r().solve_upper_triangular(&-(qr.q().transpose() * residuals));
-    step.filter(|step| step.iter().all(|x| x.is_finite()))
+    let along = qr.q().transpose() * residuals;
+    let promise = along.norm_squared();
+    let x = qr.r().solve_upper_triangular(&-along)?;
+    x.iter().all(|x| x.is_finite()).then_some(NewtonStep { x, promise })
+}
+
+/// The x of [`step_of`].
+pub(crate) fn newton_step(jacobian: &DMatrix<f64>, residuals: &DVector<f64>) -> Option<DVector<f64>> {
+    step_of(jacobian, residuals).map(|step| step.x)
 }
 
 #[cfg(test)]
@@ -26,5 +49,11 @@ mod tests {
         // Roundings of twenty sums of numbers below ten.
         assert!((found[0] + 2.0).abs() < 1e-12 && (found[1] - 0.5).abs() < 1e-12, "{found}");
         assert!(newton_step(&DMatrix::zeros(20, 1), &residuals).is_none());
+
+        let step = step_of(&jacobian, &residuals).expect("two independent columns");
+        for share in [1.0, 0.4] {
+            let gain = residuals.norm_squared() - (&jacobian * &step.x * share + &residuals).norm_squared();
+            assert!((step.promise_of(share) - gain).abs() < 1e-12 * gain);
+        }
     }
 }

@@ -6,12 +6,14 @@
 //! | module | idea |
 //! | --- | --- |
 //! | [`Problem`] | a hypothesis fitted to windows: coarsely, to the end, or by the states alone |
-//! | `descent` | steps of the numbers, and how every window changes with them |
+//! | `descent` | steps of the numbers |
+//! | `linear` | how every window changes with them and with the state at its start |
 //! | `window_fit` | the state at the start of a window |
 //! | `replay` | a window simulated from a state |
 //! | `loss` | what a window costs, and how well windows are followed |
 
 mod descent;
+mod linear;
 mod loss;
 mod replay;
 mod window_fit;
@@ -19,13 +21,20 @@ mod window_fit;
 use super::hypothesis::Hypothesis;
 use crate::experiment::{TestData, Window};
 use crate::limits::MOST_MISSED;
-pub use descent::WindowSlopes;
-use descent::{COARSE, FINE, cost};
+use descent::{COARSE, FINE, LAST, cost};
+use linear::Linearised;
+pub use linear::WindowSlopes;
 pub use loss::{Loss, more_poor_held_out_sd, nats, poor_share, windowed_error};
 use nalgebra::DMatrix;
 pub use replay::{Replay, SpringMemory, shaken};
-use window_fit::{At, InState, in_chunks, newton_step, other_valleys, owned, state_jacobians, take_steps};
+use window_fit::{
+    At, InState, LITTLE, fit_windows_by, in_chunks, other_valleys, owned, state_jacobians, step_of,
+    take_steps,
+};
 pub use window_fit::{WindowFit, fit_windows};
+
+/// Steps of the states of windows after the numbers.
+const STEPS_AGAIN: usize = 2;
 
 /// A fitted hypothesis.
 #[derive(Debug, Clone)]
@@ -96,7 +105,7 @@ impl Problem<'_> {
             let (states, chords): (Vec<_>, Vec<_>) = these.iter().copied().unzip();
             let mut all = At::all(&replay, owned(&states));
             let step =
-                |(at, chord): (&At, &&DMatrix<f64>)| newton_step(chord, &at.r).filter(|_| chord.ncols() > 0);
+                |(at, chord): (&At, &&DMatrix<f64>)| step_of(chord, &at.r).filter(|_| chord.ncols() > 0);
             let steps = all.iter().zip(&chords).map(step).collect();
             take_steps(&replay, &mut all, steps);
             all.into_iter().map(At::fit).collect()
@@ -143,6 +152,26 @@ impl Problem<'_> {
         }
     }
 
+    /// Windows of a fit from the states of another one, where that is better. Asked are those that are followed badly, and
+    /// those that the other follows better.
+    pub fn borrow_states(&self, h: &Hypothesis, own: &mut Fit, from: &Fit) {
+        let Some(physics) = h.physics(&own.values) else { return };
+        let replay = Replay::new(self.tests, &physics);
+        let may_help = |k: &usize| {
+            let [mine, other] = [&own.windows[*k], &from.windows[*k]];
+            mine.is_poor() || other.squares + LITTLE < mine.squares
+        };
+        let asked = (0..self.windows.len()).filter(may_help).collect::<Vec<_>>();
+        let all = self.states_of(from);
+        let these = asked.iter().map(|k| all[*k]).collect::<Vec<_>>();
+        let found = in_chunks(&these, |these| fit_windows(&replay, owned(these), STEPS_AGAIN));
+        for (k, other) in asked.into_iter().zip(found) {
+            if other.squares < own.windows[k].squares {
+                own.windows[k] = other;
+            }
+        }
+    }
+
     /// Takes what is found for windows that are followed badly, where it is better.
     fn retried(
         &self,
@@ -164,8 +193,9 @@ impl Problem<'_> {
     /// Enough to tell what is far from the truth.
     pub fn fit_coarsely(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
         let widest = Loss::widest(start.reduced());
-        let fit = self.descend(h, start, widest, COARSE);
-        let mut fit = self.again(h, fit, false)?;
+        let mut known = None;
+        let fit = self.descend(h, start, widest, COARSE, &mut known);
+        let mut fit = self.again(h, fit, known.as_ref(), false)?;
         fit.cost = cost(h, &fit, Loss::Likelihood);
         Some(fit)
     }
@@ -173,19 +203,33 @@ impl Problem<'_> {
     /// Fits numbers and states to the end, from a coarse fit.
     pub fn fit_finely(&self, h: &Hypothesis, coarse: Fit) -> Option<Fit> {
         let mut fit = coarse;
+        let mut known = None;
         for loss in Loss::NARROWING {
-            fit = self.descend(h, fit, loss, FINE);
+            let patience = if loss == Loss::Likelihood { LAST } else { FINE };
+            fit = self.descend(h, fit, loss, patience, &mut known);
             // Other valleys are looked for once the numbers are about right.
-            fit = self.again(h, fit, loss != Loss::MIDDLE)?;
+            fit = self.again(h, fit, known.as_ref(), loss != Loss::MIDDLE)?;
         }
         fit.cost = cost(h, &fit, Loss::Likelihood);
         Some(fit)
     }
 
-    /// The states fitted once more.
-    fn again(&self, h: &Hypothesis, fit: Fit, thorough: bool) -> Option<Fit> {
-        let x = fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
-        let again = self.states(h, &fit.values, &x, 2, thorough)?;
-        Some(Fit { covariance: fit.covariance, ..again })
+    /// The states fitted once more, where what is known of the windows promises something.
+    fn again(&self, h: &Hypothesis, fit: Fit, known: Option<&Linearised>, thorough: bool) -> Option<Fit> {
+        let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
+        let states = self.states_of(&fit);
+        let windows = match known {
+            Some(known) => {
+                let these = states.into_iter().zip(known.windows.iter().map(|linear| &linear.jx));
+                in_chunks(&these.collect::<Vec<_>>(), |these| fit_windows_by(&replay, these, STEPS_AGAIN))
+            }
+            None => in_chunks(&states, |these| fit_windows(&replay, owned(these), STEPS_AGAIN)),
+        };
+        let mut again = Fit { windows, ..fit };
+        if thorough {
+            self.search(&replay, &mut again, STEPS_AGAIN);
+        }
+        again.cost = cost(h, &again, Loss::NEAR);
+        Some(again)
     }
 }

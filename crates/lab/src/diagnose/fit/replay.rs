@@ -16,6 +16,16 @@ use nalgebra::DVector;
 /// Accuracy of windows: far below any noise, over a second.
 const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
 
+/// A window simulated from a state.
+#[derive(Debug)]
+pub struct Followed {
+    /// Measured less simulated rotations over the noise. θ_1 and θ_2 of each sample stand in turn; zero where none was
+    /// measured.
+    pub r: DVector<f64>,
+    /// Which changes of Table 2 occur: no other coefficient acts.
+    pub changes: [bool; 8],
+}
+
 /// All tests under one hypothesis, ready for their windows.
 #[derive(Debug)]
 pub struct Replay<'a> {
@@ -37,23 +47,25 @@ impl<'a> Replay<'a> {
         Self { tests, simulators, springs }
     }
 
-    /// Measured less simulated rotations of windows, each from a state, over the noise. θ_1 and θ_2 of each sample
-    /// stand in turn; zero where none was measured. Simulated side by side, which changes nothing but the time it
-    /// takes.
-    pub fn residuals(&self, asked: &[(&Window, &[f64])]) -> Vec<DVector<f64>> {
+    /// Windows simulated from a state each, side by side, which changes nothing but the time it takes.
+    pub fn followed(&self, asked: &[(&Window, &[f64])]) -> Vec<Followed> {
         let sampled = |(window, _): &(&Window, &[f64])| {
             Sampled::at_all(&self.tests[window.test].time_s[window.samples.clone()])
         };
         let mut runs = asked.iter().map(sampled).collect::<Vec<_>>();
-        let mut waiting = asked.iter().zip(&mut runs);
-        let mut next = || waiting.next().map(|((window, x), sampled)| (0, self.prepared(window, x, sampled)));
-        simulate_watched_side_by_side(&mut next, &mut |_, _| ());
-        asked.iter().zip(&runs).map(|((window, _), sampled)| self.left(window, sampled)).collect()
+        let mut changes = vec![[false; 8]; asked.len()];
+        let mut waiting = asked.iter().zip(&mut runs).enumerate();
+        let mut next =
+            || waiting.next().map(|(k, ((window, x), sampled))| (k, self.prepared(window, x, sampled)));
+        let mut done = |k: usize, run: Response| changes[k] = run.impacts.table2.map(|count| count > 0);
+        simulate_watched_side_by_side(&mut next, &mut done);
+        let left = asked.iter().zip(&runs).map(|((window, _), sampled)| self.left(window, sampled));
+        left.zip(changes).map(|(r, changes)| Followed { r, changes }).collect()
     }
 
-    /// The same of one window.
+    /// The residuals of one window.
     pub fn residual(&self, window: &Window, x: &[f64]) -> DVector<f64> {
-        self.residuals(&[(window, x)]).swap_remove(0)
+        self.followed(&[(window, x)]).swap_remove(0).r
     }
 
     /// Runs a window from a state to its last sample.
@@ -200,6 +212,28 @@ mod tests {
                 assert!((stretch_m - way * 1e-5).abs() < 1e-15, "{stretch_m} at sample {k}");
             }
         }
+    }
+
+    #[test]
+    fn analytic_a_coefficient_whose_change_does_not_occur_does_nothing() {
+        let (test, physics) = swaying();
+        let tests = [test];
+        let windows = crate::experiment::windows(&tests);
+        let with = |l: Option<usize>| {
+            let mut p = physics.wall.parameters().clone();
+            l.into_iter().for_each(|l| p.restitution.coefficients[l] *= 0.5);
+            Physics { wall: mrbd_kernel::model::Wall::new(p).expect("a wall"), ..physics }
+        };
+        let asked = windows.iter().map(|window| (window, &window.measured[..])).collect::<Vec<_>>();
+        let followed = |l: Option<usize>| Replay::new(&tests, &with(l)).followed(&asked);
+        let as_given = followed(None);
+        for l in 0..8 {
+            for (one, other) in as_given.iter().zip(followed(Some(l))) {
+                assert_eq!(one.r == other.r, !one.changes[l], "C_{}", l + 1);
+            }
+        }
+        let occurs = as_given.iter().flat_map(|window| window.changes).filter(|occurs| *occurs);
+        assert!(occurs.count() > 0, "no impact in {} windows", windows.len());
     }
 
     #[test]

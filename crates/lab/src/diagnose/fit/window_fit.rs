@@ -5,15 +5,18 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::replay::Replay;
+use super::replay::{Followed, Replay};
 use crate::experiment::Window;
-pub(super) use crate::least_squares::newton_step;
+pub(super) use crate::least_squares::{NewtonStep, step_of};
 use crate::limits::MISSED_SD;
 
 /// Steps of Gauss and Newton tried at shrinking lengths before giving up.
 const SHORTER: [f64; 4] = [1.0, 0.4, 0.16, 0.06];
 /// Gain in the sum of squares, in squared noise, that is not worth another step.
-const LITTLE: f64 = 0.5;
+pub(super) const LITTLE: f64 = 0.5;
+/// Gain that a step must promise, for a window to be simulated for it. All windows of a fit, some 300, together hold less
+/// than a logarithm of likelihood then.
+const LEAST_PROMISE: f64 = 0.005;
 /// Share of the spread of a smoothed state over which sensitivities to it are taken.
 const CHANGE_SHARE: f64 = 0.1;
 /// Other starts drawn about the smoothed state, and how many of the best are refined.
@@ -66,13 +69,16 @@ pub(super) struct At<'w> {
     pub window: &'w Window,
     pub x: Vec<f64>,
     pub r: DVector<f64>,
+    /// Which changes of Table 2 occur.
+    pub changes: [bool; 8],
 }
 
 impl<'w> At<'w> {
     /// Windows in states.
     pub fn all(replay: &Replay, asked: Vec<(&'w Window, Vec<f64>)>) -> Vec<Self> {
-        let found = replay.residuals(&asked.iter().map(|(window, x)| (*window, &x[..])).collect::<Vec<_>>());
-        asked.into_iter().zip(found).map(|((window, x), r)| Self { window, x, r }).collect()
+        let found = replay.followed(&asked.iter().map(|(window, x)| (*window, &x[..])).collect::<Vec<_>>());
+        let all = asked.into_iter().zip(found);
+        all.map(|((window, x), Followed { r, changes })| Self { window, x, r, changes }).collect()
     }
 
     /// The same windows in other states.
@@ -104,20 +110,22 @@ pub(super) fn state_jacobians(replay: &Replay, these: &[&At]) -> Vec<DMatrix<f64
     };
     let changed = these.iter().map(changed).collect::<Vec<_>>();
     let asked = these.iter().zip(&changed).flat_map(|(at, all)| all.iter().map(|y| (at.window, &y[..])));
-    let mut found = replay.residuals(&asked.collect::<Vec<_>>()).into_iter();
+    let mut found = replay.followed(&asked.collect::<Vec<_>>()).into_iter();
     let jacobian = |at: &&At| {
         let mut jacobian = DMatrix::zeros(at.r.len(), at.x.len());
-        for ((i, h), r) in at.window.spread.iter().enumerate().zip(&mut found) {
-            jacobian.set_column(i, &((r - &at.r) / (CHANGE_SHARE * h)));
+        for ((i, h), near) in at.window.spread.iter().enumerate().zip(&mut found) {
+            jacobian.set_column(i, &((near.r - &at.r) / (CHANGE_SHARE * h)));
         }
         jacobian
     };
     these.iter().map(jacobian).collect()
 }
 
-/// Takes a step in each window that has one and is followed better after it.
-pub(super) fn take_steps(replay: &Replay, all: &mut [At], steps: Vec<Option<DVector<f64>>>) {
-    let of = |(i, step): (usize, Option<DVector<f64>>)| step.map(|step| (i, step));
+/// Takes a step in each window that has one that promises something and is followed better after it.
+pub(super) fn take_steps(replay: &Replay, all: &mut [At], steps: Vec<Option<NewtonStep>>) {
+    let of = |(i, step): (usize, Option<NewtonStep>)| {
+        step.filter(|step| step.promise > LEAST_PROMISE).map(|step| (i, step.x))
+    };
     let (stepping, steps): (Vec<_>, Vec<_>) = steps.into_iter().enumerate().filter_map(of).unzip();
     let these = stepping.iter().map(|i| &all[*i]).collect::<Vec<_>>();
     let moved = At::moved(replay, &these, &steps, 1.0);
@@ -144,38 +152,81 @@ pub(super) fn other_valleys(replay: &Replay, fits: &[(&Window, &WindowFit)], ste
 
 /// Fits the states of windows, from given ones, each by at most `steps` steps of Gauss and Newton.
 pub fn fit_windows(replay: &Replay, from: Vec<(&Window, Vec<f64>)>, steps: usize) -> Vec<WindowFit> {
-    let mut all = At::all(replay, from);
-    let mut active = (0..all.len()).filter(|i| !all[*i].x.is_empty()).collect::<Vec<_>>();
+    fit_those(replay, At::all(replay, from), steps, |_| true)
+}
+
+/// The same of those windows whose Jacobians from nearby promise something; the others stay where they are.
+pub(super) fn fit_windows_by(
+    replay: &Replay,
+    from: &[(InState, &DMatrix<f64>)],
+    steps: usize,
+) -> Vec<WindowFit> {
+    let (states, chords): (Vec<_>, Vec<_>) = from.iter().copied().unzip();
+    let all = At::all(replay, owned(&states));
+    let promises = |(at, chord): (&At, &&DMatrix<f64>)| {
+        !at.x.is_empty() && step_of(chord, &at.r).is_none_or(|step| step.promise > LEAST_PROMISE)
+    };
+    let open = all.iter().zip(&chords).map(promises).collect::<Vec<_>>();
+    fit_those(replay, all, steps, |i| open[i])
+}
+
+/// Fits the states of some of the windows.
+fn fit_those(
+    replay: &Replay,
+    mut all: Vec<At>,
+    steps: usize,
+    these: impl Fn(usize) -> bool,
+) -> Vec<WindowFit> {
+    let with_state = (0..all.len()).filter(|i| !all[*i].x.is_empty());
+    let mut active = with_state.filter(|i| these(*i)).collect::<Vec<_>>();
     for _ in 0..steps {
         active = improved(replay, &mut all, &active);
     }
     all.into_iter().map(At::fit).collect()
 }
 
-/// One step of those of the windows that are `active`; gives those for which it was worth another.
+/// One step of those of the windows that are `active`, and one more with the same Jacobian; gives those for which it was worth
+/// another.
 fn improved(replay: &Replay, all: &mut [At], active: &[usize]) -> Vec<usize> {
     let these = active.iter().map(|i| &all[*i]).collect::<Vec<_>>();
     let jacobians = state_jacobians(replay, &these);
-    let step = |(i, jacobian): (&usize, DMatrix<f64>)| Some((*i, newton_step(&jacobian, &all[*i].r)?));
-    let mut waiting = active.iter().zip(jacobians).filter_map(step).collect::<Vec<_>>();
-    let mut worth = Vec::new();
+    let step = |(i, chord): (&usize, DMatrix<f64>)| Some((*i, step_of(&chord, &all[*i].r)?, chord));
+    let promising = |(_, step, _): &(usize, NewtonStep, DMatrix<f64>)| step.promise > LEAST_PROMISE;
+    let mut waiting = active.iter().zip(jacobians).filter_map(step).filter(promising).collect::<Vec<_>>();
+    let mut gained = Vec::new();
     for share in SHORTER {
+        // Where the whole step does not help, a shorter one must be worth its simulation.
+        waiting.retain(|(_, step, _)| share == 1.0 || step.promise_of(share) > LITTLE);
         let (these, steps): (Vec<_>, Vec<_>) =
-            waiting.iter().map(|(i, step)| (&all[*i], step.clone())).unzip();
+            waiting.iter().map(|(i, step, _)| (&all[*i], step.x.clone())).unzip();
         let trials = At::moved(replay, &these, &steps, share);
         let mut left = Vec::new();
-        for ((i, step), trial) in waiting.into_iter().zip(trials) {
+        for ((i, step, chord), trial) in waiting.into_iter().zip(trials) {
             let [before, after] = [all[i].r.norm_squared(), trial.r.norm_squared()];
             if after < before {
                 all[i] = trial;
-                worth.extend((before - after >= LITTLE).then_some(i));
+                gained.extend((before - after >= LITTLE).then_some((i, chord)));
             } else {
-                left.push((i, step));
+                left.push((i, step, chord));
             }
         }
         waiting = left;
     }
-    worth
+    worth_another(replay, all, gained)
+}
+
+/// Takes one more step with given Jacobians in windows that gained by them; gives those that promise more even after it.
+fn worth_another(replay: &Replay, all: &mut [At], gained: Vec<(usize, DMatrix<f64>)>) -> Vec<usize> {
+    let promising = |all: &[At], i: usize, chord: &DMatrix<f64>| {
+        step_of(chord, &all[i].r).filter(|step| step.promise > LEAST_PROMISE)
+    };
+    let mut steps = all.iter().map(|_| None).collect::<Vec<_>>();
+    for (i, chord) in &gained {
+        steps[*i] = promising(all, *i, chord);
+    }
+    take_steps(replay, all, steps);
+    let still = gained.into_iter().filter(|(i, chord)| promising(all, *i, chord).is_some());
+    still.map(|(i, _)| i).collect()
 }
 
 /// The best of some states of each window drawn about the smoothed one; the same on every call.

@@ -19,7 +19,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::diagnose::formula::{Curve, Law, LawSlot};
 use mrbd_formula::Formula;
-use mrbd_kernel::model::{Effect, EffectKind, EffectParameter, EffectVariant, Role, Wall, WallParameters};
+use mrbd_kernel::model::{
+    Effect, EffectKind, EffectParameter, EffectVariant, Quantity, Role, Wall, WallParameters,
+};
 use unknown::Slot;
 
 /// The wall under a hypothesis, and the share of the reversed record that a placebo shakes it with upwards.
@@ -167,6 +169,21 @@ impl Hypothesis {
             }
         }
         Some(effects)
+    }
+
+    /// The coefficient C_l that a number scales, by its index, where it does nothing else.
+    pub fn coefficient_of(&self, number: usize) -> Option<usize> {
+        match self.unknowns[number].slot {
+            Slot::Coefficient(l) => Some(l),
+            Slot::Added(index, i) => match &self.additions[index] {
+                Addition::Effect(variant) => {
+                    let factor = variant.entry().parameters.get(i)?.quantity == Quantity::ImpactFactor;
+                    factor.then_some(i)
+                }
+                _ => None,
+            },
+            Slot::Number(_) | Slot::Written(_) | Slot::Sought(_) => None,
+        }
     }
 
     /// The wall these values make; `None` if there is no such wall.

@@ -250,14 +250,9 @@ pub fn shared_states(
     others: &[&FittedHypothesis],
 ) -> FittedHypothesis {
     let mut best = tried.clone();
-    let (h, values) = (&tried.hypothesis, &tried.fit.values);
     for other in others {
-        let sides =
-            [(&data.fit, &mut best.fit, &other.fit), (&data.held_out, &mut best.held_out, &other.held_out)];
-        for (problem, own, from) in sides {
-            let Some(found) = problem.states(h, values, &states_of(from), 2, false) else { continue };
-            take_better(own, found);
-        }
+        data.fit.borrow_states(&tried.hypothesis, &mut best.fit, &other.fit);
+        data.held_out.borrow_states(&tried.hypothesis, &mut best.held_out, &other.held_out);
     }
     best
 }
