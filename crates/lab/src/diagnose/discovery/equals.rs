@@ -13,14 +13,8 @@ pub fn simplest_of_equals(
     closing: Vec<FittedHypothesis>,
 ) -> Vec<FittedHypothesis> {
     let Some(best) = closing.first().map(|best| against(data, best)) else { return Vec::new() };
-    let mut equals = closing.into_iter().filter(|t| against(data, t) < best + EQUIVALENT).collect::<Vec<_>>();
-    let mut shapes: Vec<Law> = Vec::new();
-    equals.retain(|t| {
-        let Some(law) = law_of(t) else { return false };
-        let is_first = !shapes.iter().any(|better| better.is_like(&law));
-        shapes.push(law);
-        is_first
-    });
+    let equals = closing.into_iter().filter(|t| against(data, t) < best + EQUIVALENT);
+    let mut equals = equals.fold(Vec::new(), |kept, one| with_shape(points, kept, one));
     // Stable: of as many numbers and the same place, the better comes first.
     equals.sort_by_key(|t| (t.hypothesis.unknowns.len(), law_of(t).map(|law| law.first.site)));
     let mut kept: Vec<FittedHypothesis> = Vec::new();
@@ -32,6 +26,26 @@ pub fn simplest_of_equals(
         if !kept.iter().any(known) {
             kept.push(one);
         }
+    }
+    kept
+}
+
+/// Laws of different shapes, best first, with one more: of two alike but for exact exponents the better, or that with exact
+/// ones where both are one force. An exponent of 1.997 that tests cannot tell from 2 is 2.
+fn with_shape(
+    points: &Points,
+    mut kept: Vec<FittedHypothesis>,
+    one: FittedHypothesis,
+) -> Vec<FittedHypothesis> {
+    let Some(law) = law_of(&one) else { return kept };
+    match kept.iter_mut().find(|better| law_of(better).is_some_and(|better| better.is_like(&law))) {
+        Some(better) => {
+            let is_one = law_of(better).is_some_and(|better| difference(points, &better, &law) < SAME_FORCE);
+            if is_one && one.hypothesis.unknowns.len() < better.hypothesis.unknowns.len() {
+                *better = one;
+            }
+        }
+        None => kept.push(one),
     }
     kept
 }

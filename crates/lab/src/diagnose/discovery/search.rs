@@ -6,9 +6,10 @@
 
 use super::points::Points;
 use crate::diagnose::formula::{Atom, Law, LawSlot, Shape, Site};
-use crate::limits::{LAW_LENGTH, LAWS_REFINED, RARE_LAW_LENGTH};
+use crate::limits::{EQUIVALENT, LAW_LENGTH, LAWS_REFINED, RARE_LAW_LENGTH};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// Standard deviations beyond which a point counts less (Huber).
 const USUAL: f64 = 3.0;
@@ -233,7 +234,7 @@ pub fn search(points: &Points) -> Option<Searched<'_>> {
         let refined = laws.into_par_iter().take(LAWS_REFINED).map(|c| equations.refined(c));
         ordered(refined.collect())
     };
-    let (singles, pairs) = (refine(scan.singles()), refine(scan.pairs()));
+    let (singles, pairs) = (refine(scan.singles()), refine(at_one_place(scan.pairs())));
     Some(Searched { singles, pairs, equations })
 }
 
@@ -250,6 +251,27 @@ impl<'p> Equations<'p> {
         let weight = DVector::from_iterator(rows, left.iter().take(rows).map(weight));
         Self::new(self.points, weight, usual * usual)
     }
+}
+
+/// Laws of two atoms, best first, without those at two places that say no more than the same shapes at one.
+///
+/// While a joint stays shut a moment there and a force at the top are one, and each pair is there four times.
+fn at_one_place(laws: Vec<Candidate>) -> Vec<Candidate> {
+    let shapes = |law: &Law| {
+        let mut shapes = law.atoms().map(|atom| atom.shape).collect::<Vec<_>>();
+        shapes.sort_unstable();
+        shapes
+    };
+    let is_at_one = |law: &Law| law.second.is_none_or(|two| two.site == law.first.site);
+    let mut best = BTreeMap::<Vec<Shape>, f64>::new();
+    for one in laws.iter().filter(|one| is_at_one(&one.law)) {
+        best.entry(shapes(&one.law)).or_insert(one.evidence);
+    }
+    let says_more = |one: &Candidate| {
+        let as_good = best.get(&shapes(&one.law)).copied();
+        is_at_one(&one.law) || as_good.is_none_or(|as_good| one.evidence > as_good + EQUIVALENT)
+    };
+    laws.into_iter().filter(says_more).collect()
 }
 
 fn ordered(mut laws: Vec<Candidate>) -> Vec<Candidate> {
@@ -342,10 +364,8 @@ impl<'e, 'p> Scan<'e, 'p> {
 }
 
 /// The best candidate of each key.
-fn best_of_keyed<K: Ord>(
-    all: impl Iterator<Item = (K, Candidate)>,
-) -> std::collections::BTreeMap<K, Candidate> {
-    let mut best = std::collections::BTreeMap::<K, Candidate>::new();
+fn best_of_keyed<K: Ord>(all: impl Iterator<Item = (K, Candidate)>) -> BTreeMap<K, Candidate> {
+    let mut best = BTreeMap::<K, Candidate>::new();
     for (key, candidate) in all {
         if best.get(&key).is_none_or(|old| candidate.evidence > old.evidence) {
             best.insert(key, candidate);

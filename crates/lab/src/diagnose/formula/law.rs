@@ -21,9 +21,15 @@ pub struct Atom {
 }
 
 impl Atom {
-    /// Whether it may have this size: a damper never feeds the wall, and a stop pushes back.
+    /// Whether it may have this size: a damper never feeds the wall, a stop pushes back, and so does a root of displacement.
     pub fn may_be(&self, size: f64) -> bool {
-        size > 0.0 || !self.only_resists()
+        size > 0.0 || !(self.only_resists() || self.is_root())
+    }
+
+    /// Whether it is a spring whose stiffness at rest has no bound. Were it to push away, no spring would hold the wall
+    /// at rest, and each passage through it would be stiffer than any step can follow.
+    fn is_root(&self) -> bool {
+        matches!(self.shape, Shape::Spring | Shape::OneSidedSpring(_)) && self.numbers[0] < 1.0
     }
 
     /// Whether it only resists.

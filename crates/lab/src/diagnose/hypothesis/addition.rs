@@ -163,7 +163,7 @@ fn law_unknowns(law: &Law, index: usize) -> Vec<Unknown> {
         match slot {
             LawSlot::Size(a) => {
                 let most = MOST_OF_LAW * value.abs();
-                let least = if atoms[a].only_resists() { 0.0 } else { -most };
+                let least = if atoms[a].may_be(-most) { -most } else { 0.0 };
                 bounds(0.0, value.abs(), [least, most], "size", atoms[a].site.unit())
             }
             LawSlot::Number(a, k) => {
