@@ -88,16 +88,12 @@ impl Terms {
 
 /// Whether the numbers of its shapes lie inside what was looked at, and thus inside what was excited.
 pub fn lies_inside(law: &Law) -> bool {
-    let inside = |(value, grid): (f64, &[f64])| {
-        let (least, most) = (grid[0], grid[grid.len() - 1]);
+    let inside = |(value, [least, most]): (f64, [f64; 2])| {
         let margin = AT_BOUND * (most - least);
         // A power of 0 is a law of its own.
         (value > least + margin || least == 0.0) && value < most - margin
     };
-    law.atoms().all(|atom| {
-        let numbers = atom.shape.numbers();
-        atom.free().map(|i| (atom.numbers[i], numbers[i].grid)).all(inside)
-    })
+    law.atoms().all(|atom| atom.free().map(|i| (atom.numbers[i], atom.bounds(i))).all(inside))
 }
 
 #[cfg(test)]
@@ -105,6 +101,7 @@ mod tests {
     use super::super::search::search;
     use super::super::twin::{drag, points_with};
     use super::*;
+    use crate::diagnose::formula::{Atom, Shape, Site};
 
     #[test]
     fn analytic_a_law_of_every_test_holds_in_each_and_one_of_a_single_test_does_not() {
@@ -127,6 +124,20 @@ mod tests {
                 assert!(!atom.shape.is_damper() || atom.size > 0.0, "{atom:?}");
             }
         }
+    }
+
+    #[test]
+    fn rejects_a_root_that_pushes_away_and_a_moment_that_nearly_jumps() {
+        let top = drag(0.2, 300.0).first;
+        let root = Atom { shape: Shape::Spring, ..top };
+        assert!(root.may_be(300.0) && !root.may_be(-300.0));
+        assert!(Atom { numbers: [1.5, 0.0], ..root }.may_be(-300.0));
+        let joint = |n: f64| Atom { site: Site::Ground, numbers: [n, 0.0], ..top };
+        assert!(top.may_be(300.0) && joint(0.5).may_be(300.0) && !joint(0.2).may_be(300.0));
+        // A spring there has no velocity that could jump.
+        assert!(Atom { shape: Shape::Spring, ..joint(0.4) }.may_be(300.0));
+        assert_eq!([top.bounds(0)[0], joint(0.5).bounds(0)[0]], [0.0, 0.5]);
+        assert!(!lies_inside(&Law::of(joint(0.5))), "at the least of what was looked at");
     }
 
     #[test]

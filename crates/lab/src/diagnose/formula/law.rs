@@ -2,6 +2,7 @@
 
 use super::Site;
 use super::shape::{Meaning, Shape};
+use crate::limits::LEAST_AT_JOINTS;
 
 /// A shape at a place with its numbers, in shares of the largest displacement and velocity there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,8 +23,19 @@ pub struct Atom {
 
 impl Atom {
     /// Whether it may have this size: a damper never feeds the wall, a stop pushes back, and so does a root of displacement.
+    /// No moment at a joint nearly jumps with velocity, of whatever size.
     pub fn may_be(&self, size: f64) -> bool {
-        size > 0.0 || !(self.only_resists() || self.is_root())
+        let velocity = self.shape.powers(self.numbers)[1];
+        let jumps = self.site != Site::Top && velocity.is_some_and(|power| power.value < LEAST_AT_JOINTS);
+        !jumps && (size > 0.0 || !(self.only_resists() || self.is_root()))
+    }
+
+    /// Least and largest of a number of its shape.
+    pub fn bounds(&self, number: usize) -> [f64; 2] {
+        let grid = self.shape.numbers()[number].grid;
+        let velocity = self.shape.powers(self.numbers)[1].and_then(|power| power.number);
+        let least = if self.site != Site::Top && velocity == Some(number) { LEAST_AT_JOINTS } else { 0.0 };
+        [grid[0].max(least), grid[grid.len() - 1]]
     }
 
     /// Whether it is a spring whose stiffness at rest has no bound. Were it to push away, no spring would hold the wall

@@ -168,7 +168,7 @@ fn law_unknowns(law: &Law, index: usize) -> Vec<Unknown> {
             }
             LawSlot::Number(a, k) => {
                 let number = &atoms[a].shape.numbers()[k];
-                let ends = [number.grid[0], number.grid[number.grid.len() - 1]];
+                let ends = atoms[a].bounds(k);
                 let [displacement, velocity] = atoms[a].site.motion_units();
                 let unit = match number.meaning {
                     Meaning::Exponent => "",
