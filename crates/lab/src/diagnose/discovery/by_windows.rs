@@ -85,8 +85,8 @@ impl<P: Progress> Trials<'_, P> {
         }
         let closing = closing.into_iter().filter(|t| holds(t)).collect();
         let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
-        let curve = if equals.is_empty() { self.curve(gap, &searched) } else { None };
         let mut tried = self.ordered(tried);
+        let curve = if equals.is_empty() { self.curve(gap, &searched, tried.first()) } else { None };
         tried.truncate(LAWS_TOLD);
         let laws = equals.iter().filter_map(law_of).collect::<Vec<_>>();
         let stability = Stability::of(&searched, &laws);
@@ -99,8 +99,15 @@ impl<P: Progress> Trials<'_, P> {
         })
     }
 
-    /// A force without a formula, with the numbers of the wall that points give it, where windows say that it is one.
-    fn curve(&self, gap: &OpenGap, searched: &Searched) -> Option<FittedHypothesis> {
+    /// A force without a formula, with the numbers of the wall that points give it, where windows say that it is one: more
+    /// than the nearest of the catalogue, and than the best law, though that was refused. A memory is no curve, but looks like
+    /// one.
+    fn curve(
+        &self,
+        gap: &OpenGap,
+        searched: &Searched,
+        law: Option<&FittedHypothesis>,
+    ) -> Option<FittedHypothesis> {
         let (curve, steps) = curve_of(&searched.equations)?;
         self.progress.begin("a force without a formula", 1);
         let Experiment { wall, scales, nuisances, .. } = self.experiment;
@@ -109,7 +116,8 @@ impl<P: Progress> Trials<'_, P> {
         let found = with_values(&self.data, hypothesis, gap.nearest, &values);
         self.progress.advance(1);
         found.filter(|found| {
-            let gain = against(&self.data, gap.nearest) - against(&self.data, found);
+            let best = law.map_or(f64::INFINITY, |law| against(&self.data, law));
+            let gain = against(&self.data, gap.nearest).min(best) - against(&self.data, found);
             gain >= WORTH_A_NAME && shrinks(gap.recalibrated, found)
         })
     }
@@ -139,7 +147,7 @@ impl<P: Progress> Trials<'_, P> {
         self.progress.begin(&format!("{what}, a first look"), laws.len());
         let few = self.few_windows(gap);
         let look = |law: &Law| {
-            let start = self.start_in_windows(gap, searched, law, &few);
+            let start = self.start_in_windows(searched, law, &few);
             self.progress.advance(1);
             start
         };
@@ -177,7 +185,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// A law with the numbers that points give it and the wall, and how well a few windows follow it so, their states fitted.
-    fn start_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law, few: &Few) -> Option<Start> {
+    fn start_in_windows(&self, searched: &Searched, law: &Law, few: &Few) -> Option<Start> {
         let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
         let steps = searched.equations.wall_steps(law)?;
         let values = beside(&hypothesis, &steps).chain(law.values()).zip(&hypothesis.unknowns);
