@@ -1,5 +1,5 @@
 //! Statistics that more than one part of the project needs: order statistics, the normal distribution where its tails matter,
-//! correlations, and which share of a variance each input has.
+//! Student's t, correlations, and which share of a variance each input has.
 //!
 //! ```
 //! use mrbd_statistics::{median, normal, quantile};
@@ -14,6 +14,7 @@
 pub mod normal;
 mod order;
 mod pick_freeze;
+pub mod student;
 
 pub use order::{censored_quantile, correlation, median, quantile};
 pub use pick_freeze::{Index, Indices, PickFreeze};

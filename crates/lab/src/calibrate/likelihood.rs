@@ -8,12 +8,14 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::doubt::doubtful;
 use super::flow::Experiment;
+use super::interval::{correlation, half_width, variance};
 use super::search::Draws;
 use crate::diagnose::certainty::{Spread, spread};
 use crate::diagnose::fit::{Fit, Problem, poor_share};
@@ -34,6 +36,8 @@ const ANYWHERE: u32 = 2;
 /// Fits that cost no more than this above the best are no worse: in squared noise, twice the logarithm of a likelihood ratio
 /// of e⁶. An interval holds those of all of them.
 const AS_GOOD: f64 = 12.0;
+/// Times that windows are looked through for impacts that the noise decides.
+const DOUBTS: usize = 3;
 /// Values over whole tests must lie within so many standard deviations of those over windows.
 const CONSISTENT_SD: f64 = 5.0;
 /// Samples in which the wall must stand for a test to be run from rest.
@@ -76,6 +80,9 @@ pub struct ByLikelihood {
     pub values: Vec<f64>,
     /// 95 % intervals from the curvature and from how far single tests pull; all of its bounds for a number without a trace.
     pub interval_95: Vec<[f64; 2]>,
+    /// How many windows tell each number. Of few, one that errs is not found out: the fewer, the wider an interval is.
+    #[serde(default)]
+    pub told_by: Vec<f64>,
     /// Correlations; null where a number leaves no trace.
     pub correlation: Vec<Vec<Option<f64>>>,
 }
@@ -203,13 +210,35 @@ impl Likelihood<'_> {
         let first = self.tried(self.best_of(&self.problem(&windows), starts)?);
         let none: [Window; 0] = [];
         let data = Data { fit: self.problem(&windows), held_out: self.problem(&none) };
-        match opened_under(&data, &first) {
+        let (windows, fit) = match opened_under(&data, &first) {
             Some(([opened, _], count)) if count > 0 => {
                 let again = self.best_of(&self.problem(&opened), std::slice::from_ref(&first.fit.values))?;
-                self.with_valleys(opened, again)
+                (opened, again)
             }
-            _ => self.with_valleys(windows, first.fit),
+            _ => (windows, first.fit),
+        };
+        let (windows, fit) = self.beyond_doubt(windows, fit);
+        self.with_valleys(windows, fit)
+    }
+
+    /// The windows whose impacts are beyond doubt, and what a fit of these finds.
+    ///
+    /// With other numbers other windows may be doubtful, so it is asked again.
+    fn beyond_doubt(&self, mut windows: Vec<Window>, mut fit: Fit) -> (Vec<Window>, Fit) {
+        for _ in 0..DOUBTS {
+            let Some(physics) = self.hypothesis.physics(&fit.values) else { break };
+            let doubtful = doubtful(self.tests, &physics, &windows, &fit);
+            let clear = (0..windows.len()).filter(|k| !doubtful[*k]).collect::<Vec<_>>();
+            if clear.len() == windows.len() || clear.len() < LEAST_MOVING {
+                break;
+            }
+            let kept = clear.iter().map(|k| windows[*k].clone()).collect::<Vec<_>>();
+            let states = clear.iter().map(|k| fit.windows[*k].clone()).collect();
+            let start = Fit { windows: states, ..fit.clone() };
+            let Some(next) = self.problem(&kept).fit_finely(&self.hypothesis, start) else { break };
+            (windows, fit) = (kept, next);
         }
+        (windows, fit)
     }
 
     /// The best of a fit and of those from other valleys, with intervals that hold all that are as good.
@@ -283,13 +312,12 @@ impl Likelihood<'_> {
         let tried = self.tried(fit);
         let none: [Window; 0] = [];
         let data = Data { fit: self.problem(windows), held_out: self.problem(&none) };
-        let Spread { covariance, scatter } = spread(&data, &tried)?;
-        let variances =
-            (0..scatter.nrows()).map(|i| covariance[(i, i)] + scatter[(i, i)]).collect::<Vec<_>>();
+        let spread = spread(&data, &tried)?;
         let whole = windows.iter().all(|window| window.measured.is_empty());
         let over = if whole { Over::WholeTests } else { Over::Windows };
-        let found = self.found(over, &tried, &variances, &covariance);
-        Some(Fitted { variances, found })
+        let found = self.found(over, &tried, &spread);
+        let values = tried.fit.values.iter().enumerate();
+        Some(Fitted { variances: values.map(|(i, value)| variance(&spread, i, *value)).collect(), found })
     }
 
     /// The best of fits from vectors: compared at a glance, the best coarsely, the best of those to the end.
@@ -320,15 +348,9 @@ impl Likelihood<'_> {
         lowest((0..DRAWN).into_par_iter().filter_map(drawn).collect(), 1).pop()
     }
 
-    fn found(
-        &self,
-        over: Over,
-        tried: &FittedHypothesis,
-        variances: &[f64],
-        covariance: &DMatrix<f64>,
-    ) -> ByLikelihood {
+    fn found(&self, over: Over, tried: &FittedHypothesis, spread: &Spread) -> ByLikelihood {
         let interval = |(i, value): (usize, &f64)| {
-            let half = NINETY_FIVE_PERCENT * variances[i].sqrt();
+            let half = half_width(over, spread, i, *value);
             let unknown = &self.hypothesis.unknowns[i];
             [(value - half).max(unknown.lower), (value + half).min(unknown.upper)]
         };
@@ -343,7 +365,8 @@ impl Likelihood<'_> {
             followed,
             values: tried.fit.values.clone(),
             interval_95: tried.fit.values.iter().enumerate().map(interval).collect(),
-            correlation: correlation(covariance),
+            told_by: spread.told_by.clone(),
+            correlation: correlation(&spread.covariance),
         }
     }
 }
@@ -353,12 +376,4 @@ fn lowest(mut fits: Vec<Fit>, count: usize) -> Vec<Fit> {
     fits.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     fits.truncate(count);
     fits
-}
-
-fn correlation(covariance: &DMatrix<f64>) -> Vec<Vec<Option<f64>>> {
-    let of = |i: usize, j: usize| {
-        let size = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-        Some(covariance[(i, j)] / size).filter(|_| size.is_finite() && size > 0.0)
-    };
-    (0..covariance.nrows()).map(|i| (0..covariance.nrows()).map(|j| of(i, j)).collect()).collect()
 }

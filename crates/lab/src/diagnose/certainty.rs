@@ -58,7 +58,7 @@ fn wider_by_model([low, high]: [f64; 2], value: f64) -> [f64; 2] {
 /// Covariance of the values of a fitted hypothesis; see [`intervals`]. `None` where the curvature cannot be told; variances
 /// are infinite where a number leaves no trace.
 pub fn covariance(data: &Data, tried: &FittedHypothesis) -> Option<DMatrix<f64>> {
-    let Spread { covariance, scatter } = spread(data, tried)?;
+    let Spread { covariance, scatter, .. } = spread(data, tried)?;
     Some(covariance + scatter)
 }
 
@@ -69,13 +69,20 @@ pub struct Spread {
     pub covariance: DMatrix<f64>,
     /// Covariance over tests: how far single tests pull.
     pub scatter: DMatrix<f64>,
+    /// How many windows tell each number: (Σ v)²/Σ v² of the shares v that they have in its variance. What was known before
+    /// counts as one that errs with none.
+    pub told_by: Vec<f64>,
 }
 
 /// How far the values of a fitted hypothesis may be off; `None` where the curvature cannot be told.
 pub fn spread(data: &Data, tried: &FittedHypothesis) -> Option<Spread> {
     let count = tried.fit.values.len();
     if count == 0 {
-        return Some(Spread { covariance: DMatrix::zeros(0, 0), scatter: DMatrix::zeros(0, 0) });
+        return Some(Spread {
+            covariance: DMatrix::zeros(0, 0),
+            scatter: DMatrix::zeros(0, 0),
+            told_by: Vec::new(),
+        });
     }
     let (slopes, _) = data.fit.slopes(&tried.hypothesis, &tried.fit, None)?;
     let mut curvature = DMatrix::zeros(count, count);
@@ -95,7 +102,24 @@ pub fn spread(data: &Data, tried: &FittedHypothesis) -> Option<Spread> {
     let pulls = pulls.into_iter().map(|(_, pull)| pull).collect::<Vec<_>>();
     let covariance = covariance_of(&curvature)?;
     let scatter = scatter(&covariance, &pulls);
-    Some(Spread { covariance, scatter })
+    let weights = tried.fit.windows.iter().map(|state| Loss::Likelihood.weight(state)).collect::<Vec<_>>();
+    let told_by = (0..count).map(|i| told_by(&covariance, i, &slopes, &weights)).collect();
+    Some(Spread { covariance, scatter, told_by })
+}
+
+/// How many windows tell number i; none without a trace.
+///
+/// Of a linear estimate from independent clusters these are Satterthwaite's degrees of freedom, see Bell and McCaffrey,
+/// "Bias reduction in standard errors for linear regression with multi-stage samples" (2002).
+fn told_by(covariance: &DMatrix<f64>, i: usize, slopes: &[WindowSlopes], weights: &[f64]) -> f64 {
+    let variance = covariance[(i, i)];
+    if !variance.is_finite() {
+        return 0.0;
+    }
+    let row = covariance.column(i).map(|c| if c.is_finite() { c } else { 0.0 });
+    let share = |(window, weight): (&WindowSlopes, &f64)| weight * (&window.by_values * &row).norm_squared();
+    let squares = slopes.iter().zip(weights).map(|of| share(of).powi(2)).sum::<f64>();
+    variance * variance / squares
 }
 
 /// The covariance that a curvature means, infinite for numbers without a trace; `None` where two leave the same.
@@ -306,6 +330,29 @@ mod tests {
         let expected = residuals.iter().map(|r| r * r).sum::<f64>() / 12.0;
         assert!((covariance[(0, 0)] - 0.25).abs() < 1e-15);
         assert!((scatter(&covariance, &pulls)[(0, 0)] - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn analytic_a_number_is_told_by_as_many_windows_as_weigh_the_same() {
+        let windows = |slopes: &[f64]| {
+            let of = |slope: &f64| WindowSlopes {
+                residual: DVector::zeros(1),
+                by_values: DMatrix::from_row_slice(1, 2, &[*slope, 0.0]),
+                holds: true,
+            };
+            slopes.iter().map(of).collect::<Vec<_>>()
+        };
+        let told = |slopes: &[f64]| {
+            let curvature = slopes.iter().map(|slope| slope * slope).sum::<f64>();
+            let covariance = covariance_of(&DMatrix::from_row_slice(2, 2, &[curvature, 0.0, 0.0, 0.0]));
+            let covariance = covariance.expect("a trace");
+            [0, 1].map(|i| told_by(&covariance, i, &windows(slopes), &vec![1.0; slopes.len()]))
+        };
+        // Roundings of a few products.
+        assert!((told(&[2.0; 5])[0] - 5.0).abs() < 1e-14);
+        // Shares of 100 and 1: 101²/(100² + 1).
+        assert!((told(&[10.0, 1.0])[0] - 10201.0 / 10001.0).abs() < 1e-14);
+        assert_eq!(told(&[2.0; 5])[1], 0.0);
     }
 
     #[test]
