@@ -383,17 +383,12 @@ limits! {
     WORTH_WINDOWS: f64 = 10.0, "ln of likelihood";
     /// Laws of one atom that are looked at in windows as they are, and of two where no single one closes the gap.
     LAWS_IN_WINDOWS: usize = 8, "";
-    /// Windows, spread over all, in which that is done.
-    ///
-    /// Chosen: a look only orders laws, of which the best are fitted to all windows.
-    LOOK_WINDOWS: usize = 60, "";
     /// The best of these are fitted to windows.
     LAWS_FITTED: usize = 3, "";
     /// Least exponent of velocity at a joint.
     ///
-    /// Nothing holds a joint that is open, and a moment that jumps at rest is refused of a wall file. One that nearly jumps is
-    /// stiffer there than any step can follow: a look at eight pairs took more than 110 s of processor time and did not
-    /// end, where fits of three other laws took 27 s.
+    /// Nothing holds a joint that is open, and a moment that jumps at rest is refused of a wall file. Chosen: one that nearly jumps
+    /// is taken to be what once kept a look at eight pairs from ending; with this limit it took 1.3 s.
     LEAST_AT_JOINTS: f64 = 0.5, "";
     /// The best of these are told among the rivals.
     LAWS_TOLD: usize = 4, "";

@@ -8,16 +8,14 @@ use super::search::{Candidate, Searched, search};
 use super::stability::Stability;
 use crate::Progress;
 use crate::diagnose::experiment::Experiment;
-use crate::diagnose::fit::{Problem, nats};
+use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    FittedHypothesis, Trials, against, closes, does_something, refit, shared_states, spread_over, with_values,
+    FittedHypothesis, Trials, against, closes, does_something, refit, shared_states, with_values,
 };
-use crate::experiment::Window;
 use crate::limits::{
-    CURVE_SHRINKS, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, LOOK_WINDOWS, NEAR_BEST, WORTH_A_NAME,
-    WORTH_WINDOWS,
+    CURVE_SHRINKS, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS,
 };
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -145,9 +143,8 @@ impl<P: Progress> Trials<'_, P> {
         };
         let laws = laws.iter().filter(sound).take(LAWS_IN_WINDOWS).map(|c| c.law).collect::<Vec<_>>();
         self.progress.begin(&format!("{what}, a first look"), laws.len());
-        let few = self.few_windows(gap);
         let look = |law: &Law| {
-            let start = self.start_in_windows(searched, law, &few);
+            let start = self.start_in_windows(gap, searched, law);
             self.progress.advance(1);
             start
         };
@@ -184,31 +181,16 @@ impl<P: Progress> Trials<'_, P> {
         exact.par_iter().filter_map(fit).collect()
     }
 
-    /// A law with the numbers that points give it and the wall, and how well a few windows follow it so, their states fitted.
-    fn start_in_windows(&self, searched: &Searched, law: &Law, few: &Few) -> Option<Start> {
+    /// A law with the numbers that points give it and the wall, and how well windows follow it so, their states fitted.
+    fn start_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<Start> {
         let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
         let steps = searched.equations.wall_steps(law)?;
         let values = beside(&hypothesis, &steps).chain(law.values()).zip(&hypothesis.unknowns);
         let values = values.map(|(value, unknown)| unknown.within(value)).collect::<Vec<_>>();
-        let problem = Problem { tests: self.data.fit.tests, windows: &few.windows };
-        let fit = problem.states(&hypothesis, &values, &few.states, LOOK_STEPS, false)?;
+        let states = gap.nearest.fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
+        let fit = self.data.fit.states(&hypothesis, &values, &states, LOOK_STEPS, false)?;
         Some(Start { nats: nats(&fit.windows), hypothesis, values })
     }
-
-    /// Windows spread over all, with the states that the nearest of the catalogue has in them.
-    fn few_windows(&self, gap: &OpenGap) -> Few {
-        let asked = spread_over(self.data.fit.windows.len(), LOOK_WINDOWS);
-        Few {
-            windows: asked.iter().map(|k| self.data.fit.windows[*k].clone()).collect(),
-            states: asked.iter().map(|k| gap.nearest.fit.windows[*k].x.clone()).collect(),
-        }
-    }
-}
-
-/// Windows that a law is looked at in, with states to set out from.
-struct Few {
-    windows: Vec<Window>,
-    states: Vec<Vec<f64>>,
 }
 
 /// The wall's numbers after steps in standard deviations of what was known.

@@ -39,7 +39,7 @@ impl Atom {
     }
 
     /// Whether it is a spring whose stiffness at rest has no bound. Were it to push away, no spring would hold the wall
-    /// at rest, and each passage through it would be stiffer than any step can follow.
+    /// at rest.
     fn is_root(&self) -> bool {
         matches!(self.shape, Shape::Spring | Shape::OneSidedSpring(_)) && self.numbers[0] < 1.0
     }

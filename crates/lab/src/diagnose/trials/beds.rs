@@ -185,7 +185,7 @@ fn in_rounds(problem: &Problem, h: &Hypothesis, start: Fit) -> Option<Fit> {
 }
 
 /// At most `most` of `count` places, spread evenly.
-pub fn spread_over(count: usize, most: usize) -> Vec<usize> {
+fn spread_over(count: usize, most: usize) -> Vec<usize> {
     let chosen = count.min(most);
     (0..chosen).map(|i| i * count / chosen).collect()
 }

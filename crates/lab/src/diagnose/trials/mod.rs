@@ -20,7 +20,7 @@ mod own;
 mod patterns;
 mod search;
 
-pub use beds::{excess, own_error, spread_over, widened};
+pub use beds::{excess, own_error, widened};
 pub use effects::{FirstFits, WallFits};
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
