@@ -403,41 +403,42 @@ fn regress_the_documentation_has_the_tables_of_the_recorded_laws() {
     }
 }
 
-/// The set of twins by which calibrations were judged, and its record: `make blind-calibrations SET=twins1` goes on from there.
-const TWINS: &str = "twins2";
+/// Sets of twins by which calibrations were judged, in order: `make blind-calibrations SET=twins4` goes on from there.
+const SETS_OF_TWINS: [&str; 2] = ["twins2", "twins4"];
 
-fn calibrated_twins() -> Vec<twins::row::Row> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{TWINS}.jsonl"));
-    twins::row::load(&path, TWINS).expect("the recorded twins")
+fn calibrated_twins(set: &str) -> Vec<twins::row::Row> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
+    twins::row::load(&path, set).expect("the recorded twins")
 }
 
 #[test]
 fn regress_recorded_twins_are_what_is_drawn_under_their_numbers() {
-    for row in calibrated_twins() {
-        let twin = twins::draw::draw(TWINS, row.number);
-        let Some(case) = twin.case else {
-            assert_eq!(row.simulator, "init");
-            continue;
-        };
-        assert_eq!([&row.simulator, &row.law], [case.simulator.name(), case.actual.law]);
-        assert_eq!((row.noise_rad, row.tests), (case.noise_rad, case.fit_tests));
-        for number in row.numbers.iter().filter(|number| number.name.starts_with("C_")) {
-            let l: usize = number.name[2..].parse().expect("a coefficient");
-            assert_eq!(
-                number.truth,
-                case.actual.coefficients[l - 1],
-                "{} of twin {}",
-                number.name,
-                row.number
-            );
-        }
+    for set in SETS_OF_TWINS {
+        calibrated_twins(set).iter().for_each(|row| is_drawn(set, row));
+    }
+}
+
+fn is_drawn(set: &str, row: &twins::row::Row) {
+    let twin = twins::draw::draw(set, row.number);
+    let Some(case) = twin.case else {
+        assert_eq!(row.simulator, "init");
+        return;
+    };
+    assert_eq!([&row.simulator, &row.law], [case.simulator.name(), case.actual.law]);
+    assert_eq!((row.noise_rad, row.tests), (case.noise_rad, case.fit_tests));
+    for number in row.numbers.iter().filter(|number| number.name.starts_with("C_")) {
+        let l: usize = number.name[2..].parse().expect("a coefficient");
+        let drawn = case.actual.coefficients[l - 1];
+        assert_eq!(number.truth, drawn, "{} of twin {} of {set}", number.name, row.number);
     }
 }
 
 #[test]
-fn regress_the_documentation_has_the_table_of_the_calibrated_twins() {
+fn regress_the_documentation_has_the_tables_of_the_calibrated_twins() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/calibration.md");
     let text = std::fs::read_to_string(path).expect("the documentation");
-    let table = twins::targets::table(&calibrated_twins());
-    assert!(text.contains(&table), "docs/calibration.md lacks the table of recorded twins:\n\n{table}");
+    for set in SETS_OF_TWINS {
+        let table = twins::targets::table(&calibrated_twins(set));
+        assert!(text.contains(&table), "docs/calibration.md lacks the table of {set}:\n\n{table}");
+    }
 }
