@@ -91,7 +91,6 @@ check: ## run a smaller sweep and compare its medians with the accepted ones
 
 readme: ## figures of README.md and of the guide made anew from runs
 	UPDATE_README=1 cargo test --release --locked --test it readme::
-	UPDATE_README=1 cargo test --release --locked --package mrbd-lab --test measured_wall guide
 
 test: ## all tests, of the program and of its crates
 	cargo test --release --locked --workspace

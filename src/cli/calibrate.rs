@@ -69,7 +69,8 @@ pub fn execute(args: &CalibrateArgs) -> Result<()> {
     let progress = Box::new(Bar::of_simulations());
     let archive = Archive::open(&names.journal, &experiment.request, args.resume, progress)?;
     let calibration = pool.install(|| calibrate(&experiment, &archive))?;
-    write_results(&names, &experiment, &calibration, archive)?;
+    let moments = experiment.moments()?;
+    write_results(&names, &experiment, &calibration, moments.as_ref(), archive)?;
     print(&calibration)
 }
 

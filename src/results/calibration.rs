@@ -135,14 +135,14 @@ pub fn write_results(
     names: &OutputNames,
     experiment: &Experiment,
     calibration: &Calibration,
+    moments: Option<&Moments>,
     archive: Archive,
 ) -> Result<()> {
     let rows = archive.rows(&method_names(experiment));
     write_candidates(&names.candidates, &rows, &experiment.space.parameters, &experiment.tests)?;
     write_generations(&names.generations, &calibration.methods)?;
-    let given = experiment.given()?;
-    if let Some(moments) = Moments::of(&given, &experiment.tests) {
-        write_moments(&names.moments, &given, &moments)?;
+    if let Some(moments) = moments {
+        write_moments(&names.moments, moments)?;
     }
     write_durably(&names.wall, wall_text(experiment, calibration).as_bytes())?;
     let json = serde_json::to_string_pretty(calibration)

@@ -4,8 +4,7 @@ use std::path::Path;
 
 use crate::error::Result;
 use crate::store::{Column, Read, write_table};
-use mrbd_kernel::model::Wall;
-use mrbd_lab::release::{FittedLaw, HeldStrip, LawKind, MomentPoint, Moments, Told};
+use mrbd_lab::release::{LawKind, MomentPoint, Moments, ReleaseMoment, Told};
 
 /// A displacement of a release.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,18 +65,17 @@ static COLUMNS: [Column<MomentRow>; 12] = [
     Column::result("rounded", "1", "the same of worn edges", Read::Number(|r| r.law(LawKind::Rounded))),
 ];
 
-/// Writes the moments of releases of a wall.
+/// Writes the moments of releases.
 ///
 /// # Errors
 /// [`crate::Error::Table`] or [`mrbd_files::Error::Io`] if the file cannot be written.
-pub fn write_moments(path: &Path, wall: &Wall, moments: &Moments) -> Result<()> {
-    let Some(strip) = HeldStrip::of(wall) else { return Ok(()) };
-    let of_release = |release: &mrbd_lab::release::ReleaseMoment| {
+pub fn write_moments(path: &Path, moments: &Moments) -> Result<()> {
+    let of_release = |release: &ReleaseMoment| {
         let laws = moments.laws.iter().filter(|law| law.fitted_to == release.test).collect::<Vec<_>>();
         let row = |point: &MomentPoint| MomentRow {
             test: release.test.clone(),
             point: *point,
-            laws: laws.iter().map(|FittedLaw { law, .. }| law.share(&strip, point.displacement)).collect(),
+            laws: laws.iter().map(|fitted| fitted.law.share(&moments.strip, point.displacement)).collect(),
         };
         release.points.iter().map(row).collect::<Vec<_>>()
     };

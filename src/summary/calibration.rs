@@ -7,7 +7,7 @@ use crate::error::Result;
 use mrbd_kernel::model::Wall;
 use mrbd_lab::calibrate::{Calibration, Experiment};
 use mrbd_lab::experiment::Measured;
-use mrbd_lab::release::{HeldStrip, Moments};
+use mrbd_lab::release::Moments;
 
 /// Rows of a simulated history, s.
 const STEP_S: f64 = 0.01;
@@ -22,16 +22,7 @@ pub struct Calibrated {
     /// The tests in the order of the experiment; `None` where its files are gone or other ones now.
     pub tests: Option<Vec<TestRotations>>,
     /// What releases of a held strip say of its joints; `None` where there are none, or their files are gone.
-    pub moments: Option<JointMoments>,
-}
-
-/// The moment of joints, and the strip that laws need.
-#[derive(Debug)]
-pub struct JointMoments {
-    /// What is drawn.
-    pub moments: Moments,
-    /// Of which strip.
-    pub strip: HeldStrip,
+    pub moments: Option<Moments>,
 }
 
 /// Rotations over slenderness angles by time, s; a value that is no number breaks the line.
@@ -57,7 +48,7 @@ impl Calibrated {
         let note = Note::read(&folder.join("manifest.json"))?;
         let experiment = experiment(folder, &note, &stored);
         let tests = experiment.as_ref().and_then(|experiment| tests(experiment, &stored));
-        let moments = experiment.as_ref().and_then(joint_moments);
+        let moments = experiment.as_ref().and_then(|experiment| experiment.moments().ok()?);
         Ok(Self { stored, note, tests, moments })
     }
 }
@@ -72,12 +63,6 @@ fn experiment(folder: &Path, note: &Note, stored: &Calibration) -> Option<Experi
 fn tests(experiment: &Experiment, stored: &Calibration) -> Option<Vec<TestRotations>> {
     let wall = experiment.space.wall(&stored.joint.values).ok()?;
     Some((0..experiment.tests.len()).map(|index| rotations(experiment, &wall, index)).collect())
-}
-
-fn joint_moments(experiment: &Experiment) -> Option<JointMoments> {
-    let given = experiment.given().ok()?;
-    let moments = Moments::of(&given, &experiment.tests)?;
-    Some(JointMoments { moments, strip: HeldStrip::of(&given)? })
 }
 
 fn rotations(experiment: &Experiment, wall: &Wall, index: usize) -> TestRotations {

@@ -18,7 +18,7 @@ mod sequences;
 mod spectra;
 mod sweep;
 
-pub use calibration::{Calibrated, JointMoments, Rotations, TestRotations};
+pub use calibration::{Calibrated, Rotations, TestRotations};
 pub use drawn::{Drawn, FloorSamples, Samples};
 pub use file::{Note, read_json};
 pub use fragility::{DEFAULT_INTENSITY, LEVEL, LimitFragility};

@@ -12,6 +12,7 @@ mod diagnose;
 #[allow(dead_code)]
 #[path = "../blind/laws/mod.rs"]
 mod laws;
+mod recorded;
 #[allow(dead_code)]
 #[path = "../blind/score/mod.rs"]
 mod score;
@@ -319,126 +320,5 @@ fn analytic_every_drawn_law_is_a_formula_of_its_own_force() {
             // Two ways to the same number, of a few roundings each.
             assert!((own - written).abs() < 1e-9, "{formula} at {motion:?}: {written} for {own}");
         }
-    }
-}
-
-/// Cases that were scored before: `make blind SET=fresh11` goes on from there.
-fn recorded() -> Vec<score::Row> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
-    score::recorded::load(&path, "fresh11").expect("the recorded cases")
-}
-
-#[test]
-fn regress_recorded_cases_are_what_is_drawn_under_their_numbers() {
-    for row in recorded() {
-        let case = cases::draw::draw(&row.set, row.number);
-        let told = case.hidden.iter().map(Hidden::told).collect::<Vec<_>>();
-        let all = |key: &str| told.iter().map(|hidden| hidden[key].clone()).collect::<Vec<_>>();
-        let [kind, simulator, prior] = [&case.kind.name(), case.simulator.name(), case.prior.name()];
-        assert_eq!([&row.kind, &row.simulator, &row.prior], [kind, simulator, prior], "{row:?}");
-        assert_eq!([row.noise_rad, row.size], [case.noise_rad, case.size], "{row:?}");
-        assert_eq!(row.hidden, all("kind"), "{row:?}");
-        assert_eq!(row.hidden_places, all("place"), "{row:?}");
-    }
-}
-
-#[test]
-fn regress_recorded_cases_are_written_again_as_they_were() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
-    let folder = tempfile::tempdir().expect("a folder");
-    let again = folder.path().join("cases.jsonl");
-    score::recorded::save(&again, &recorded()).expect("written");
-    let [own, again] = [&path, &again].map(|path| std::fs::read_to_string(path).expect("cases"));
-    assert!(own == again, "recorded cases change when they are read and written");
-}
-
-#[test]
-fn regress_the_documentation_has_the_table_of_the_recorded_cases() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/diagnosis.md");
-    let text = std::fs::read_to_string(path).expect("the documentation");
-    let table = score::targets::table(&recorded());
-    assert!(text.contains(&table), "docs/diagnosis.md lacks the table of tests/blind/recorded:\n\n{table}");
-}
-
-/// Cases of laws that were scored before, by set: `make blind LAWS=1 SET=laws1` goes on from there.
-fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
-    score::recorded::load(&path, set).expect("the recorded cases")
-}
-
-/// Recorded sets of laws, in the order in which they were answered.
-const SETS_OF_LAWS: [&str; 1] = ["laws1"];
-
-#[test]
-fn regress_recorded_laws_are_what_is_drawn_under_their_numbers() {
-    for row in SETS_OF_LAWS.iter().flat_map(|set| recorded_laws(set)) {
-        let case = laws::draw::draw(&row.set, row.number);
-        let [group, simulator, prior] = [&case.kind.name(), case.simulator.name(), case.prior.name()];
-        assert_eq!([&row.group, &row.simulator, &row.prior], [group, simulator, prior], "{row:?}");
-        assert_eq!([row.noise_rad, row.size], [case.noise_rad, case.size], "{row:?}");
-        let told = case.hidden.iter().map(|hidden| laws::row::hidden(&hidden.told())).collect::<Vec<_>>();
-        assert_eq!(row.hidden, told, "{row:?}");
-    }
-}
-
-#[test]
-fn regress_recorded_laws_are_written_again_as_they_were() {
-    for set in SETS_OF_LAWS {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
-        let folder = tempfile::tempdir().expect("a folder");
-        let again = folder.path().join("cases.jsonl");
-        score::recorded::save(&again, &recorded_laws(set)).expect("written");
-        let [own, again] = [&path, &again].map(|path| std::fs::read_to_string(path).expect("cases"));
-        assert!(own == again, "recorded cases of {set} change when they are read and written");
-    }
-}
-
-#[test]
-fn regress_the_documentation_has_the_tables_of_the_recorded_laws() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/diagnosis.md");
-    let text = std::fs::read_to_string(path).expect("the documentation");
-    for set in SETS_OF_LAWS {
-        let table = laws::targets::table(&recorded_laws(set));
-        assert!(text.contains(&table), "docs/diagnosis.md lacks the table of {set}:\n\n{table}");
-    }
-}
-
-/// Sets of twins by which calibrations were judged, in order: `make blind-calibrations SET=twins4` goes on from there.
-const SETS_OF_TWINS: [&str; 2] = ["twins2", "twins4"];
-
-fn calibrated_twins(set: &str) -> Vec<twins::row::Row> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
-    twins::row::load(&path, set).expect("the recorded twins")
-}
-
-#[test]
-fn regress_recorded_twins_are_what_is_drawn_under_their_numbers() {
-    for set in SETS_OF_TWINS {
-        calibrated_twins(set).iter().for_each(|row| is_drawn(set, row));
-    }
-}
-
-fn is_drawn(set: &str, row: &twins::row::Row) {
-    let twin = twins::draw::draw(set, row.number);
-    let Some(case) = twin.case else {
-        assert_eq!(row.simulator, "init");
-        return;
-    };
-    assert_eq!([&row.simulator, &row.law], [case.simulator.name(), case.actual.law]);
-    assert_eq!((row.noise_rad, row.tests), (case.noise_rad, case.fit_tests));
-    for number in row.numbers.iter().filter(|number| number.name.starts_with("C_")) {
-        let l: usize = number.name[2..].parse().expect("a coefficient");
-        let drawn = case.actual.coefficients[l - 1];
-        assert_eq!(number.truth, drawn, "{} of twin {} of {set}", number.name, row.number);
-    }
-}
-
-#[test]
-fn regress_the_documentation_has_the_tables_of_the_calibrated_twins() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/calibration.md");
-    let text = std::fs::read_to_string(path).expect("the documentation");
-    for set in SETS_OF_TWINS {
-        let table = twins::targets::table(&calibrated_twins(set));
-        assert!(text.contains(&table), "docs/calibration.md lacks the table of {set}:\n\n{table}");
     }
 }

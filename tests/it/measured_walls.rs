@@ -44,6 +44,18 @@ fn measured_releases_are_followed_by_joints_that_give() {
 }
 
 #[test]
+fn measured_releases_are_followed_from_after_their_first_passage() {
+    let late = experiment("after_a.toml");
+    // What `make measured` finds from 0.55 s on.
+    let of_a = errors(&late, Some([3.52e7, 0.0094]), 1.0);
+    let of_b = errors(&late, Some([3.97e7, 0.0091]), 1.0);
+    println!("from 0.55 s on, over the thickness: joints of a {of_a:.4?}, of b {of_b:.4?}");
+    // Half a percent more than found for other rounding of the numbers; the target held out is 4 %.
+    assert!(of_a[0] < 0.030 && of_b[1] < 0.030, "to fit: {of_a:?} {of_b:?}");
+    assert!(of_a[1] < 0.040 && of_b[0] < 0.040, "held out: {of_a:?} {of_b:?}");
+}
+
+#[test]
 fn rejects_releases_that_cannot_be() {
     let refused = |test: &str| {
         let text = format!("wall = \"wall.toml\"\n[[tests]]\nname = \"one\"\nmeasured = \"m.csv\"\n{test}");

@@ -6,6 +6,7 @@ mod beds;
 mod block;
 mod conclusions;
 mod fragility;
+mod moments;
 mod studies;
 mod survey;
 
@@ -51,4 +52,9 @@ fn regress_the_guide_tells_medians_on_beds() {
 #[test]
 fn regress_the_guide_tells_how_drawn_facades_meet_table_3() {
     check("docs/files.md", survey::blocks);
+}
+
+#[test]
+fn regress_the_guide_tells_the_moment_of_measured_joints() {
+    check("docs/measured-walls.md", moments::blocks);
 }

@@ -84,7 +84,8 @@ pub fn run_calibration(
         let names = calibration::OutputNames::prepare(&out, &experiment, resume)?;
         let archive = Archive::open(&names.journal, &experiment.request, resume, counted)?;
         let found = pool.install(|| calibrate(&experiment, &archive))?;
-        calibration::write_results(&names, &experiment, &found, archive)
+        let moments = experiment.moments()?;
+        calibration::write_results(&names, &experiment, &found, moments.as_ref(), archive)
     })?
     .map_err(raised)
 }

@@ -4,8 +4,7 @@ use super::super::chart::{Axis, Colour, Dot, Format, Graph, Layer, Mark, PALETTE
 use super::super::page::{Figure, Key, Link, Section, Table};
 use crate::report::number as number_in_words;
 use crate::results::calibration::MOMENTS;
-use crate::summary::JointMoments;
-use mrbd_lab::release::{FittedLaw, LawKind, MomentPoint, ReleaseMoment, Told};
+use mrbd_lab::release::{FittedLaw, LawKind, MomentPoint, Moments, ReleaseMoment, Told};
 
 /// While joints open, and while they close.
 const WAYS: [(&str, Colour, Mark); 2] =
@@ -15,8 +14,8 @@ const WAYS: [(&str, Colour, Mark); 2] =
 const POINTS: u32 = 120;
 
 /// The section.
-pub fn section(measured: &JointMoments) -> Section {
-    let releases = measured.moments.releases.iter().enumerate();
+pub fn section(measured: &Moments) -> Section {
+    let releases = measured.releases.iter().enumerate();
     Section {
         id: "moments".into(),
         title: "Moment of the joints".into(),
@@ -41,11 +40,11 @@ fn drawn(kind: LawKind) -> Option<Colour> {
     }
 }
 
-fn fitted<'m>(measured: &'m JointMoments, release: &'m ReleaseMoment) -> impl Iterator<Item = &'m FittedLaw> {
-    measured.moments.laws.iter().filter(|law| law.fitted_to == release.test)
+fn fitted<'m>(measured: &'m Moments, release: &'m ReleaseMoment) -> impl Iterator<Item = &'m FittedLaw> {
+    measured.laws.iter().filter(|law| law.fitted_to == release.test)
 }
 
-fn figure(measured: &JointMoments, index: usize, release: &ReleaseMoment) -> Figure {
+fn figure(measured: &Moments, index: usize, release: &ReleaseMoment) -> Figure {
     let mut legend = WAYS.map(|(label, colour, mark)| Key::new(label, colour, mark)).to_vec();
     legend.extend(fitted(measured, release).filter_map(|law| {
         let kind = law.law.kind;
@@ -67,7 +66,7 @@ fn figure(measured: &JointMoments, index: usize, release: &ReleaseMoment) -> Fig
     }
 }
 
-fn graph(measured: &JointMoments, release: &ReleaseMoment) -> Graph {
+fn graph(measured: &Moments, release: &ReleaseMoment) -> Graph {
     let told = |way: usize, point: &MomentPoint| if way == 0 { point.opening } else { point.closing };
     let mut layers = Vec::new();
     for (way, (label, colour, mark)) in WAYS.into_iter().enumerate() {
@@ -119,8 +118,8 @@ fn tip(label: &str, point: &MomentPoint, told: &Told) -> String {
     )
 }
 
-fn laws(measured: &JointMoments) -> Table {
-    let names = measured.moments.releases.iter().map(|release| format!("left of {}", release.test));
+fn laws(measured: &Moments) -> Table {
+    let names = measured.releases.iter().map(|release| format!("left of {}", release.test));
     let head =
         ["law", "fitted to", "numbers"].map(str::to_owned).into_iter().chain(names).collect::<Vec<_>>();
     let row = |fitted: &FittedLaw| {
@@ -135,5 +134,5 @@ fn laws(measured: &JointMoments) -> Table {
     };
     let head = head.iter().map(String::as_str).collect::<Vec<_>>();
     let caption = "Static laws: what each leaves of the moment that a release asks for (root mean square, over that of sharp edges)";
-    Table::of(caption, &head, measured.moments.laws.iter().map(row))
+    Table::of(caption, &head, measured.laws.iter().map(row))
 }

@@ -91,11 +91,10 @@ pub fn lead(summary: &Summary) -> String {
         Verdict::Recalibrated => {
             "Recalibrated: the gap closes within what was known of the wall’s own numbers.".to_owned()
         }
-        Verdict::Named if summary.remainder.is_some() => {
-            let left = summary.remainder.as_ref().map_or(String::new(), remainder);
-            format!("Named, with a remainder: {effects}. {left}")
-        }
-        Verdict::Named => format!("Named: {effects}. Nothing else in the catalogue explains these tests."),
+        Verdict::Named => match &summary.remainder {
+            Some(found) => format!("Named, with a remainder: {effects}. {}", remainder(found)),
+            None => format!("Named: {effects}. Nothing else in the catalogue explains these tests."),
+        },
         Verdict::Class => format!(
             "A class: {} explain these tests alike. The first of them: {effects}.",
             summary.equivalent.join(", ")

@@ -4,7 +4,7 @@
 //! open by 1e-8 rad. Within the noise a state may be fitted either way. Joints of real walls give a little before they open,
 //! too, and count as closed until then. So what such a window says of a coefficient is what was assumed of it.
 
-use crate::diagnose::fit::{Fit, Replay};
+use crate::diagnose::fit::{Fit, Replay, WindowFit};
 use crate::diagnose::hypothesis::Physics;
 use crate::experiment::{TestData, Window};
 use crate::limits::READS_CLOSED;
@@ -22,7 +22,7 @@ const GIVES_RAD: f64 = 2e-5;
 /// Of each window whether an impact at the ground meets a crack that may be open or closed, for the states of a fit.
 pub(super) fn doubtful(tests: &[TestData], physics: &Physics, windows: &[Window], fit: &Fit) -> Vec<bool> {
     let replay = Replay::new(tests, physics);
-    let of = |(window, state): (&Window, &crate::diagnose::fit::WindowFit)| {
+    let of = |(window, state): (&Window, &WindowFit)| {
         let [lower, upper] = tests[window.test].noise_rad;
         let mut met = Met { clear_rad: (READS_CLOSED * lower.max(upper)).max(GIVES_RAD), ..Met::default() };
         replay.run(window, &state.x, &mut met);

@@ -19,6 +19,7 @@ use super::search::{Draws, Found};
 use super::staged_search::{StagedSearch, stage_names};
 use crate::experiment::file::{CalibrateTable, ExperimentFile, Purpose, TestTable};
 use crate::experiment::{Test, TestData, load_tests};
+use crate::release::Moments;
 use mrbd_files::checksum::hexadecimal;
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::Wall;
@@ -75,6 +76,14 @@ impl Experiment {
     pub fn given(&self) -> Result<Wall, InputError> {
         let parameters = self.space.base().clone();
         Wall::new(parameters).map_err(|e| InputError::key(&self.path, e.key, e.found, e.allowed))
+    }
+
+    /// What its releases say of the joints before any law is assumed; `None` where none can be read so.
+    ///
+    /// # Errors
+    /// As [`Experiment::given`].
+    pub fn moments(&self) -> Result<Option<Moments>, InputError> {
+        Ok(Moments::of(&self.given()?, &self.tests))
     }
 
     /// Accuracy of the simulations.

@@ -27,6 +27,8 @@ use mrbd_kernel::model::Wall;
 /// What the releases of an experiment say of the joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moments {
+    /// Of which strip: laws need it.
+    pub strip: HeldStrip,
     /// By release, in the order of the experiment.
     pub releases: Vec<ReleaseMoment>,
     /// Every law, fitted to each release in turn.
@@ -43,6 +45,6 @@ impl Moments {
             return None;
         }
         let laws = laws::fitted(&strip, &measured);
-        Some(Self { releases: measured.into_iter().map(|m| m.moment).collect(), laws })
+        Some(Self { strip, releases: measured.into_iter().map(|m| m.moment).collect(), laws })
     }
 }

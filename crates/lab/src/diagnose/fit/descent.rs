@@ -31,7 +31,7 @@ pub const FINE: Patience = Patience { sides: Sides::OneWhereClear, ..LAST };
 /// To tell what is far from the truth.
 pub const COARSE: Patience = Patience { steps: 5, little_share: 2e-3, ..FINE };
 /// Share of the gain not worth another step that a step must promise, for windows to be simulated for it.
-const LEAST_PROMISE: f64 = 0.1;
+const WORTH_TRYING: f64 = 0.1;
 /// Damping of a step (Levenberg and Marquardt): first, factor, tries.
 const FIRST_DAMPING: f64 = 1e-4;
 const DAMPING_FACTOR: f64 = 10.0;
@@ -93,7 +93,7 @@ impl Problem<'_> {
             let little = patience.little(before);
             for _ in 0..TRIES {
                 let step = NumbersStep::new(h, &fit, (&a, &g), damping);
-                if step.as_ref().is_some_and(|step| step.promise < LEAST_PROMISE * little) {
+                if step.as_ref().is_some_and(|step| step.promise < WORTH_TRYING * little) {
                     break;
                 }
                 if let Some(next) = step.and_then(|step| self.step(h, &fit, linear, step, loss))

@@ -130,7 +130,8 @@ impl Neighbour<'_> {
 /// Slopes of windows to either side of a value. Where one side serves, it stands for both in windows that are clear.
 fn slopes_to([one, two]: &[Neighbour; 2], these: &[At], sides: Sides) -> [Vec<DVector<f64>>; 2] {
     let after = one.slopes(&these.iter().collect::<Vec<_>>());
-    let asked = |slope: &DVector<f64>| sides == Sides::Both || is_doubtful(slope, one.change);
+    let asked =
+        |slope: &DVector<f64>| sides == Sides::Both || is_doubtful(slope.norm(), slope.len(), one.change);
     let doubtful = after.iter().zip(these).filter(|(slope, _)| asked(slope)).map(|(_, at)| at);
     let mut found = two.slopes(&doubtful.collect::<Vec<_>>()).into_iter();
     let mut before = |slope: &DVector<f64>| if asked(slope) { found.next() } else { None };
@@ -138,9 +139,9 @@ fn slopes_to([one, two]: &[Neighbour; 2], these: &[At], sides: Sides) -> [Vec<DV
     [after, before]
 }
 
-/// Whether a window changes so much with a value that it may not be linear.
-fn is_doubtful(slope: &DVector<f64>, change: f64) -> bool {
-    slope.norm() > DOUBTFUL * (slope.len() as f64).sqrt() / change.abs()
+/// Whether a window whose slopes have this length changes so much with a value that it may not be linear.
+fn is_doubtful(length: f64, residuals: usize, change: f64) -> bool {
+    length > DOUBTFUL * (residuals as f64).sqrt() / change.abs()
 }
 
 impl Problem<'_> {
@@ -244,8 +245,8 @@ impl Problem<'_> {
 /// Whether the slopes to either side of a value are of no straight line, in a window that changes much with it.
 fn is_bent(sides: &[DMatrix<f64>; 2], value: usize, change: f64) -> bool {
     let [one, two] = sides.each_ref().map(|side| side.column(value));
-    let much = DOUBTFUL * (one.len() as f64).sqrt() / change.abs();
-    one.norm().max(two.norm()) > much && (one - two).norm() > BENT * one.norm().min(two.norm())
+    is_doubtful(one.norm().max(two.norm()), one.len(), change)
+        && (one - two).norm() > BENT * one.norm().min(two.norm())
 }
 
 /// Changes of the numbers to begin with.
@@ -305,5 +306,53 @@ mod tests {
         assert!(little.holds);
         assert_eq!(little.jp[(0, 1)], 0.2);
         assert_eq!(little.jp[(1, 1)], 0.2);
+    }
+
+    /// The windows of a wall that sways, fitted with a damper at the top.
+    fn swaying() -> ([crate::experiment::TestData; 1], Hypothesis) {
+        let h = crate::diagnose::hypothesis::example::starter_with(&["viscous_damping"]);
+        ([super::super::replay::tests::swaying().0], h)
+    }
+
+    #[test]
+    fn analytic_only_windows_that_moved_are_made_linear_again() {
+        let (tests, h) = swaying();
+        let windows = crate::experiment::windows(&tests);
+        let problem = Problem { tests: &tests, windows: &windows };
+        let mut fit = problem.states(&h, &h.start(), &problem.measured_states(), 0, false).expect("a wall");
+        let first = problem.linearised(&h, &fit, None, Sides::Both).expect("a wall");
+        let before = first.windows.iter().map(|linear| linear.jp.clone()).collect::<Vec<_>>();
+        assert!(before.len() > 1 && before.iter().all(|jp| jp.amax() > 0.0), "{before:?}");
+        // Another change of the damper would give other digits, if the windows were made linear again.
+        let changes = first.changes.clone();
+        assert_ne!(changes, first_changes(&h));
+        fit.windows[0].x[0] += 0.1 * windows[0].spread[0];
+        let again = problem.linearised(&h, &fit, Some(first), Sides::Both).expect("a wall");
+        let anew = problem.linear(&h, &fit, &changes, Sides::Both).expect("a wall");
+        assert_eq!(again.windows[0].jp, anew[0].jp);
+        assert_eq!(again.windows[0].r, anew[0].r);
+        assert!((1..before.len()).all(|k| again.windows[k].jp == before[k] && anew[k].jp != before[k]));
+        // With another number nothing is kept.
+        fit.values[0] += changes[0];
+        let moved = problem.linearised(&h, &fit, Some(again), Sides::Both).expect("a wall");
+        assert!(moved.windows.iter().zip(&before).all(|(linear, before)| linear.jp != *before));
+    }
+
+    #[test]
+    fn analytic_slopes_of_one_side_are_those_of_both_where_windows_are_clear() {
+        let (tests, h) = swaying();
+        let windows = crate::experiment::windows(&tests);
+        let problem = Problem { tests: &tests, windows: &windows };
+        let fit = problem.states(&h, &h.start(), &problem.measured_states(), 0, false).expect("a wall");
+        let [both, one] = [Sides::Both, Sides::OneWhereClear]
+            .map(|sides| problem.linear(&h, &fit, &first_changes(&h), sides).expect("a wall"));
+        for (both, one) in both.iter().zip(&one).filter(|(both, _)| both.holds) {
+            // A damper is linear but for what its loss does to the motion within a window.
+            assert!((&both.jp - &one.jp).amax() < BENT * both.jp.amax(), "{} {}", both.jp, one.jp);
+        }
+        assert!(
+            both.iter().zip(&one).any(|(both, one)| both.jp != one.jp),
+            "both sides were asked everywhere"
+        );
     }
 }

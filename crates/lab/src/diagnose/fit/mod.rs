@@ -66,6 +66,15 @@ impl Fit {
     }
 }
 
+/// Takes what was found for some windows of a fit, where it is better.
+fn take_better(own: &mut Fit, asked: Vec<usize>, found: Vec<WindowFit>) {
+    for (k, other) in asked.into_iter().zip(found) {
+        if other.squares < own.windows[k].squares {
+            own.windows[k] = other;
+        }
+    }
+}
+
 /// Windows of some tests.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
@@ -165,11 +174,7 @@ impl Problem<'_> {
         let all = self.states_of(from);
         let these = asked.iter().map(|k| all[*k]).collect::<Vec<_>>();
         let found = in_chunks(&these, |these| fit_windows(&replay, owned(these), STEPS_AGAIN));
-        for (k, other) in asked.into_iter().zip(found) {
-            if other.squares < own.windows[k].squares {
-                own.windows[k] = other;
-            }
-        }
+        take_better(own, asked, found);
     }
 
     /// Takes what is found for windows that are followed badly, where it is better.
@@ -181,11 +186,7 @@ impl Problem<'_> {
         let poor = (0..self.windows.len()).filter(|k| found.windows[*k].is_poor()).collect::<Vec<_>>();
         let these = poor.iter().map(|k| (&self.windows[*k], &found.windows[*k])).collect::<Vec<_>>();
         let others = in_chunks(&these, find);
-        for (k, other) in poor.into_iter().zip(others) {
-            if other.squares < found.windows[k].squares {
-                found.windows[k] = other;
-            }
-        }
+        take_better(found, poor, others);
     }
 
     /// Fits numbers and states from given ones, coarsely: under the widest loss, states from where they are.

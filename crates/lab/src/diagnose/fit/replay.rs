@@ -167,7 +167,7 @@ fn smoothed(test: &TestData, k: usize) -> Pair {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use std::path::Path;
 
     use super::*;
@@ -176,7 +176,7 @@ mod tests {
     use mrbd_kernel::simulate::Shaking;
 
     /// Sways to 0.01 rad to either side, in pattern 3; a spring that yields after 0.01 mm.
-    fn swaying() -> (TestData, Physics) {
+    pub fn swaying() -> (TestData, Physics) {
         let text = include_str!("../../../../../src/cli/starter/wall.toml");
         let spring =
             "[[effects]]\nkind = \"yielding_spring\"\nstiffness_n_per_m = 3e7\nyield_force_n = 300.0\n";
