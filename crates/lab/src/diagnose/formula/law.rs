@@ -2,7 +2,7 @@
 
 use super::Site;
 use super::shape::{Meaning, Shape};
-use crate::limits::LEAST_AT_JOINTS;
+use crate::limits::{LEAST_AT_JOINTS, LEAST_AT_TOP};
 
 /// A shape at a place with its numbers, in shares of the largest displacement and velocity there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,18 +23,29 @@ pub struct Atom {
 
 impl Atom {
     /// Whether it may have this size: a damper never feeds the wall, a stop pushes back, and so does a root of displacement.
-    /// No moment at a joint nearly jumps with velocity, of whatever size.
+    /// None nearly jumps with velocity, of whatever size, and none does so at a joint.
     pub fn may_be(&self, size: f64) -> bool {
-        let velocity = self.shape.powers(self.numbers)[1];
-        let jumps = self.site != Site::Top && velocity.is_some_and(|power| power.value < LEAST_AT_JOINTS);
+        let velocity = self.shape.powers(self.numbers)[1].map(|power| power.value);
+        let is_friction = self.site == Site::Top && velocity == Some(0.0);
+        let jumps = !is_friction && velocity.is_some_and(|exponent| exponent < self.least_of_velocity());
         !jumps && (size > 0.0 || !(self.only_resists() || self.is_root()))
+    }
+
+    /// Least exponent of velocity that is fitted.
+    fn least_of_velocity(&self) -> f64 {
+        if self.site == Site::Top { LEAST_AT_TOP } else { LEAST_AT_JOINTS }
+    }
+
+    /// Which of its numbers is an exponent of velocity.
+    fn exponent_of_velocity(&self) -> Option<usize> {
+        self.shape.powers(self.numbers)[1].and_then(|power| power.number)
     }
 
     /// Least and largest of a number of its shape.
     pub fn bounds(&self, number: usize) -> [f64; 2] {
         let grid = self.shape.numbers()[number].grid;
-        let velocity = self.shape.powers(self.numbers)[1].and_then(|power| power.number);
-        let least = if self.site != Site::Top && velocity == Some(number) { LEAST_AT_JOINTS } else { 0.0 };
+        let is_of_velocity = self.exponent_of_velocity() == Some(number);
+        let least = if is_of_velocity { self.least_of_velocity() } else { 0.0 };
         [grid[0].max(least), grid[grid.len() - 1]]
     }
 
@@ -63,11 +74,13 @@ impl Atom {
         }
     }
 
-    /// Numbers that are fitted, by their place in [`Atom::numbers`].
+    /// Numbers that are fitted, by their place in [`Atom::numbers`]. A power 0 of velocity is friction and stays so.
     pub fn free(&self) -> impl Iterator<Item = usize> + use<> {
         let atom = *self;
-        let free = move |i: &usize| !(atom.is_exact && atom.meaning(*i) == Meaning::Exponent);
-        (0..self.shape.numbers().len()).filter(free)
+        let is_friction = |i: usize| atom.exponent_of_velocity() == Some(i) && atom.numbers[i] == 0.0;
+        let is_exact = |i: usize| atom.is_exact && atom.meaning(i) == Meaning::Exponent;
+        let free = (0..self.shape.numbers().len()).filter(|&i| !is_exact(i) && !is_friction(i));
+        free.collect::<Vec<_>>().into_iter()
     }
 
     /// Force or moment on the wall at a displacement and a velocity.
