@@ -80,9 +80,10 @@ pub struct ByLikelihood {
     pub values: Vec<f64>,
     /// 95 % intervals from the curvature and from how far single tests pull; all of its bounds for a number without a trace.
     pub interval_95: Vec<[f64; 2]>,
-    /// How many windows tell each number. Of few, one that errs is not found out: the fewer, the wider an interval is.
+    /// How many windows tell each number; null where what was known before tells it alone. Of few, one that errs is not
+    /// found out: the fewer, the wider an interval is.
     #[serde(default)]
-    pub told_by: Vec<f64>,
+    pub told_by: Vec<Option<f64>>,
     /// Correlations; null where a number leaves no trace.
     pub correlation: Vec<Vec<Option<f64>>>,
 }
@@ -192,7 +193,8 @@ impl Fitted {
     fn with_intervals_of(self, other: Self) -> ByLikelihood {
         let ends = |([low, high], value): ([f64; 2], &f64)| [low.min(*value), high.max(*value)];
         let interval_95 = other.found.interval_95.into_iter().zip(&self.found.values).map(ends).collect();
-        ByLikelihood { interval_95, correlation: other.found.correlation, ..self.found }
+        let ByLikelihood { told_by, correlation, .. } = other.found;
+        ByLikelihood { interval_95, told_by, correlation, ..self.found }
     }
 
     /// Whether values agree with those of another fit, within what that allows.
@@ -365,10 +367,15 @@ impl Likelihood<'_> {
             followed,
             values: tried.fit.values.clone(),
             interval_95: tried.fit.values.iter().enumerate().map(interval).collect(),
-            told_by: spread.told_by.clone(),
+            told_by: spread.told_by.iter().copied().map(windows_beside_the_prior).collect(),
             correlation: correlation(&spread.covariance),
         }
     }
+}
+
+/// A count of windows; `None` of a number that what was known before tells alone, which is no number in JSON.
+fn windows_beside_the_prior(told_by: f64) -> Option<f64> {
+    Some(told_by).filter(|count| count.is_finite())
 }
 
 /// The fits of lowest cost, best first.
@@ -376,4 +383,15 @@ fn lowest(mut fits: Vec<Fit>, count: usize) -> Vec<Fit> {
     fits.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     fits.truncate(count);
     fits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regress_a_number_that_the_prior_alone_tells_has_no_count_of_windows() {
+        // JSON has no infinity: a calibration with one could not be read again.
+        assert_eq!([2.5, f64::INFINITY].map(windows_beside_the_prior), [Some(2.5), None]);
+    }
 }

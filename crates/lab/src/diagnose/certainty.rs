@@ -70,7 +70,7 @@ pub struct Spread {
     /// Covariance over tests: how far single tests pull.
     pub scatter: DMatrix<f64>,
     /// How many windows tell each number: (Σ v)²/Σ v² of the shares v that they have in its variance. What was known before
-    /// counts as one that errs with none.
+    /// counts as one that errs with none: infinite where it tells a number alone.
     pub told_by: Vec<f64>,
 }
 
