@@ -6,7 +6,7 @@ use mrbd_kernel::model::{
     RoundedEdges, State, TrilinearJoint, Wall, WallParameters,
 };
 use mrbd_kernel::simulate::{
-    Accuracy, History, Response, Shaking, Simulator, Start, simulate, simulate_observed,
+    Accuracy, History, Response, Shaking, Simulator, Start, simulate, simulate_observed, simulate_sequence,
 };
 
 const TIGHT: Accuracy = Accuracy { tolerance: 1e-10 };
@@ -199,6 +199,8 @@ fn analytic_what_crushing_loses_is_what_the_toe_does_not_give_back() {
     };
     let (out_j, back_j) = (over(&|phi| bed.moment_n_m(phi)), over(&|phi| crushed.moment_n_m(phi)));
     let lost_j = over(&|phi| bed.lost_n_m(phi));
+    assert!((bed.lost_j(0.02_f64.sin()) / lost_j - 1.0).abs() < 1e-7);
+    assert_eq!(crushed.lost_j(0.019), 0.0);
     // Back at 0 it leans towards what is left, and has sunk: that is kept beside what is lost.
     let kept_j = crushed.load_n * crushed.rise_m(0.0) + crushed.stored_j(0.0);
     assert!(
@@ -307,14 +309,11 @@ fn analytic_crushing_is_remembered_and_lost_once() {
     let quarter = simulator.run_from(&kicked(0.12, [[0.0; 2]; 2]), 0.6, &mut ());
     let largest = quarter.theta_max_rad[0].value;
     let bed = crushing();
-    let pieces = 200_000;
-    let sine = largest.sin();
-    let at = |i: i32| sine * (f64::from(i) + 0.5) / f64::from(pieces);
-    let lost_j = (0..pieces).map(|i| bed.lost_n_m(at(i))).sum::<f64>() * sine / f64::from(pieces);
+    let lost_j = bed.lost_j(largest.sin());
     assert!(largest > 0.01 && lost_j > 0.1, "{largest} {lost_j}");
-    // The rule of midpoints over 200 000 pieces beside a kink, and the run's tolerance.
+    // The run's tolerance over the whole of it.
     assert!(
-        (quarter.energy.effect_loss_j / lost_j - 1.0).abs() < 1e-6,
+        (quarter.energy.effect_loss_j / lost_j - 1.0).abs() < 1e-8,
         "{} {lost_j}",
         quarter.energy.effect_loss_j
     );
@@ -332,6 +331,29 @@ fn analytic_crushing_is_remembered_and_lost_once() {
     assert!(
         further.left.crushed_rad[0][0] > largest && whole.energy.effect_loss_j > further.energy.effect_loss_j
     );
+}
+
+#[test]
+fn analytic_a_record_finds_what_the_one_before_has_crushed() {
+    let parts = [1.6, 1.6].map(|amplitude: f64| {
+        let samples = (0..150).map(|k| amplitude * (0.09 * f64::from(k)).sin()).collect();
+        let horizontal = Some(Accelerogram::new(0.01, samples).expect("a record"));
+        Shaking { horizontal, vertical: None, tail_s: 3.0 }
+    });
+    let bedded = wall(table_wall(vec![crushing_at("both", 1e-3)], [0.0; 2]));
+    let runs = simulate_sequence(&bedded, &parts, TIGHT);
+    let [first, second] = [0, 1].map(|i: usize| runs[i].clone().expect("it stands"));
+    assert!(first.energy.effect_loss_j > 0.0 && first.left.crushed_rad[0][0] > 0.0);
+    // Nothing is uncrushed, and the second moves otherwise than the first.
+    for (before, after) in
+        first.left.crushed_rad.iter().flatten().zip(second.left.crushed_rad.iter().flatten())
+    {
+        assert!(after >= before, "{first:?} {second:?}");
+    }
+    assert_ne!(first.theta_max_rad, second.theta_max_rad);
+    let begun = Start { time_s: 0.0, ..first.left };
+    let simulator = Simulator::new(&bedded, &parts[1], TIGHT);
+    assert_eq!(simulator.run_from(&begun, simulator.end_s(), &mut ()), second);
 }
 
 #[test]

@@ -149,6 +149,19 @@ impl CrushingJoint {
         self.rise(phi).lost_n_m
     }
 
+    /// Energy lost by turning the joint to a rotation (rad) further than ever before, J: the sum of N φ dℓ from there.
+    pub fn lost_j(&self, phi: f64) -> f64 {
+        let crushed_rad = self.crushed_rad[place_of(Pivot::of_angle(phi))];
+        let (phi, yields) = (phi.abs(), self.yield_sine());
+        let up_to = |phi: f64| {
+            let q = (yields / phi).min(1.0);
+            // ∫ (sqrt q - q²)/3 dφ from φ_s, q = φ_s/φ.
+            (2.0 / 3.0 * phi * q.sqrt() + phi * q * q / 3.0 - yields).max(0.0)
+        };
+        let before = crushed_rad.min(FRAC_PI_2).sin().max(yields);
+        if phi <= before { 0.0 } else { self.load_n * self.block_m() * (up_to(phi) - up_to(before)) }
+    }
+
     fn rest_j(&self) -> f64 {
         self.load_n * self.load_n / (2.0 * self.spring_pa() * self.width_m)
     }

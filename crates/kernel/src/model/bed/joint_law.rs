@@ -35,6 +35,25 @@ impl JointLaw {
         }
     }
 
+    /// Work of that moment from 0 to the rotation, J.
+    pub fn work_j(&self, phi: f64) -> f64 {
+        match self {
+            Self::Bed(bed) => {
+                // ∫ N (b/2 - c/3) dφ with c ∝ φ^(-1/2).
+                let at = |phi: f64| bed.load_n * (bed.width_m / 2.0 - 2.0 / 3.0 * bed.contact_m(phi)) * phi;
+                let (phi, closed) = (phi.abs(), phi.abs().min(bed.full_contact_rad()));
+                let full_j = 0.5 * bed.rotational_stiffness_n_m() * closed * closed;
+                if phi > closed { full_j + at(phi) - at(closed) } else { full_j }
+            }
+            Self::Trilinear(lines) => lines.load_n * lines.rise_m(phi),
+            Self::Crushing(bed) => {
+                let beside_rest = |phi: f64| bed.load_n * bed.rise_m(phi) + bed.stored_j(phi);
+                beside_rest(phi) - beside_rest(0.0) + bed.lost_j(phi)
+            }
+            Self::Rounded(edges) => edges.work_j(phi),
+        }
+    }
+
     /// Rotation up to which the joint is in whole contact, rad: on its first line, of rounded edges closed.
     pub fn full_contact_rad(&self) -> f64 {
         match self {

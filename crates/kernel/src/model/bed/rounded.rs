@@ -48,6 +48,14 @@ impl RoundedEdges {
         self.load_n * lever_m * phi.signum()
     }
 
+    /// Work of the moment from 0 to a rotation in rad, J.
+    pub fn work_j(&self, phi: f64) -> f64 {
+        let phi = phi.abs();
+        let on_arc = self.end_rad().map_or(phi, |end| phi.min(end));
+        let arc_m = self.flat_m() / 2.0 * on_arc + 2.0 * self.radius_m * (on_arc / 2.0).sin().powi(2);
+        self.load_n * (arc_m + self.width_m / 2.0 * (phi - on_arc))
+    }
+
     /// How far the middle of the joint is lifted at a rotation in rad, m.
     pub fn rise_m(&self, phi: f64) -> f64 {
         let rolling = RollingArc::new(self);
