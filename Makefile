@@ -18,7 +18,7 @@ include make/python.mk
 include make/slurm.mk
 
 .DEFAULT_GOAL := help
-.PHONY: help sweep beds suites measures variance variance-beds million monte-carlo fragility measured assess-table check readme test stranger test-browser bench blind blind-calibrations lint docs clean
+.PHONY: help sweep beds suites measures variance variance-beds million monte-carlo fragility measured measured-rivals assess-table check readme test stranger test-browser bench blind blind-calibrations lint docs clean
 
 help: ## this list
 	@grep -hE '^[a-z0-9-]+:.*## ' $(MAKEFILE_LIST) | awk -F ':.*## ' '{printf "make %-14s %s\n", $$1, $$2}'
@@ -44,6 +44,11 @@ measured: ## a wall that was measured: joints that give fitted, and what its rel
 	cargo run --release --locked --quiet --bin mrbd -- diagnose inputs/measured/griffith_2004/diagnose_a.toml --out outputs/measured_diagnose_a
 	cargo run --release --locked --quiet --bin mrbd -- diagnose inputs/measured/griffith_2004/diagnose_b.toml --out outputs/measured_diagnose_b
 	cargo run --release --locked --quiet --bin mrbd -- report outputs/measured_a
+
+measured-rivals: ## the same with three lines, a bed that crushes and worn edges in the place of a bed
+	@for law in lines crushing worn; do for fit in a b; do \
+		cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/rivals/$${law}_$$fit.toml \
+			--out outputs/measured_$${law}_$$fit --resume || exit 1; done; done
 
 assess-table: ## the survey's façades by the code's check and by their own dynamics: table and picture
 	cargo run --release --locked --bin mrbd -- assess-survey inputs/survey.toml --coefficients inputs/coefficients.toml \
