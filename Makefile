@@ -36,11 +36,13 @@ fragility: ## run drawn façades under scaled records, fit θ/α > 0.1, θ/α > 
 	cargo run --release --locked --quiet --bin mrbd -- fragility outputs/fragility --threshold 0.1 --threshold 0.5 \
 		--out outputs/fragility/curves.csv --nrml outputs/fragility/fragility.xml --imt PGV
 
-measured: ## joints that give fitted to a wall that was measured, judged on a release held out, both ways round
+measured: ## a wall that was measured: joints that give fitted, and what its releases say of what is missing, each judged on the other
 	cargo run --release --locked --bin mrbd -- calibrate inputs/measured/griffith_2004/experiment_a.toml --out outputs/measured_a --resume
 	cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/experiment_b.toml --out outputs/measured_b --resume
 	cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/after_a.toml --out outputs/measured_after_a --resume
 	cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/after_b.toml --out outputs/measured_after_b --resume
+	cargo run --release --locked --quiet --bin mrbd -- diagnose inputs/measured/griffith_2004/diagnose_a.toml --out outputs/measured_diagnose_a
+	cargo run --release --locked --quiet --bin mrbd -- diagnose inputs/measured/griffith_2004/diagnose_b.toml --out outputs/measured_diagnose_b
 	cargo run --release --locked --quiet --bin mrbd -- report outputs/measured_a
 
 measured-rivals: ## the same with three lines, a bed that crushes and worn edges in the place of a bed

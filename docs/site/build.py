@@ -18,7 +18,7 @@ ROOT = SITE.parents[1]
 NOTEBOOKS = ["first_wall", "facade_class", "laboratory", "figures_12_and_16", "million_walls", "dask_workers"]
 THEORY = ["model", "typical-values", "measured-walls", "how-sure", "sequences"]
 FILES = ["files", "columns"]
-GUIDE = ["python", "commands", "calibration", "diagnosis", "assessment"]
+GUIDE = ["laboratory", "python", "commands", "calibration", "diagnosis", "assessment"]
 # Smaller than for people: the site is made whenever anything changes.
 SMALLER = {"MRBD_FACADES": "100", "MRBD_WALLS": "20000"}
 WALL = "inputs/walls/table_wall.toml"

@@ -9,7 +9,10 @@ use tempfile::TempDir;
 use crate::calibrate_support::{TRUE, Twin};
 
 /// An experiment of one test whose measured file a function has rewritten, line by line (header and time given).
-fn rewritten(lines: &str, rewrite: impl Fn(usize, f64, [f64; 2]) -> Option<String>) -> (TempDir, Experiment) {
+pub fn rewritten(
+    lines: &str,
+    rewrite: impl Fn(usize, f64, [f64; 2]) -> Option<String>,
+) -> (TempDir, Experiment) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let twin = Twin { scales: vec![0.7], test_lines: lines.into(), ..Twin::of(ImpactLaw::Contact) };
     let path = twin.write(folder.path());
@@ -25,12 +28,12 @@ fn rewritten(lines: &str, rewrite: impl Fn(usize, f64, [f64; 2]) -> Option<Strin
     (folder, experiment)
 }
 
-fn wme_of_truth(experiment: &Experiment) -> f64 {
+pub fn wme_of_truth(experiment: &Experiment) -> f64 {
     let run = simulate(&experiment.space, &experiment.tests[0], &TRUE, experiment.accuracy());
     run.expect("a possible wall").wme.expect("a finished run")
 }
 
-const HEADER: &str = "time_s,theta1_rad,theta2_rad";
+pub const HEADER: &str = "time_s,theta1_rad,theta2_rad";
 
 #[test]
 fn analytic_other_start_times_offsets_rates_and_gaps_leave_no_misfit() {

@@ -6,8 +6,8 @@ use mrbd_lab::diagnose::force::{
     Against, ForcePoint, acts_at_top, explained_by, force_points, jumps, median_share_off_top,
 };
 use mrbd_lab::diagnose::hypothesis::Physics;
-use mrbd_lab::experiment::TestData;
 use mrbd_lab::experiment::file::Purpose;
+use mrbd_lab::experiment::{Manner, TestData};
 use rand_distr::{Distribution, Normal};
 
 use crate::diagnose_twin::record;
@@ -38,6 +38,7 @@ fn measured(wall: &Wall) -> Vec<TestData> {
             read_gain: [1.0; 2],
             step_s: STEP_S,
             gap_s: 2.5 * STEP_S,
+            manner: Manner::default(),
         }
     };
     (0..3).map(one).collect()

@@ -29,6 +29,11 @@ fn regress_the_commands_of_the_calibration_run_as_they_stand() {
 }
 
 #[test]
+fn regress_the_commands_of_the_laboratory_run_as_they_stand() {
+    run_as_they_stand("docs/laboratory.md", 4);
+}
+
+#[test]
 fn regress_the_commands_of_the_assessment_run_as_they_stand() {
     run_as_they_stand("docs/assessment.md", 3);
 }

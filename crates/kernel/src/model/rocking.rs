@@ -287,7 +287,7 @@ impl RockingWall {
     }
 
     /// The contact state of a wall with these rotations, joints on beds by the width of their contact.
-    pub(crate) fn with_beds_as_at(&self, mut contact: Contact, theta: Pair) -> Contact {
+    pub fn with_beds_as_at(&self, mut contact: Contact, theta: Pair) -> Contact {
         for joint in self.joints() {
             if let Some(bed) = self.bed(joint) {
                 contact = contact.with(joint, bed.pivot(opening(joint, theta)));

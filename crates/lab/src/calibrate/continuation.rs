@@ -298,6 +298,7 @@ mod tests {
             theta_rad: [Some(theta(0)), Some(theta(1))],
             gap_s: 0.01,
             collapse_s: None,
+            stated_noise_rad: [None; 2],
         };
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../inputs/walls/table_wall.toml");
         let wall = load_wall(path.as_ref()).expect("the table wall");

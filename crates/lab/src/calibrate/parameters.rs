@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use toml::{Table, Value};
 
 use super::search::Bounds;
+use crate::diagnose::experiment::SENSOR_GAIN;
 use crate::diagnose::hypothesis::Walls;
 use crate::experiment::file::{CalibrateTable, ExperimentFile, ParameterTable};
 use mrbd_files::coefficients::CoefficientSets;
@@ -308,7 +309,8 @@ impl Resolver<'_> {
 
     fn check_prior_keys(&self) -> Result<(), InputError> {
         for key in self.experiment.prior.keys() {
-            let known = key == "corner_widths" || key == "restitution" || self.resolve(key).is_some();
+            let by_name = ["corner_widths", "restitution", SENSOR_GAIN].contains(&key.as_str());
+            let known = by_name || self.resolve(key).is_some();
             // Absent from the file but with a default, such as an eccentricity of zero, is known exactly.
             if !known {
                 let allowed = "a number that stands in the wall file, restitution or corner_widths";

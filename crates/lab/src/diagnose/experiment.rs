@@ -9,7 +9,7 @@ use super::hypothesis::{ACTING, Hypothesis, Nuisance, Scales, WALL_NUMBERS, wall
 use super::trials::{Data, untouched};
 use crate::experiment::file::{ExperimentFile, HypothesisTable, TestTable};
 use crate::experiment::test_data::check_radians;
-use crate::experiment::{Purpose, Test, TestData, load_tests, moves_unevenly, rest_offset_rad, windows};
+use crate::experiment::{Purpose, Test, TestData, load_tests, rest_offset_rad, windows};
 use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER, TOO_LARGE_RAD};
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::{FileNote, load_wall, toml_file};
@@ -63,7 +63,8 @@ impl Experiment {
             TestData::new(test, &folder.join(&table.measured), table, &wall)
         };
         let tests = whole.iter().zip(&file.tests).map(data).collect::<Result<Vec<_>, _>>()?;
-        let scales = Scales::of(&wall, &tests);
+        let known = file.prior.get(SENSOR_GAIN).copied();
+        let scales = Scales { sensor_gain_sd: known, ..Scales::of(&wall, &tests) };
         let note = |(role, file): (String, PathBuf)| FileNote::of(&role, &file);
         let read = file.files(path).into_iter().filter(|(role, _)| role != "coefficients");
         let inputs = read.map(note).collect::<Result<_>>()?;
@@ -106,14 +107,21 @@ fn nuisances(path: &Path, file: &ExperimentFile, wall: &WallParameters) -> Resul
     for (key, &sd) in &file.prior {
         let number = |key: &str| wall_number(key).map(|n| Nuisance::Number(n, sd));
         match key.as_str() {
-            "restitution" => found.extend((0..ACTING).map(|l| Nuisance::Coefficient(l, sd))),
+            SENSOR_GAIN => {}
+            // A coefficient with a prior of its own keeps that.
+            "restitution" => {
+                let own = |l: &usize| file.prior.contains_key(&format!("C_{}", l + 1));
+                found.extend((0..ACTING).filter(|l| !own(l)).map(|l| Nuisance::Coefficient(l, sd)));
+            }
+            key if acting(key).is_some() => found.extend(acting(key).map(|l| Nuisance::Coefficient(l, sd))),
             "corner_widths" => {
                 found.extend(["lower_width_m", "upper_width_m"].iter().filter_map(|k| number(k)))
             }
             key => found.push(number(key).ok_or_else(|| {
                 let known = WALL_NUMBERS.iter().map(|n| n.key).collect::<Vec<_>>().join(", ");
-                let allowed =
-                    format!("restitution, corner_widths, {known}, with or without the table's name");
+                let allowed = format!(
+                    "restitution, C_1 to C_{ACTING}, corner_widths, {SENSOR_GAIN}, {known}, with or without the table's name"
+                );
                 InputError::key(
                     path,
                     format!("prior.{key}"),
@@ -130,6 +138,15 @@ fn nuisances(path: &Path, file: &ExperimentFile, wall: &WallParameters) -> Resul
         }
     }
     Ok(found)
+}
+
+/// Prior of what the sensors read of a rotation of one: no number of the wall.
+pub const SENSOR_GAIN: &str = "sensor_gain";
+
+/// The place of a coefficient `C_1`, `C_2` ... that acts under the law `contact`.
+fn acting(key: &str) -> Option<usize> {
+    let l = key.strip_prefix("C_")?.parse::<usize>().ok()?;
+    l.checked_sub(1).filter(|l| *l < ACTING)
 }
 
 type Misreading = (&'static str, fn(&mut TestData));
@@ -191,20 +208,15 @@ impl Errors {
     }
 }
 
-/// Refuses tests whose files are wrong in a way that shows: swapped channels, wrong signs, small rotations in degrees; and
-/// motion that is sampled so unevenly that no state can be read from it.
+/// Refuses tests whose files are wrong in a way that shows: swapped channels, wrong signs, small rotations in degrees.
 ///
 /// # Errors
 /// Input errors that name the test and what seems wrong with it.
 pub fn check_data(experiment: &Experiment) -> Result<()> {
     let Experiment { path, wall, scales, tests, .. } = experiment;
-    if let Some(number) = tests.iter().position(moves_unevenly) {
-        let found =
-            format!("test {:?}: the wall moves, and its samples are unevenly spaced", tests[number].name);
-        let allowed = "evenly spaced samples, as the channels were recorded; mrbd calibrate takes others too";
-        return Err(InputError::key(path, format!("tests[{number}].measured"), found, allowed).into());
-    }
-    check(&Readings { path, wall, scales, tests: &tests.iter().enumerate().collect::<Vec<_>>() })
+    // Of a held strip one channel is measured: there is none to swap.
+    let both = tests.iter().enumerate().filter(|(_, test)| !test.manner.top_held);
+    check(&Readings { path, wall, scales, tests: &both.collect::<Vec<_>>() })
 }
 
 /// The same for the tests of a calibration, with the wall as it is before.

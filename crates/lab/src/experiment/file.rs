@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::channel_table::{ChannelTable, check_channels};
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::toml_file;
 use mrbd_formula::Formula;
@@ -24,6 +25,9 @@ pub struct ExperimentFile {
     /// How to calibrate.
     #[serde(default)]
     pub calibrate: CalibrateTable,
+    /// Transducers of every test that has no `channels` of its own.
+    #[serde(default)]
+    pub channels: Vec<ChannelTable>,
     /// The tests.
     pub tests: Vec<TestTable>,
     /// Laws of the user's own that a diagnosis tries beside the catalogue.
@@ -173,6 +177,8 @@ pub struct TestTable {
     pub lower_reading: Option<Reading>,
     /// Reading of a displacement of the upper body, from which θ_2 follows.
     pub upper_reading: Option<Reading>,
+    /// Its transducers; absent: those of the experiment.
+    pub channels: Option<Vec<ChannelTable>>,
 }
 
 /// When a measurement started.
@@ -253,9 +259,24 @@ impl ExperimentFile {
     /// # Errors
     /// As [`ExperimentFile::load`].
     pub fn parse(path: &Path, text: &str) -> Result<Self> {
-        let file: Self = toml_file::parse(path, text)?;
+        let mut file: Self = toml_file::parse(path, text)?;
+        file.share_channels();
         file.check(path)?;
         Ok(file)
+    }
+
+    /// Gives the experiment's channels to every test without its own, and tells each where it stands.
+    fn share_channels(&mut self) {
+        let name = |channels: &mut [ChannelTable], table: &str| {
+            channels.iter_mut().enumerate().for_each(|(i, channel)| channel.key = format!("{table}[{i}]"));
+        };
+        name(&mut self.channels, "channels");
+        for (k, test) in self.tests.iter_mut().enumerate() {
+            match &mut test.channels {
+                Some(own) => name(own, &format!("tests[{k}].channels")),
+                None => test.channels = Some(self.channels.clone()),
+            }
+        }
     }
 
     /// Every file that an experiment file at `path` reads, itself the first, each with its role.
@@ -342,6 +363,19 @@ impl CalibrateTable {
 }
 
 impl TestTable {
+    /// Its transducers.
+    pub fn channels(&self) -> &[ChannelTable] {
+        self.channels.as_deref().unwrap_or_default()
+    }
+
+    /// Time of the record at which the measured time is zero, s; 0 where it is to be found.
+    pub fn given_start_s(&self) -> f64 {
+        match self.start_s {
+            StartTime::Given(start_s) => start_s,
+            StartTime::Match => 0.0,
+        }
+    }
+
     fn check(&self, path: &Path, index: usize) -> Result<(), InputError> {
         let require = |key: &str, found: String, holds: bool, allowed: &str| {
             let error = || InputError::key(path, format!("tests[{index}].{key}"), found, allowed);
@@ -399,6 +433,7 @@ impl TestTable {
             format!("{:?}", self.windows_s),
             ordered,
             "stretches in order that do not overlap",
-        )
+        )?;
+        check_channels(path, self)
     }
 }

@@ -5,8 +5,10 @@
 //! the displacement of its pivot and (y - h_1) sin θ_2 + s_2 b_2/2 (1 - cos θ_2). All are relative to the ground (model
 //! section 3).
 
+use super::channels::{Source, Told};
 use super::file::{Reading, TestTable};
 use mrbd_files::error::{InputError, Result};
+use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Pair, Wall, WallParameters};
 use mrbd_statistics::median;
 use std::path::Path;
@@ -27,16 +29,19 @@ pub struct Measured {
     pub gap_s: f64,
     /// When the wall collapsed, s.
     pub collapse_s: Option<f64>,
+    /// Standard deviations of the errors of θ_1 and θ_2 that follow from those stated of channels, rad; `None`: to be
+    /// read from the samples.
+    pub stated_noise_rad: [Option<f64>; 2],
 }
 
 /// The columns of a measured file, as numbers; NaN where a cell is empty.
-struct Columns {
-    names: Vec<String>,
+pub(super) struct Columns {
+    pub(super) names: Vec<String>,
     values: Vec<Vec<f64>>,
 }
 
 impl Columns {
-    fn get(&self, name: &str) -> Option<&[f64]> {
+    pub(super) fn get(&self, name: &str) -> Option<&[f64]> {
         let index = self.names.iter().position(|n| n == name)?;
         Some(&self.values[index])
     }
@@ -46,26 +51,31 @@ impl Measured {
     /// Reads the measured file of a test, in its own time.
     ///
     /// Columns: `time_s`, and for each body its rotation (`theta1_rad`, `theta2_rad`) or the reading the test names
-    /// (`crack_displacement_m` serves as one for θ_1 by itself, `top_displacement_m` for θ_2). Empty cells and `nan` are missing samples.
+    /// (`crack_displacement_m` serves as one for θ_1 by itself, `top_displacement_m` for θ_2); or the channels of the
+    /// test, absolute ones less the path of `record`. Empty cells and `nan` are missing samples.
     ///
     /// # Errors
     /// Input errors with file and line: not a table of numbers, times that do not increase, no channel at all.
-    pub fn load(path: &Path, test: &TestTable, wall: &Wall) -> Result<Self> {
+    pub fn load(path: &Path, test: &TestTable, wall: &Wall, record: Option<&Accelerogram>) -> Result<Self> {
         let columns = read_columns(path)?;
         let time_s = times(path, &columns)?;
         let step_s = median_step(&time_s)
             .ok_or_else(|| InputError::file(path, format!("{} sample(s)", time_s.len()), "2 or more"))?;
         let gap_s = test.gap_s.unwrap_or(GAP_IN_STEPS * step_s);
         let channels = Channels { path, columns: &columns, test, wall, time_s: &time_s };
-        let theta_rad = channels.rotations()?;
+        let source = Source { path, columns: &columns, test, wall, time_s: &time_s, gap_s, record };
+        let Told { theta_rad, stated_noise_rad } = match test.channels() {
+            [] => Told { theta_rad: channels.rotations()?, stated_noise_rad: [None; 2] },
+            _ => source.rotations()?,
+        };
         channels.check_names(&theta_rad)?;
         if theta_rad.iter().all(Option::is_none) {
             let allowed = "theta1_rad, theta2_rad, crack_displacement_m, top_displacement_m, \
-                           or displacements with lower_reading and upper_reading";
+                           or displacements that [[channels]] or lower_reading and upper_reading name";
             let found = format!("columns {}, in none of them a measured rotation", columns.names.join(", "));
             return Err(InputError::line(path, 1, found, allowed).into());
         }
-        Ok(Self { time_s, theta_rad, gap_s, collapse_s: None, columns: columns.names })
+        Ok(Self { time_s, theta_rad, gap_s, collapse_s: None, stated_noise_rad, columns: columns.names })
     }
 
     /// The same in the record's time, of which `start_s` is the measurement's zero. The collapse is the one given, in
@@ -228,12 +238,17 @@ impl Channels<'_> {
     /// A column without its mean over the first seconds at rest.
     fn column(&self, name: &str) -> Option<Vec<f64>> {
         let values = self.columns.get(name)?;
-        let until = self.time_s[0] + self.test.rest_s;
-        let at_rest = || self.time_s.iter().zip(values).filter(|(t, v)| **t < until && v.is_finite());
-        let count = at_rest().count();
-        let offset = if count == 0 { 0.0 } else { at_rest().map(|(_, v)| v).sum::<f64>() / count as f64 };
+        let offset = rest_mean(self.time_s, values, self.test.rest_s);
         Some(values.iter().map(|v| v - offset).collect())
     }
+}
+
+/// Mean of values over the first seconds at rest; 0 where there are none.
+pub(super) fn rest_mean(time_s: &[f64], values: &[f64], rest_s: f64) -> f64 {
+    let until = time_s[0] + rest_s;
+    let at_rest = || time_s.iter().zip(values).filter(|(t, v)| **t < until && v.is_finite());
+    let count = at_rest().count();
+    if count == 0 { 0.0 } else { at_rest().map(|(_, v)| v).sum::<f64>() / count as f64 }
 }
 
 /// When a measured rotation first passes the collapse rotation of its body.

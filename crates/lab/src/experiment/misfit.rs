@@ -10,8 +10,8 @@
 //! - A free-running impact system is nearly chaotic: over long records WME is a rough function of the coefficients,
 //!   with many local minima. Windows that end after some impacts, or begin anew from the measured motion, make it smooth.
 
+use super::local::channel_noise_rad;
 use super::measured::Measured;
-use super::noise::noise_rad;
 use super::rotations::Sink;
 use mrbd_kernel::model::{Contact, Pair, Reading, Wall};
 
@@ -64,7 +64,7 @@ impl Target {
         };
         let samples = kept.into_iter().map(sample).collect::<Vec<_>>();
         let (time_s, theta_rad) = measured.counted(windows_s);
-        let noise_rad = noise_rad(&time_s, &theta_rad, measured.gap_s).map(|noise| noise.unwrap_or(0.0));
+        let noise_rad = channel_noise_rad(measured, &time_s, &theta_rad).map(|noise| noise.unwrap_or(0.0));
         let floor_share_rad = wall.alpha_i_rad().map(|alpha| REST_SHARE * alpha);
         Some(Self::of_samples(samples, floor_share_rad, noise_rad, measured.gap_s))
     }

@@ -3,18 +3,23 @@
 //! | module | idea |
 //! | --- | --- |
 //! | [`mod@file`] | the experiment file: wall, what was known of it, tests |
+//! | [`channel_table`], `channels` | transducers at heights, and the rotations that they tell |
 //! | [`measured`] | measured rotations as laboratories have them |
 //! | [`alignment`] | clocks of record and measurement brought together |
 //! | [`mod@test`] | one test: how the wall was shaken, what was measured, and a simulation held against it |
 //! | [`misfit`] | the weighted mean error over a whole run: the paper's Eq. 8 |
 //! | [`rotations`] | rotations of a run at the times of a measurement |
 //! | [`noise`] | white noise of a channel, and its offset at rest |
+//! | `local` | a channel about a time, however it was sampled |
 //! | [`pattern`] | contact patterns beyond doubt, and what is free in them |
 //! | [`test_data`], [`mod@windows`] | a test with noise and offsets, cut into the short windows of a diagnosis |
 //! | `segments` | a test that starts anew from the measured motion, for a search by Eq. 8 |
 
 pub mod alignment;
+pub mod channel_table;
+mod channels;
 pub mod file;
+mod local;
 pub mod measured;
 pub mod misfit;
 pub mod noise;
@@ -30,8 +35,8 @@ pub use file::{ExperimentFile, Purpose};
 pub use measured::Measured;
 pub use misfit::Target;
 pub use noise::rest_offset_rad;
-pub use pattern::{Freedom, measured_state};
+pub use pattern::{Freedom, held_state, measured_state};
 pub use rotations::Sampled;
 pub use test::{Simulated, Test, load_tests};
-pub use test_data::TestData;
-pub use windows::{Window, is_readable, moves_unevenly, windows};
+pub use test_data::{Manner, TestData};
+pub use windows::{Window, is_readable, windows};

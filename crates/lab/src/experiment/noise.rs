@@ -1,6 +1,7 @@
 //! What a channel reads beside the motion, from the channel alone: white noise, and an offset at rest.
 
-use crate::limits::{OFFSET_CLEAR, REST_DRIFT, REST_SCATTER};
+use super::pattern::HALF;
+use crate::limits::{OFFSET_CLEAR, REST_DRIFT, REST_SCATTER, UNEVEN};
 use mrbd_kernel::model::Pair;
 use mrbd_statistics::median;
 
@@ -25,6 +26,47 @@ pub fn noise_rad(time_s: &[f64], theta_rad: &[Pair], gap_s: f64) -> [Option<f64>
         let middle = median(&differences).filter(|middle| *middle > 0.0)?;
         Some(middle / (MEDIAN_OF_NORMAL * FOURTH_DIFFERENCE))
     })
+}
+
+/// Share of the samples that must stand in evenly spaced runs for a test to be read as evenly sampled.
+const MOSTLY: f64 = 0.5;
+/// Samples of a run: as many as a pattern is read from.
+const RUN: usize = 2 * HALF + 1;
+
+/// Whether most samples do not stand in evenly spaced runs: then neither noise nor states are read as if they did.
+pub fn is_uneven(time_s: &[f64], gap_s: f64) -> bool {
+    let joined = |run: &&[f64]| run[RUN - 1] - run[0] <= (RUN - 1) as f64 * gap_s;
+    let runs = time_s.windows(RUN).filter(joined).collect::<Vec<_>>();
+    let is_even = |run: &&&[f64]| {
+        let mean_s = (run[RUN - 1] - run[0]) / (RUN - 1) as f64;
+        run.windows(2).all(|pair| ((pair[1] - pair[0]) / mean_s - 1.0).abs() < UNEVEN)
+    };
+    let even = runs.iter().filter(is_even).count();
+    (even as f64) < MOSTLY * runs.len() as f64
+}
+
+/// Standard deviation of the white noise of a channel, in its unit, however it is sampled; `None` of one with too few
+/// samples or no noise.
+///
+/// From the median of what cubics through four of five neighbours leave at the fifth: divided differences, over the
+/// root of their squared weights. Evenly spaced they are the fourth differences of [`noise_rad`].
+pub fn scatter(time_s: &[f64], values: &[f64], gap_s: f64) -> Option<f64> {
+    let kept = (0..values.len()).filter(|&k| values[k].is_finite()).collect::<Vec<_>>();
+    let of = |some: &[usize]| {
+        let weight = |i: &usize| {
+            let others = some.iter().filter(|j| *j != i);
+            1.0 / others.map(|j| (time_s[*i] - time_s[*j]) / gap_s).product::<f64>()
+        };
+        let weights = some.iter().map(weight);
+        let (sum, squares) = some.iter().zip(weights).fold((0.0, 0.0), |(sum, squares), (i, weight)| {
+            (sum + weight * values[*i], squares + weight * weight)
+        });
+        sum.abs() / squares.sqrt()
+    };
+    let joined = |some: &&[usize]| time_s[some[4]] - time_s[some[0]] <= 4.0 * gap_s;
+    let differences = kept.windows(5).filter(joined).map(of).collect::<Vec<_>>();
+    let middle = median(&differences).filter(|middle| *middle > 0.0)?;
+    Some(middle / MEDIAN_OF_NORMAL)
 }
 
 /// Samples looked at together.
@@ -97,6 +139,28 @@ mod tests {
         assert!(smooth < 1e-7 && (noisy / 2.835e-4 - 1.0).abs() < 0.01, "{smooth} {noisy}");
         let lost = theta.iter().map(|theta| [theta[1], f64::NAN]).collect::<Vec<_>>();
         assert!(matches!(noise_rad(&time, &lost, 0.025), [Some(_), None]));
+    }
+
+    #[test]
+    fn analytic_most_samples_tell_whether_a_test_is_evenly_sampled() {
+        let even = (0..400).map(|k| 0.01 * f64::from(k)).collect::<Vec<_>>();
+        let rounded = (0..400).map(|k| (1e3 * f64::from(k) / 256.0).round() / 1e3).collect::<Vec<_>>();
+        let gaps = (0..400).map(|k| 0.01 * f64::from(k) + 0.5 * f64::from(k / 60)).collect::<Vec<_>>();
+        assert!([even, rounded, gaps].iter().all(|time_s| !is_uneven(time_s, 0.025)));
+        let uneven = (0..400).map(|k| 0.01 * f64::from(k) + 0.004 * f64::from(k % 3)).collect::<Vec<_>>();
+        assert!(is_uneven(&uneven, 0.025));
+    }
+
+    #[test]
+    fn analytic_scatter_does_not_see_a_cubic_however_it_is_sampled() {
+        let time_s = (0..200).map(|k| 0.01 * f64::from(k) + 0.004 * f64::from(k * k % 3)).collect::<Vec<_>>();
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let noise = Normal::new(0.0, 1e-4).expect("a positive standard deviation");
+        let cubic = |t: &f64| 0.3 * t - 0.5 * t * t + 0.2 * t * t * t;
+        let values = time_s.iter().map(|t| cubic(t) + noise.sample(&mut random)).collect::<Vec<_>>();
+        // The median of 200 differences that overlap scatters by some tenth.
+        let found = scatter(&time_s, &values, 0.03).expect("noise");
+        assert!((found / 1e-4 - 1.0).abs() < 0.3, "{found}");
     }
 
     const NOISE_RAD: f64 = 1e-4;

@@ -1,8 +1,9 @@
 //! Which pattern a measured wall is in where that is beyond doubt, and its state there: cubics through the samples around.
 
+use super::local::{About, LEAST, about, around};
 use super::test_data::TestData;
 use crate::limits::{BEYOND_NOISE, OPEN_CLEAR, UNEVEN};
-use mrbd_kernel::model::{Contact, Pair, Pivot, State};
+use mrbd_kernel::model::{Contact, Pair, Pivot, RockingWall, State};
 
 /// Samples to either side of the middle.
 pub const HALF: usize = 8;
@@ -24,6 +25,8 @@ pub enum Freedom {
     Upper,
     /// Both (patterns 1 and 2).
     Both,
+    /// θ_1, of a strip whose top is held: θ_2 follows ([`held_state`]).
+    Held,
 }
 
 impl Freedom {
@@ -31,7 +34,7 @@ impl Freedom {
     pub fn numbers(self) -> usize {
         match self {
             Freedom::Rest => 0,
-            Freedom::Monolithic | Freedom::Upper => 2,
+            Freedom::Monolithic | Freedom::Upper | Freedom::Held => 2,
             Freedom::Both => 4,
         }
     }
@@ -52,17 +55,20 @@ impl Freedom {
             Freedom::Rest => Vec::new(),
             Freedom::Monolithic => [theta, omega].map(|both| 0.5 * (both[0] + both[1])).to_vec(),
             Freedom::Upper => vec![theta[1], omega[1]],
+            Freedom::Held => vec![theta[0], omega[0]],
             Freedom::Both => vec![theta[0], omega[0], theta[1], omega[1]],
         }
     }
 
-    /// The state these numbers make, rad and rad/s, and its contact.
+    /// The state these numbers make, rad and rad/s, and its contact. The upper body of a held strip is only
+    /// given the side it leans to.
     pub fn state(self, x: &[f64]) -> (State, Contact) {
         let (theta, omega, closed) = match self {
             Freedom::Rest => ([0.0; 2], [0.0; 2], [true, true]),
             Freedom::Monolithic => ([x[0]; 2], [x[1]; 2], [false, true]),
             Freedom::Upper => ([0.0, x[0]], [0.0, x[1]], [true, false]),
             Freedom::Both => ([x[0], x[2]], [x[1], x[3]], [false, false]),
+            Freedom::Held => ([x[0], -x[0]], [x[1], -x[1]], [false, false]),
         };
         let pivot = |closed: bool, angle: f64| if closed { Pivot::Closed } else { Pivot::of_angle(angle) };
         let ground = pivot(closed[0], theta[0]);
@@ -78,10 +84,15 @@ pub struct MeasuredState {
     pub freedom: Freedom,
     /// (θ, θ') of the free bodies, rad and rad/s.
     pub numbers: Vec<f64>,
+    /// Changes of these, within what the noise leaves open.
+    pub spread: Vec<f64>,
 }
 
 /// The pattern about a sample; `None` where the samples around it leave doubt or are not all there.
 pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
+    if test.manner.by_time || test.manner.top_held {
+        return state_by_time(test, k);
+    }
     if !stands_among_even(test, k) {
         return None;
     }
@@ -108,11 +119,63 @@ pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     };
     let fits = [lower_fit, upper_fit];
     let numbers = freedom.numbers_of(fits.map(|fit| fit.value), fits.map(|fit| fit.slope / test.step_s));
-    Some(MeasuredState { freedom, numbers })
+    // A cubic through 17 samples knows its value to 0.37 and its slope to 0.125 of the noise a sample: about that for the
+    // value, a fifth of it for the slope, over which the motion is still linear.
+    let largest = noise[0].max(noise[1]);
+    let spread = [0.5 * largest, 0.025 * largest / test.step_s];
+    let spread = spread.iter().copied().cycle().take(freedom.numbers()).collect();
+    Some(MeasuredState { freedom, numbers, spread })
+}
+
+/// Spread of a value, and of a slope, over the standard deviation by which a cubic knows it: as of 17 even samples.
+const SPREAD_SHARE: Pair = [1.35, 0.2];
+
+/// The same from the samples within a time, however they are spaced.
+fn state_by_time(test: &TestData, k: usize) -> Option<MeasuredState> {
+    let channels = if test.manner.top_held { 1 } else { 2 };
+    let read = |j: usize| (test.time_s[j], test.from_rest_rad(j));
+    let near = around(&test.time_s, k, test.gap_s).map(read);
+    let (time_s, theta_rad): (Vec<f64>, Vec<Pair>) =
+        near.filter(|(_, theta)| theta[..channels].iter().all(|t| t.is_finite())).unzip();
+    let of = |read: fn(&Pair) -> f64| theta_rad.iter().map(read).collect::<Vec<_>>();
+    let (lower, upper, crack) = (of(|t| t[0]), of(|t| t[1]), of(|t| t[1] - t[0]));
+    let fit = |values: &[f64]| about(&time_s, values, test.time_s[k]);
+    let noise = test.noise_rad;
+    let lower_fit = fit(&lower)?;
+    let opens =
+        |y: &[f64], own: f64, fit: &About, noise: f64| is_clear_by_time(y, own) && left_by_noise(fit, noise);
+    let lower_open = opens(&lower, noise[0], &lower_fit, noise[0]);
+    if test.manner.top_held {
+        let freedom = match noise_about_zero(&lower, noise[0]) {
+            true => Freedom::Rest,
+            false if lower_open => Freedom::Held,
+            false => return None,
+        };
+        return Some(state_of(freedom, [&lower_fit; 2], [noise[0]; 2]));
+    }
+    let upper_fit = fit(&upper)?;
+    let crack_noise = noise[0].hypot(noise[1]);
+    let crack_open = opens(&crack, crack_noise, &upper_fit, noise[1]);
+    let closed = [noise_about_zero(&lower, noise[0]), noise_about_zero(&crack, crack_noise)];
+    let freedom = match closed {
+        [true, true] if noise_about_zero(&upper, noise[1]) => Freedom::Rest,
+        [true, false] if crack_open => Freedom::Upper,
+        [false, true] if lower_open => Freedom::Monolithic,
+        [false, false] if lower_open && crack_open => Freedom::Both,
+        _ => return None,
+    };
+    Some(state_of(freedom, [&lower_fit, &upper_fit], noise))
+}
+
+fn state_of(freedom: Freedom, fits: [&About; 2], noise: Pair) -> MeasuredState {
+    let numbers = freedom.numbers_of(fits.map(|fit| fit.state[0]), fits.map(|fit| fit.state[1]));
+    let sd = |part: usize| [0, 1].map(|i| SPREAD_SHARE[part] * noise[i] * fits[i].sd[part]);
+    let spread = freedom.numbers_of(sd(0), sd(1));
+    MeasuredState { freedom, numbers, spread }
 }
 
 /// Whether a sample has all its neighbours, evenly spaced.
-pub(super) fn stands_among_even(test: &TestData, k: usize) -> bool {
+fn stands_among_even(test: &TestData, k: usize) -> bool {
     let around = k.checked_sub(HALF).and_then(|from| test.time_s.get(from..from + COUNT));
     around.is_some_and(|time_s| is_even(time_s, test.step_s))
 }
@@ -121,6 +184,47 @@ pub(super) fn stands_among_even(test: &TestData, k: usize) -> bool {
 fn is_even(time_s: &[f64], step_s: f64) -> bool {
     time_s.windows(2).all(|pair| ((pair[1] - pair[0]) / step_s - 1.0).abs() < UNEVEN)
 }
+
+/// As [`is_zero`], of any number of samples.
+fn noise_about_zero(y: &[f64], noise: f64) -> bool {
+    let n = y.len() as f64;
+    let squares = y.iter().map(|v| v * v).sum::<f64>() / (noise * noise);
+    let mean = y.iter().sum::<f64>() / n;
+    y.len() >= LEAST
+        && squares < n + BEYOND_NOISE * (2.0 * n).sqrt()
+        && mean.abs() < BEYOND_NOISE * noise / n.sqrt()
+}
+
+/// As [`is_smooth`].
+fn left_by_noise(fit: &About, noise: f64) -> bool {
+    let n = fit.count as f64;
+    fit.residual / (noise * noise) < n - CUBIC + BEYOND_NOISE * (2.0 * n).sqrt()
+}
+
+/// As [`is_clear`].
+fn is_clear_by_time(y: &[f64], noise: f64) -> bool {
+    let sign = y.iter().sum::<f64>().signum();
+    let n = AVERAGED as f64;
+    y.windows(AVERAGED).all(|some| some.iter().sum::<f64>() / n * sign > OPEN_CLEAR * noise / n.sqrt())
+}
+
+/// The state of a held strip: its upper body leans so that the top stays where it is.
+///
+/// The contact is that of the rotations on the joints of this wall. Newton's method; the top moves by J_x = ∂x_C/∂θ.
+pub fn held_state(wall: &RockingWall, lower: &State) -> State {
+    let (theta1, omega1) = (lower.theta[0], lower.omega[0]);
+    let mut theta = [theta1, lower.theta[1]];
+    let place = |theta: Pair| wall.with_beds_as_at(Contact::of_rotations(theta), theta);
+    for _ in 0..HELD_STEPS {
+        let by_upper = wall.top_arms_m(place(theta), theta)[1];
+        theta[1] -= wall.top_displacement_m(place(theta), theta) / by_upper;
+    }
+    let [by_lower, by_upper] = wall.top_arms_m(place(theta), theta);
+    State { theta, omega: [omega1, -omega1 * by_lower / by_upper] }
+}
+
+/// Steps of Newton's method: from the mirrored rotation the error is squared every time.
+const HELD_STEPS: usize = 6;
 
 /// Noise about zero: neither the sum of squares nor the mean stands out.
 fn is_zero(y: &[f64; COUNT], noise: f64) -> bool {

@@ -65,7 +65,11 @@ pub struct Simulated {
 /// As [`Test::load`].
 pub fn load_tests(path: &Path, file: &ExperimentFile, wall: &Wall, accuracy: Accuracy) -> Result<Vec<Test>> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    file.tests.iter().map(|table| Test::load(folder, table, wall, accuracy)).collect()
+    let load = |table: &TestTable| {
+        table.channels().iter().try_for_each(|channel| channel.check_on_wall(path, table, wall))?;
+        Test::load(folder, table, wall, accuracy)
+    };
+    file.tests.iter().map(load).collect()
 }
 
 impl Test {
@@ -76,7 +80,7 @@ impl Test {
     pub fn load(folder: &Path, table: &TestTable, wall: &Wall, accuracy: Accuracy) -> Result<Self> {
         let shaking = read_shaking(folder, table)?;
         let path = folder.join(&table.measured);
-        let measured = Measured::load(&path, table, wall)?;
+        let measured = Measured::load(&path, table, wall, shaking.horizontal.as_ref())?;
         let (measured, alignment) = aligned(&path, table, measured, wall, &shaking, accuracy)?;
         let release = table.release_s.map(|from_s| released(&path, &measured, from_s)).transpose()?;
         let counts_s = counted_s(table);
@@ -154,6 +158,11 @@ impl Test {
     /// When the wall was released, s, and its state there; `None`: it starts from rest.
     pub fn release(&self) -> Option<(f64, State)> {
         self.release.map(|start| (start.time_s, start.state))
+    }
+
+    /// Where the simulation starts; `None`: at rest.
+    pub(crate) fn start(&self) -> Option<Start> {
+        self.release
     }
 
     /// The same test released from another state, at the same time.

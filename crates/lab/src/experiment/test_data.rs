@@ -3,14 +3,26 @@
 use std::path::Path;
 
 use super::file::{Purpose, TestTable};
+use super::local::{HALF_S, channel_noise_rad};
 use super::measured::median_step;
-use super::noise::{noise_rad, rest_offset_rad};
+use super::noise::{is_uneven, rest_offset_rad};
 use super::test::Test;
 use crate::limits::{LEAST_SAMPLES, TOO_LARGE_RAD};
 use mrbd_files::error::InputError;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Pair, Wall};
-use mrbd_kernel::simulate::Shaking;
+use mrbd_kernel::simulate::{Shaking, Start};
+
+/// How a test was measured, where not as most are: both rotations, evenly sampled, from rest.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Manner {
+    /// Whether samples are unevenly spaced: states are read from those about a time, not from so many of them.
+    pub by_time: bool,
+    /// Whether the top was held sideways: θ_2 follows from θ_1, is not measured, and has no samples.
+    pub top_held: bool,
+    /// The measured state from which the wall moves by itself.
+    pub release: Option<Start>,
+}
 
 /// One test: measured rotations of both bodies and the shaking that caused them.
 #[derive(Debug, Clone)]
@@ -35,6 +47,8 @@ pub struct TestData {
     pub step_s: f64,
     /// Samples farther apart than this are not joined, s.
     pub gap_s: f64,
+    /// How it was measured.
+    pub manner: Manner,
 }
 
 impl TestData {
@@ -49,10 +63,14 @@ impl TestData {
         let measured = &test.measured;
         let [Some(_), Some(_)] = &measured.theta_rad else {
             let found = format!("one rotation only in test {:?}", test.name);
-            return refuse(found, "theta1_rad and theta2_rad");
+            return refuse(
+                found,
+                "what tells both: theta1_rad and theta2_rad, a displacement up to the crack and one above it, \
+                 or either and top_held = true",
+            );
         };
         check_radians(test, path, table)?;
-        let (time_s, theta_rad) = measured.counted(&super::test::counted_s(table));
+        let (time_s, mut theta_rad) = measured.counted(&super::test::counted_s(table));
         let record_s = test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
         let last_s = time_s.last().copied().unwrap_or(0.0);
         let is_shaken = test.shaking.horizontal.is_some();
@@ -74,11 +92,22 @@ impl TestData {
                 &format!("{LEAST_SAMPLES} or more before the wall falls; are rotations in radians?"),
             );
         };
-        let [Some(lower_rad), Some(upper_rad)] = noise_rad(&time_s, &theta_rad, measured.gap_s) else {
+        let by_time = is_uneven(&time_s, measured.gap_s);
+        // Uneven samples nearer than a channel is a cubic are joined.
+        let gap_s = match table.gap_s {
+            None if by_time => measured.gap_s.max(HALF_S),
+            _ => measured.gap_s,
+        };
+        let [Some(lower_rad), Some(upper_rad)] = channel_noise_rad(measured, &time_s, &theta_rad) else {
             return refuse("no noise at all".into(), "rotations as measured");
         };
         let noise_rad = [lower_rad, upper_rad];
-        let tail_s = (last_s - record_s).max(0.0) + measured.gap_s;
+        let step_s = if by_time { mean_step(&time_s, gap_s).unwrap_or(step_s) } else { step_s };
+        // What follows from the other rotation is no second reading.
+        if test.top_held {
+            theta_rad.iter_mut().for_each(|theta| theta[1] = f64::NAN);
+        }
+        let tail_s = (last_s - record_s).max(0.0) + gap_s;
         Ok(Self {
             name: test.name.clone(),
             purpose: test.purpose,
@@ -89,7 +118,8 @@ impl TestData {
             read_gain: wall.reading().gain,
             theta_rad,
             noise_rad,
-            gap_s: measured.gap_s,
+            gap_s,
+            manner: Manner { by_time, top_held: test.top_held, release: test.start() },
         })
     }
 
@@ -102,6 +132,13 @@ impl TestData {
     pub fn samples_in(&self, seconds: f64) -> usize {
         (seconds / self.step_s).round().max(1.0) as usize
     }
+}
+
+/// Mean distance of samples that no gap parts, s.
+fn mean_step(time_s: &[f64], gap_s: f64) -> Option<f64> {
+    let steps = time_s.windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step <= gap_s);
+    let (sum, count) = steps.fold((0.0, 0.0), |(sum, count), step| (sum + step, count + 1.0));
+    (count > 0.0).then(|| sum / count)
 }
 
 /// Refuses rotations that no standing wall has: they are in degrees.

@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use super::file::Purpose;
-use super::pattern::{Freedom, MeasuredState, measured_state, stands_among_even};
+use super::pattern::{Freedom, MeasuredState, measured_state};
 use super::test_data::TestData;
 use crate::limits::{LEAST_WINDOW_SAMPLES, MOVES, WINDOW_S};
 
@@ -44,12 +44,6 @@ pub fn is_readable(test: &TestData) -> bool {
     (0..test.time_s.len()).any(|k| measured_state(test, k).is_some())
 }
 
-/// Whether the wall moves in a test, but no sample of its motion stands among evenly spaced ones: no state can be read there.
-pub fn moves_unevenly(test: &TestData) -> bool {
-    let moving = (0..test.time_s.len()).filter(|&k| moves(test, k)).collect::<Vec<_>>();
-    moving.len() >= LEAST_WINDOW_SAMPLES && !moving.into_iter().any(|k| stands_among_even(test, k))
-}
-
 /// The windows of all tests in which the wall moves: where it stands it says little, and would take half of the work.
 pub fn windows(tests: &[TestData]) -> Vec<Window> {
     tests.iter().enumerate().flat_map(|(index, test)| windows_of(index, test)).collect()
@@ -60,11 +54,12 @@ fn windows_of(index: usize, test: &TestData) -> Vec<Window> {
     let states = (0..count).map(|k| measured_state(test, k)).collect::<Vec<_>>();
     let worth = worths(test, &states);
     let step = test.samples_in(WINDOW_S);
+    let [nearest, farthest] = reach(test, step);
     let mut starts = Vec::new();
     let mut next = (0..count).find(|&k| states[k].is_some());
     while let Some(k) = next {
         starts.push(k);
-        let reach = (k + step / 2).min(count)..(k + 3 * step / 2).min(count);
+        let reach = (k + nearest).min(count)..(k + farthest).min(count);
         let best = reach.clone().rev().max_by_key(|&k| worth[k]);
         next = best.filter(|&k| states[k].is_some());
         next = next.or_else(|| (reach.end..count).find(|&k| states[k].is_some()));
@@ -80,9 +75,20 @@ fn windows_of(index: usize, test: &TestData) -> Vec<Window> {
         .collect()
 }
 
+/// How many samples after a start the next may be.
+///
+/// Where samples are few every window must hold enough of them all the same.
+fn reach(test: &TestData, step: usize) -> [usize; 2] {
+    let even = [step / 2, 3 * step / 2];
+    let sparse = test.manner.by_time && even[0] < LEAST_WINDOW_SAMPLES;
+    if sparse { even.map(|samples| samples + LEAST_WINDOW_SAMPLES - even[0]) } else { even }
+}
+
 /// The first sample after another that is not joined to the one before it, or their number.
 fn gap_after(test: &TestData, from: usize) -> usize {
-    let gap = |k: &usize| test.time_s[*k] - test.time_s[*k - 1] > test.gap_s;
+    // A simulated window passes over a gap; only where gaps are rare is it worth none.
+    let longest_s = if test.manner.by_time { test.gap_s.max(0.5 * WINDOW_S) } else { test.gap_s };
+    let gap = |k: &usize| test.time_s[*k] - test.time_s[*k - 1] > longest_s;
     (from + 1..test.time_s.len()).find(gap).unwrap_or(test.time_s.len())
 }
 
@@ -121,20 +127,17 @@ fn moves(test: &TestData, k: usize) -> bool {
 fn window(index: usize, test: &TestData, samples: Range<usize>, start: &MeasuredState) -> Option<Window> {
     let in_motion = samples.clone().filter(|&k| moves(test, k)).count() > 2;
     let readings = test.theta_rad[samples.clone()].iter().flatten().filter(|t| t.is_finite()).count();
-    if readings < 2 * LEAST_WINDOW_SAMPLES || (start.freedom == Freedom::Rest && !in_motion) {
+    let channels = if test.manner.top_held { 1 } else { 2 };
+    if readings < channels * LEAST_WINDOW_SAMPLES || (start.freedom == Freedom::Rest && !in_motion) {
         return None;
     }
-    let noise = test.noise_rad[0].max(test.noise_rad[1]);
-    // A cubic through 17 samples knows its value to 0.37 and its slope to 0.125 of the noise a sample: about that for the
-    // value, a fifth of it for the slope, over which the motion is still linear.
-    let spread = [0.5 * noise, 0.025 * noise / test.step_s];
     Some(Window {
         test: index,
         purpose: test.purpose,
         freedom: start.freedom,
         opened: false,
         measured: start.numbers.clone(),
-        spread: spread.iter().copied().cycle().take(start.freedom.numbers()).collect(),
+        spread: start.spread.clone(),
         readings,
         samples,
     })
@@ -143,19 +146,10 @@ fn window(index: usize, test: &TestData, samples: Range<usize>, start: &Measured
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::experiment::Manner;
     use mrbd_kernel::simulate::Shaking;
 
     const NOISE_RAD: f64 = 1e-5;
-
-    #[test]
-    fn regress_motion_sampled_unevenly_is_told_from_motion_sampled_evenly() {
-        assert!(!moves_unevenly(&swaying(0..800)));
-        // One, two and three steps in turn.
-        let uneven = (0..400).flat_map(|k| [6 * k, 6 * k + 1, 6 * k + 3]).take_while(|k| *k < 800);
-        assert!(moves_unevenly(&swaying(uneven)));
-        let still = TestData { theta_rad: vec![[0.0; 2]; 800], ..swaying(0..800) };
-        assert!(!moves_unevenly(&still));
-    }
 
     /// Four seconds of a wall that sways in pattern 3, at these samples of 200 a second.
     fn swaying(samples: impl Iterator<Item = u32>) -> TestData {
@@ -171,6 +165,31 @@ mod tests {
             read_gain: [1.0; 2],
             step_s: 0.005,
             gap_s: 0.0125,
+            manner: Manner::default(),
+        }
+    }
+
+    #[test]
+    fn analytic_motion_sampled_unevenly_has_windows_that_start_in_its_states() {
+        // One, two and three steps in turn, and a fifth of a second without samples.
+        let uneven = (0..400).flat_map(|k| [6 * k, 6 * k + 1, 6 * k + 3]).take_while(|k| *k < 800);
+        let manner = Manner { by_time: true, ..Manner::default() };
+        let even = swaying(uneven.filter(|k| !(300..340).contains(k)));
+        let test = TestData { step_s: 0.01, gap_s: 0.06, manner, ..even };
+        let held = Manner { top_held: true, ..manner };
+        let lower = test.theta_rad.iter().map(|theta| [theta[0], f64::NAN]).collect();
+        let held = TestData { theta_rad: lower, manner: held, ..test.clone() };
+        for (test, freedom) in [(test, Freedom::Monolithic), (held, Freedom::Held)] {
+            let found = windows(std::slice::from_ref(&test));
+            assert!(found.len() > 4, "{}", found.len());
+            for window in found {
+                assert_eq!(window.freedom, freedom);
+                let t = test.time_s[window.samples.start];
+                // Over 0.06 s a cubic leaves 3⁴ 0.01/24 0.06⁴ of the sine, 4e-7 rad, and some of that by 0.06 s of its slope.
+                let x = [0.02 + 0.01 * (3.0 * t).sin(), 0.03 * (3.0 * t).cos()];
+                let off = [0, 1].map(|i| (window.measured[i] - x[i]).abs());
+                assert!(off[0] < 4e-7 && off[1] < 4e-5, "at {t}: {off:?}");
+            }
         }
     }
 

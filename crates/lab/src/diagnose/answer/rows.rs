@@ -260,7 +260,8 @@ impl Findings<'_> {
                 for (window, x) in self.windows_of(tried).filter(|(w, _)| w.test == index) {
                     let residual = replay.residual(window, x);
                     for (i, k) in window.samples.clone().enumerate() {
-                        let measured = test.theta_rad[k].iter().all(|t| t.is_finite());
+                        let channels = if test.manner.top_held { 1 } else { 2 };
+                        let measured = test.theta_rad[k][..channels].iter().all(|t| t.is_finite());
                         samples[k].residual[which] = measured.then(|| [residual[2 * i], residual[2 * i + 1]]);
                     }
                 }
@@ -312,17 +313,24 @@ fn whole_runs(test: &TestData, physics: &[Physics; 2]) -> Vec<Sample> {
         time_s: test.time_s[k],
         measured_rad: test.theta_rad[k],
         measured_contact: contacts[k],
-        simulated: runs.each_ref().map(|rows| rows.get(k).copied()),
+        simulated: runs.each_ref().map(|rows| rows.get(k).copied().flatten()),
         residual: [None; 2],
     };
     (0..test.time_s.len()).map(sample).collect()
 }
 
-/// Rotations as sensors of a wall read them, rad, and contacts of a whole run, as far as it goes.
-fn whole_run(test: &TestData, physics: &Physics) -> Vec<(Pair, Contact)> {
-    let mut sampled = Sampled::at(&test.time_s);
-    let shaking = shaken(&test.shaking, physics.reversed_ratio);
-    Simulator::new(&physics.wall, &shaking, Accuracy::default()).run(&mut sampled);
-    let read = |(theta, contact): &(Pair, Contact)| (physics.wall.reading().of(*theta), *contact);
-    sampled.rows().iter().map(read).collect()
+/// Rotations as sensors of a wall read them, rad, and contacts of a whole run, as far as it goes: from rest, or from the
+/// release and nothing before it.
+fn whole_run(test: &TestData, physics: &Physics) -> Vec<Option<(Pair, Contact)>> {
+    let start = test.manner.release.unwrap_or_default();
+    let from = test.time_s.partition_point(|time_s| *time_s < start.time_s);
+    let mut sampled = Sampled::at(&test.time_s[from..]);
+    let simulator =
+        Simulator::new(&physics.wall, &shaken(&test.shaking, physics.reversed_ratio), Accuracy::default());
+    match (test.manner.release, test.time_s.last()) {
+        (Some(start), Some(end_s)) => simulator.run_from(&start, *end_s, &mut sampled),
+        _ => simulator.run(&mut sampled),
+    };
+    let read = |(theta, contact): &(Pair, Contact)| Some((physics.wall.reading().of(*theta), *contact));
+    std::iter::repeat_n(None, from).chain(sampled.rows().iter().map(read)).collect()
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::points::Points;
 use crate::diagnose::formula::{Atom, Law, Shape, Site};
 use crate::diagnose::hypothesis::{Hypothesis, Nuisance, Scales, wall_number};
-use crate::experiment::{Purpose, Sampled, TestData, rest_offset_rad};
+use crate::experiment::{Manner, Purpose, Sampled, TestData, rest_offset_rad};
 use mrbd_files::parse_wall;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::Wall;
@@ -63,6 +63,7 @@ pub fn tests_of(wall: &Wall, noise_rad: f64) -> Vec<TestData> {
             read_gain: [1.0; 2],
             step_s: STEP_S,
             gap_s: 2.5 * STEP_S,
+            manner: Manner::default(),
         }
     };
     (1..).zip([[1.3, 1.0], [1.6, 1.3], [1.4, 0.8], [2.0, 1.6]]).map(one).collect()

@@ -5,8 +5,7 @@
 //! from the measured one by noise. A spring so stiff that it yields within that noise would start at either limit by chance.
 
 use crate::diagnose::hypothesis::Physics;
-use crate::experiment::Sampled;
-use crate::experiment::{TestData, Window};
+use crate::experiment::{Freedom, Sampled, TestData, Window, held_state};
 use mrbd_kernel::model::{Contact, Effect, Pair, RockingWall, Role};
 use mrbd_kernel::simulate::{
     Accuracy, Observer, Prepared, Response, Shaking, Simulator, Start, simulate_watched_side_by_side,
@@ -87,9 +86,12 @@ impl<'a> Replay<'a> {
     /// Where a window starts from a state, and its end, s.
     fn ends(&self, window: &Window, x: &[f64]) -> (Start, f64) {
         let time_s = &self.tests[window.test].time_s;
-        let (state, contact) = window.freedom.state(x);
+        let (mut state, contact) = window.freedom.state(x);
         let from = window.samples.start;
         let wall = self.simulators[window.test].wall();
+        if window.freedom == Freedom::Held {
+            state = held_state(wall, &state);
+        }
         let plastic_displacement_m = self.springs[window.test].plastic_m(from, wall, contact, state.theta);
         let contact = Some(contact);
         let start =
@@ -194,6 +196,7 @@ pub(super) mod tests {
             read_gain: [1.0; 2],
             step_s: 0.005,
             gap_s: 0.0125,
+            manner: crate::experiment::Manner::default(),
         };
         (test, Physics { wall, reversed_ratio: 0.0 })
     }

@@ -178,7 +178,7 @@ impl Residual {
     fn moments(&self, freedom: Freedom, contact: Contact, theta: Pair, theta_dd: Pair) -> [Option<f64>; 2] {
         let [m1, m2] = self.wall.moments_n_m(contact, theta, theta_dd);
         match freedom {
-            Freedom::Rest => [None, None],
+            Freedom::Rest | Freedom::Held => [None, None],
             Freedom::Monolithic => [Some(m1 + m2), None],
             Freedom::Upper => [None, Some(m2)],
             Freedom::Both => [Some(m1), Some(m2)],

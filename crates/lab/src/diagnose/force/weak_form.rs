@@ -139,7 +139,7 @@ fn sample(residual: &Residual, stretch: &Stretch, state: &State) -> Sample {
 fn bodies(freedom: Freedom, noise_rad: Pair, of_noise: f64) -> Vec<(usize, f64)> {
     let [lower, upper] = noise_rad.map(|sigma| sigma * of_noise);
     match freedom {
-        Freedom::Rest => Vec::new(),
+        Freedom::Rest | Freedom::Held => Vec::new(),
         Freedom::Monolithic => vec![(0, lower * upper / lower.hypot(upper))],
         Freedom::Upper => vec![(1, upper)],
         Freedom::Both => vec![(0, lower), (1, upper)],

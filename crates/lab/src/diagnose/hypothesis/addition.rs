@@ -3,7 +3,7 @@
 use super::unknown::{Measure, Slot, wall_number};
 use super::{Scales, Unknown, WallNumber};
 use crate::diagnose::formula::{Law, LawSlot, Meaning};
-use crate::limits::{FACTOR_SD, MOST_OF_LAW, STRONGEST_DAMPER};
+use crate::limits::{FACTOR_SD, MOST_OF_LAW, PRIOR_REACH, STRONGEST_DAMPER};
 use mrbd_kernel::model::{
     EffectKind, EffectParameter, EffectVariant, Joint, Place, Quantity, Role, WallParameters,
 };
@@ -128,7 +128,10 @@ fn effect_unknowns(variant: EffectVariant, scales: &Scales, index: usize) -> Vec
             Quantity::BedStiffness => Measure::Softness,
             _ => Measure::Itself,
         };
-        let [lower, upper] = [parameter.least, most].map(|number| measure.value_of(number));
+        let known = scales.sensor_gain_sd.filter(|_| variant.kind == EffectKind::SensorGain);
+        // Outside what was known a gain is no answer.
+        let reach = known.map(|sd| [-1.0, 1.0].map(|side| 1.0 + side * PRIOR_REACH * sd));
+        let [lower, upper] = reach.unwrap_or([parameter.least, most]).map(|number| measure.value_of(number));
         Unknown {
             key: parameter.key.into(),
             unit: parameter.unit(),
@@ -137,7 +140,7 @@ fn effect_unknowns(variant: EffectVariant, scales: &Scales, index: usize) -> Vec
             lower: lower.min(upper),
             upper: lower.max(upper),
             measure,
-            prior_sd: (parameter.quantity == Quantity::ImpactFactor).then_some(FACTOR_SD),
+            prior_sd: (parameter.quantity == Quantity::ImpactFactor).then_some(FACTOR_SD).or(known),
             slot: Slot::Added(index, i),
         }
     };

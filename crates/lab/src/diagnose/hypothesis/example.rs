@@ -15,6 +15,7 @@ pub const SCALES: Scales = Scales {
     force_n: 1000.0,
     moment_n_m: 2000.0,
     width_m: 0.3,
+    sensor_gain_sd: None,
     length_m: 1.0,
 };
 

@@ -285,6 +285,8 @@ pub struct Scales {
     pub width_m: f64,
     /// Length of the strip, m.
     pub length_m: f64,
+    /// What was known of the gains of the sensors: a standard deviation about 1; `None`: nothing.
+    pub sensor_gain_sd: Option<f64>,
 }
 
 impl Scales {
@@ -306,6 +308,7 @@ impl Scales {
             moment_n_m: 0.5 * weight_n * p.lower_width_m,
             width_m: p.lower_width_m,
             length_m: p.length_m,
+            sensor_gain_sd: None,
         }
     }
 

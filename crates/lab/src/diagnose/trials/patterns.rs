@@ -170,6 +170,7 @@ mod tests {
             read_gain: [1.0; 2],
             step_s: 0.005,
             gap_s: 0.0125,
+            manner: crate::experiment::Manner::default(),
         };
         let window = |freedom: Freedom, measured: &[f64]| Window {
             test: 0,

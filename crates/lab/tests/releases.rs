@@ -1,0 +1,107 @@
+//! Releases of a strip whose top is held, as laboratories have them: one displacement, unevenly sampled.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use mrbd_kernel::model::{RockingWall, State, Wall};
+use mrbd_kernel::simulate::{Accuracy, History, Shaking, Simulator, Start};
+use mrbd_lab::diagnose::{Experiment, Verdict, diagnose};
+use mrbd_lab::experiment::{Freedom, held_state, windows};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, Normal};
+
+/// Height of the crack, half the width there, and the error of the transducer, m.
+const CRACK_M: f64 = 0.75;
+const HALF_WIDTH_M: f64 = 0.055;
+const NOISE_M: f64 = 2e-4;
+
+fn shipped() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../inputs/measured/griffith_2004")
+}
+
+/// A release of a wall from a lean, as its transducer reads it: time in s and millimetres, 6 to 20 ms apart.
+fn release_text(wall: &Wall, lean_rad: f64, seed: u64) -> String {
+    let lean = State { theta: [lean_rad, -lean_rad], omega: [0.0; 2] };
+    let start = Start { state: held_state(&RockingWall::new(wall), &lean), ..Start::default() };
+    let mut history = History::new(0.001);
+    let shaking = Shaking { tail_s: 3.0, ..Shaking::default() };
+    Simulator::new(wall, &shaking, Accuracy::default()).run_from(&start, 3.0, &mut history);
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let normal = Normal::new(0.0, NOISE_M).expect("a deviation");
+    let mut text = String::from("time_s,crack_mm\n");
+    let mut next_s = 0.0;
+    for row in &history.rows {
+        let (time_s, theta) = (row.time_s, row.theta_rad[0]);
+        if time_s >= next_s {
+            next_s = time_s + random.random_range(0.006..0.02);
+            let u = CRACK_M * theta.sin() + HALF_WIDTH_M * theta.signum() * (1.0 - theta.cos());
+            writeln!(text, "{time_s:.3},{:.5}", 1e3 * (u + normal.sample(&mut random))).expect("text");
+        }
+    }
+    text
+}
+
+/// Three releases of the strip on sharp edges, the last held out.
+fn write_releases(folder: &Path, lines: &str) -> PathBuf {
+    let wall_file = shipped().join("wall_sharp.toml");
+    let wall = mrbd_files::load_wall(&wall_file).expect("a wall that is shipped");
+    std::fs::copy(&wall_file, folder.join("wall.toml")).expect("copied");
+    let mut experiment = format!(
+        "wall = \"wall.toml\"\n[prior]\nrestitution = 0.05\n[[channels]]\ncolumn = \"crack_mm\"\n\
+         height_m = {CRACK_M}\nfactor = 0.001\nnoise_m = {NOISE_M}\n"
+    );
+    for (i, lean_rad) in [0.085, 0.07, 0.078].into_iter().enumerate() {
+        let text = release_text(&wall, lean_rad, i as u64);
+        std::fs::write(folder.join(format!("release_{i}.csv")), text).expect("written");
+        let purpose = if i == 2 { "hold-out" } else { "fit" };
+        write!(
+            experiment,
+            "[[tests]]\nname = \"release {i}\"\nmeasured = \"release_{i}.csv\"\nrelease_s = 0.05\n{lines}\
+             use = \"{purpose}\"\n"
+        )
+        .expect("text");
+    }
+    let path = folder.join("experiment.toml");
+    std::fs::write(&path, experiment).expect("written");
+    path
+}
+
+#[test]
+fn verified_nothing_is_named_of_releases_in_which_nothing_hides() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = write_releases(folder.path(), "top_held = true\n");
+    let experiment = Experiment::load(&path).expect("an experiment");
+    let windows = windows(&experiment.tests);
+    assert!(windows.iter().all(|window| window.freedom == Freedom::Held));
+    // What follows from the other rotation is no second reading.
+    assert!(windows.iter().all(|window| window.readings <= window.samples.len()));
+    let summary = diagnose(&experiment, &()).expect("a diagnosis").summary;
+    let error = summary.windowed_error.before.expect("windows");
+    println!("{:?}, {error:.3} of the noise in {} windows", summary.verdict, windows.len());
+    assert!(matches!(summary.verdict, Verdict::None | Verdict::NoPower), "{:?}", summary.verdict);
+    // Some twenty windows of some forty readings: their error scatters by some hundredths.
+    assert!((0.9..1.1).contains(&error), "{error}");
+}
+
+#[test]
+fn verified_a_measured_release_can_be_diagnosed() {
+    for name in ["diagnose_a.toml", "diagnose_b.toml"] {
+        let experiment = Experiment::load(&shipped().join(name)).expect("an experiment that is shipped");
+        let found = windows(&experiment.tests);
+        let of = |test: usize| found.iter().filter(|window| window.test == test).count();
+        // Three seconds of each, in windows of about half a second.
+        assert!(of(0) >= 5 && of(1) >= 5, "{name}: {} and {}", of(0), of(1));
+        // Stated: 0.4 mm at 0.75 m.
+        assert!((experiment.tests[0].noise_rad[0] / (4e-4 / 0.75) - 1.0).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn rejects_a_diagnosis_of_one_body_and_says_what_is_needed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = write_releases(folder.path(), "");
+    let error = Experiment::load(&path).expect_err("one body only");
+    assert_eq!(error.exit_code(), 2);
+    assert!(error.to_string().contains("top_held"), "{error}");
+}
