@@ -7,7 +7,7 @@ use super::rest::RestLimits;
 use super::run::Run;
 use super::side_by_side::Prepared;
 use super::{Accuracy, Shaking};
-use crate::model::{Contact, Joint, Pivot, RockingWall, State, Vector, Wall, opening};
+use crate::model::{Contact, Joint, Pivot, RockingWall, State, TopMemory, Vector, Wall, opening};
 use crate::solver::{Controller, ErrorScale};
 
 /// Error of a step allowed, as a share of the error of a run. Impacts magnify what is there before them. With
@@ -36,6 +36,21 @@ pub struct Start {
     /// A wall without such a spring has no use for it. Friction needs no memory: a top at rest sticks where
     /// it can.
     pub plastic_displacement_m: f64,
+    /// The largest |x_C| before, m, which formulas may depend on (`x_max`). Where the start is farther out, that is it.
+    pub largest_displacement_m: f64,
+}
+
+impl Start {
+    /// In a state at a time in s, with what the laws at the top keep of the past.
+    pub fn with_memory(time_s: f64, state: State, contact: Contact, memory: TopMemory) -> Self {
+        let TopMemory { plastic_m, largest_m } = memory;
+        let contact = Some(contact);
+        Self { time_s, state, contact, plastic_displacement_m: plastic_m, largest_displacement_m: largest_m }
+    }
+
+    fn memory(&self) -> TopMemory {
+        TopMemory { plastic_m: self.plastic_displacement_m, largest_m: self.largest_displacement_m }
+    }
 }
 
 /// A wall and a shaking made ready. Their equations, limits and samples are worked out once, so that a window
@@ -55,7 +70,7 @@ pub struct Simulator {
 pub(super) struct Placed {
     pub contact: Contact,
     pub state: State,
-    pub plastic_displacement_m: f64,
+    pub memory: TopMemory,
 }
 
 impl Simulator {
@@ -158,7 +173,7 @@ impl Simulator {
                 state.theta[i] = if i == 0 { 0.0 } else { state.theta[0] };
             }
         }
-        Placed { contact, state, plastic_displacement_m: start.plastic_displacement_m }
+        Placed { contact, state, memory: start.memory() }
     }
 
     /// Moves a start onto its contact state.
@@ -186,6 +201,6 @@ impl Simulator {
         if contact.crack.sign() * (*theta2 - *theta1) < 0.0 {
             *theta2 = *theta1;
         }
-        Placed { contact, state, plastic_displacement_m: start.plastic_displacement_m }
+        Placed { contact, state, memory: start.memory() }
     }
 }
