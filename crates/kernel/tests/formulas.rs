@@ -439,13 +439,8 @@ fn analytic_what_a_law_with_memory_takes_is_its_work_along_the_path() {
     let own = [("k", 300.0, "N"), ("g", 0.01, "m")];
     let law = formula(Place::Top, "-k*x/(g + x_max)", &own);
     let wall = with_formulas(std::slice::from_ref(&law), table_wall());
-    let mut path = Worked {
-        wall: RockingWall::new(&wall),
-        law,
-        largest_m: 0.0,
-        work_j: 0.0,
-        largest_piece_m: 0.0,
-    };
+    let mut path =
+        Worked { wall: RockingWall::new(&wall), law, largest_m: 0.0, work_j: 0.0, largest_piece_m: 0.0 };
     let response = simulate_observed(&wall, &shaking(1.0), ACCURACY, &mut path);
     // The table wall comes back: what is left is what the law has taken for good, and most of its largest.
     assert!(path.work_j > 0.5 && path.largest_m > 0.01, "{} J, {} m", path.work_j, path.largest_m);

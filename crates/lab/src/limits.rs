@@ -161,6 +161,11 @@ limits! {
     MOST_FINISHED: usize = 12, "";
     /// Distance from the best that is near it.
     NEAR_BEST: f64 = 100.0, "ln of likelihood";
+    /// The same as a share of what speaks against the best, of those that are fitted once more from other starts.
+    ///
+    /// Far above the noise windows are at their bounds, and a right law may be some hundreds behind until it is fitted from
+    /// elsewhere. Chosen.
+    NEAR_BEST_SHARE: f64 = 0.1, "share";
     /// Coarse fits that are fitted to the end because they follow the windows with the least error.
     ///
     /// A window far off still tells by its error when its likelihood is at its bound. Chosen.

@@ -126,7 +126,8 @@ impl PiecewiseLaws {
         } = *effects;
         let (formulas_rub, formulas_remember) = (formulas.rubs(), formulas.remember_largest());
         let rubs = friction_n > 0.0 || formulas_rub;
-        let kinks = rubs || formulas_remember || gap_m > 0.0 || one_sided_n_per_m != [0.0; 2] || yielding.is_some();
+        let kinks =
+            rubs || formulas_remember || gap_m > 0.0 || one_sided_n_per_m != [0.0; 2] || yielding.is_some();
         let floor_n_per_m = smooth.stiffness_n_per_m;
         kinks.then_some(Self {
             smooth,

@@ -222,7 +222,9 @@ pub fn confused(data: &Data, recalibrated: &FittedHypothesis, tried: &[FittedHyp
     let left_out = |a: &Addition| *a == Addition::Placebo || a.role() == Some(Role::Bed);
     let real = singles.filter(|t| !left_out(&t.hypothesis.additions[0])).collect::<Vec<_>>();
     // All are looked at about the same wall in the same states.
-    let Some(chords) = data.fit.chords(&recalibrated.hypothesis, &recalibrated.fit) else { return Vec::new() };
+    let Some(chords) = data.fit.chords(&recalibrated.hypothesis, &recalibrated.fit) else {
+        return Vec::new();
+    };
     let traces = real.par_iter().filter_map(|t| trace(data, recalibrated, &chords, t)).collect::<Vec<_>>();
     let one = |t: &&Trace| t.tried.hypothesis.unknowns.len() == t.tried.hypothesis.nuisances + 1;
     let effects = traces.iter().filter(|t| t.tried.hypothesis.additions[0].kind().is_some()).filter(one);

@@ -65,9 +65,10 @@ impl Linearised {
             let moved = x.iter().zip(&now.x).map(|(before, now)| (now - before).abs());
             match same && x == now.x {
                 true => Known::All(linear),
-                false if sides == Sides::OneWhereClear
-                    && linear.is_fresh
-                    && moved.zip(&window.spread).all(|(moved, spread)| moved < *spread) =>
+                false
+                    if sides == Sides::OneWhereClear
+                        && linear.is_fresh
+                        && moved.zip(&window.spread).all(|(moved, spread)| moved < *spread) =>
                 {
                     Known::Chord(linear.jx)
                 }
@@ -264,10 +265,12 @@ impl Problem<'_> {
         let neighbours = |(i, change): (usize, &f64)| self.sides(h, fit, i, *change);
         let neighbours = changes.iter().enumerate().map(neighbours).collect::<Option<Vec<_>>>()?;
         let linear = |these: &[(InState, Option<DMatrix<f64>>)]| {
-            let (states, chords): (Vec<_>, Vec<_>) = these.iter().map(|(state, chord)| (*state, chord)).unzip();
+            let (states, chords): (Vec<_>, Vec<_>) =
+                these.iter().map(|(state, chord)| (*state, chord)).unzip();
             let these = At::all(&replay, owned(&states));
             let without = these.iter().zip(&chords).filter(|(_, chord)| chord.is_none());
-            let mut fresh = state_jacobians(&replay, &without.map(|(at, _)| at).collect::<Vec<_>>()).into_iter();
+            let mut fresh =
+                state_jacobians(&replay, &without.map(|(at, _)| at).collect::<Vec<_>>()).into_iter();
             let jx = chords.iter().filter_map(|chord| match chord {
                 Some(chord) => Some((chord.clone(), false)),
                 None => Some((fresh.next()?, true)),
@@ -341,7 +344,12 @@ mod tests {
         let jx = DMatrix::from_column_slice(4, 1, &[1.0, 1.0, 1.0, 1.0]);
         let side =
             |second: [f64; 4]| DMatrix::from_column_slice(4, 2, &[[1.0, 2.0, 3.0, 4.0], second].concat());
-        Linear::new((jx, true), [side(after), side(before)], DVector::from_vec(vec![2.0, 0.0, 0.0, 0.0]), &[1.0, 1.0])
+        Linear::new(
+            (jx, true),
+            [side(after), side(before)],
+            DVector::from_vec(vec![2.0, 0.0, 0.0, 0.0]),
+            &[1.0, 1.0],
+        )
     }
 
     #[test]

@@ -349,7 +349,11 @@ mod tests {
         for shape in Shape::ALL.into_iter().filter(|shape| !shape.is_damper()) {
             for numbers in corners(shape) {
                 for (q, u) in motion() {
-                    assert_eq!(shape.value(numbers, [q, u, 1.0]), shape.value(numbers, [q, 0.3, 1.0]), "{shape:?}");
+                    assert_eq!(
+                        shape.value(numbers, [q, u, 1.0]),
+                        shape.value(numbers, [q, 0.3, 1.0]),
+                        "{shape:?}"
+                    );
                 }
             }
         }

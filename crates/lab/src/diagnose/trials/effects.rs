@@ -13,8 +13,7 @@ use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
 use crate::limits::{
     ANSWER_ROUNDS, ANSWER_SHARES, BESIDE_THE_BEST, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME,
-    PAIRS_WITHOUT_A_NAME, REFITTED_FROM, STATES_FOR_WALL, WORTH_A_ROUND, WORTH_POLISH,
-    WORTH_TRYING_AGAIN,
+    PAIRS_WITHOUT_A_NAME, REFITTED_FROM, STATES_FOR_WALL, WORTH_A_ROUND, WORTH_POLISH, WORTH_TRYING_AGAIN,
 };
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;

@@ -9,8 +9,8 @@ use crate::diagnose::fit::{
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::{TestData, Window};
 use crate::limits::{
-    HELD_OUT_ERROR, LEAST_SIZE, LEFT_OF_GAP, MISSED_HELD_OUT_SD, MISSED_SHARE, MISSED_SHARE_SD, NEARLY_CLOSES,
-    NOISE, NOISE_AFTER, SIGNIFICANT_SD,
+    HELD_OUT_ERROR, LEAST_SIZE, LEFT_OF_GAP, MISSED_HELD_OUT_SD, MISSED_SHARE, MISSED_SHARE_SD,
+    NEARLY_CLOSES, NOISE, NOISE_AFTER, SIGNIFICANT_SD,
 };
 use mrbd_kernel::model::EffectKind;
 

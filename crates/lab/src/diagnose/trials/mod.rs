@@ -35,7 +35,7 @@ use rayon::prelude::*;
 
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
-use crate::limits::{POLISHED, WORTH_POLISH};
+use crate::limits::{NEAR_BEST, NEAR_BEST_SHARE, POLISHED, WORTH_POLISH};
 use crate::{Progress, Tried};
 use search::{Coarse, worth_finishing};
 use search::{finish, try_coarsely};
@@ -139,9 +139,12 @@ impl<P: Progress> Trials<'_, P> {
     ) -> Vec<FittedHypothesis> {
         let Some(best) = tried.first() else { return tried };
         let gap = joint_error(from).unwrap_or(f64::INFINITY);
-        let count = tried.len().min(POLISHED);
+        // Of a gap far above the noise likelihood tells little: what is near is told by it too.
+        let best_against = against(&self.data, best);
+        let limit = best_against + NEAR_BEST.max(NEAR_BEST_SHARE * best_against);
+        let count = tried.iter().take(POLISHED).filter(|t| against(&self.data, t) < limit).count();
         let is_near = tried[..count].iter().any(|t| nearly_closes(t, gap));
-        if !is_near || against(&self.data, simpler) - against(&self.data, best) < WORTH_POLISH {
+        if !is_near || against(&self.data, simpler) - best_against < WORTH_POLISH {
             return tried;
         }
         self.progress.begin("the best candidates, again", count);
