@@ -84,8 +84,8 @@ fn analytic_a_window_with_memory_goes_on_as_the_whole_run() {
             continue;
         }
         let state = State { theta: first.position(0.0), omega: first.velocity(0.0) };
-        let plastic_displacement_m = plastic_m;
-        let start = Start { time_s: *start_s, state, contact: Some(*contact), plastic_displacement_m };
+        let memory = TopMemory { plastic_m, ..TopMemory::default() };
+        let start = Start::with_memory(*start_s, state, *contact, memory);
         let mut ends = Stretches::default();
         let response = simulator.run_from(&start, last_s + 0.5 * last.h(), &mut ends);
         let (_, _, found) = ends.0[ends.0.len() - 1];

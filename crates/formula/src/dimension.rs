@@ -25,8 +25,6 @@ impl Dimension {
     pub const LENGTH: Self = Self([0.0, 1.0, 0.0]);
     /// A velocity, m/s.
     pub const VELOCITY: Self = Self([0.0, 1.0, -1.0]);
-    /// An acceleration, m/s².
-    pub const ACCELERATION: Self = Self([0.0, 1.0, -2.0]);
     /// A rate of rotation, rad/s.
     pub const RATE: Self = Self([0.0, 0.0, -1.0]);
 

@@ -18,7 +18,8 @@ use crate::unit::dimension_of;
 /// Where a formula acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Place {
-    /// At the top, on its displacement `x` (m), velocity `v` (m/s), acceleration `a` (m/s²): a force, N.
+    /// At the top, on its displacement `x` (m), velocity `v` (m/s) and the largest abs(x) so far, `x_max` (m): a
+    /// force, N.
     Top,
     /// At the ground, on the rotation `phi` (rad) across the joint, its rate `w` (rad/s) and the weight `N`
     /// (N) that it carries: a moment, N m.
@@ -56,14 +57,14 @@ impl Place {
     /// Names of the three variables.
     pub fn variables(self) -> [&'static str; 3] {
         match self {
-            Place::Top => ["x", "v", "a"],
+            Place::Top => ["x", "v", "x_max"],
             Place::Ground | Place::Crack => ["phi", "w", "N"],
         }
     }
 
     fn dimensions(self) -> [Dimension; 3] {
         match self {
-            Place::Top => [Dimension::LENGTH, Dimension::VELOCITY, Dimension::ACCELERATION],
+            Place::Top => [Dimension::LENGTH, Dimension::VELOCITY, Dimension::LENGTH],
             Place::Ground | Place::Crack => [Dimension::NONE, Dimension::RATE, Dimension::FORCE],
         }
     }
@@ -188,6 +189,11 @@ impl Formula {
         self.expression.over(&values, &of).unwrap_or(f64::NAN)
     }
 
+    /// Whether the force depends on how far the top has been, `x_max`.
+    pub fn remembers(&self) -> bool {
+        self.place == Place::Top && self.depends_on(2)
+    }
+
     /// Whether a variable (0, 1 or 2) occurs.
     pub fn depends_on(&self, variable: usize) -> bool {
         self.expression.has(self.place.variables()[variable])
@@ -254,8 +260,8 @@ fn names<'a>(
             .map_err(|e| FormulaError::of_parameter(name, e.found_at(), e.allowed))?;
         dimensions.insert(name, dimension);
     }
-    let [x, v, a] = place.variables();
+    let [x, v, third] = place.variables();
     let own = parameters.iter().map(|p| format!(", {}", p.name)).collect::<String>();
-    let known = format!("{x}, {v}, {a}{own}; a further name is a parameter to be given");
+    let known = format!("{x}, {v}, {third}{own}; a further name is a parameter to be given");
     Ok(Names { dimensions, values: values.clone(), known })
 }

@@ -54,7 +54,8 @@ fn jump(
         _ if names[2] == "N" && !switch.depends_on(DISPLACEMENT) && !switch.depends_on(VELOCITY) => {
             Ok(Jump::None)
         }
-        _ if switch.depends_on(DISPLACEMENT) && !switch.depends_on(VELOCITY) && !switch.depends_on(2) => {
+        // The largest displacement grows with the displacement alone.
+        _ if !switch.depends_on(VELOCITY) && (names[2] == "x_max" || !switch.depends_on(2)) => {
             at_displacement(program, index, switch, names, range)
         }
         SwitchAt::Line { .. } | SwitchAt::Surface(_) => Err(FormulaError::new(
@@ -79,15 +80,17 @@ fn at_displacement(
     names: [&'static str; 3],
     range: &Range,
 ) -> Result<Jump, FormulaError> {
-    let rest = [0.0, 0.0, range.high[2]];
-    let [above, below] = sides(index).map(|side| program.value(rest, &side));
-    if switch.argument(rest, &Branches::FREE) == 0.0 && above != below {
-        let x = names[DISPLACEMENT];
-        return Err(FormulaError::new(
-            None,
-            format!("a force that jumps from {below} to {above} at {x} = 0, where the wall rests"),
-            format!("a steep rise in its place, such as tanh({x}/s) with a small s"),
-        ));
+    for third in [range.low[2], range.high[2]] {
+        let rest = [0.0, 0.0, third];
+        let [above, below] = sides(index).map(|side| program.value(rest, &side));
+        if switch.argument(rest, &Branches::FREE) == 0.0 && above != below {
+            let x = names[DISPLACEMENT];
+            return Err(FormulaError::new(
+                None,
+                format!("a force that jumps from {below} to {above} at {x} = 0, where the wall rests"),
+                format!("a steep rise in its place, such as tanh({x}/s) with a small s"),
+            ));
+        }
     }
     Ok(Jump::AtDisplacement)
 }

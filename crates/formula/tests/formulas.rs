@@ -119,6 +119,7 @@ fn analytic_jumps_are_told_apart() {
         ("-c*v*(x > g)", Jump::AtDisplacement),
         ("-F*(x > g)", Jump::AtDisplacement),
         ("-c*v*(x > 0)", Jump::AtDisplacement),
+        ("-k*x*(x_max < g)", Jump::AtDisplacement),
         ("-k*(x - g)*(abs(x) > g)", Jump::None),
     ] {
         let law = good(text);
@@ -160,7 +161,7 @@ fn rejects_what_is_no_formula() {
         ("max(F)", &["1 numbers for `max`", "two or more"]),
         ("abs(F, F)", &["2 numbers for `abs`", "one"]),
         ("F*1e999", &["`1e999`", "finite"]),
-        ("-q*x", &["character 2", "unknown name `q`", "x, v, a"]),
+        ("-q*x", &["character 2", "unknown name `q`", "x, v, x_max"]),
         ("import os", &["character 8", "`os`"]),
         ("__import__(os)", &["a function `__import__`"]),
         ("x", &["`x` in m", "N"]),

@@ -161,6 +161,11 @@ limits! {
     MOST_FINISHED: usize = 12, "";
     /// Distance from the best that is near it.
     NEAR_BEST: f64 = 100.0, "ln of likelihood";
+    /// The same as a share of what speaks against the best, of those that are fitted once more from other starts.
+    ///
+    /// Far above the noise windows are at their bounds, and a right law may be some hundreds behind until it is fitted from
+    /// elsewhere. Chosen.
+    NEAR_BEST_SHARE: f64 = 0.1, "share";
     /// Coarse fits that are fitted to the end because they follow the windows with the least error.
     ///
     /// A window far off still tells by its error when its likelihood is at its bound. Chosen.
@@ -178,6 +183,15 @@ limits! {
     POLISHED: usize = 3, "";
     /// Gain above which that is worth its time.
     WORTH_POLISH: f64 = 10.0, "ln of likelihood";
+    /// Share of the squared error above noise that the best may leave for that to be worth its time.
+    ///
+    /// Other starts find other valleys of windows. They do not make a law of what leaves more. Chosen.
+    NEARLY_CLOSES: f64 = 0.25, "share";
+    /// Gain of the wall with its own numbers fitted beside an effect from which single effects are tried again, as a share of
+    /// what speaks against it.
+    ///
+    /// Of a gap of thousands a gain of tens changes no answer. Chosen.
+    WORTH_TRYING_AGAIN: f64 = 0.02, "share";
     /// Share of the largest displacement of the top within which a spring that yields is friction.
     ///
     /// Chosen: a tie or a nail that yields gives by tens of percent of it, friction by hundredths of one.

@@ -140,8 +140,12 @@ impl Bodies {
         }
         let [c_ground, c_crack] = wall.joint_damping_n_m_s;
         let turned = [[q[2], v[2]], [q[5] - q[2], v[5] - v[2]]];
-        let by_law =
-            |joint: usize| wall.joint_laws[joint].iter().map(|law| law.force(turned[joint])).sum::<f64>();
+        let by_law = |joint: usize| {
+            wall.joint_laws[joint]
+                .iter()
+                .map(|law| law.force([turned[joint][0], turned[joint][1], 0.0]))
+                .sum::<f64>()
+        };
         let at_crack = c_crack * turned[1][1] - by_law(1);
         force[2] += at_crack - c_ground * v[2] + by_law(0);
         force[5] -= at_crack;

@@ -26,7 +26,7 @@ pub enum TopLaw {
     /// F = -c |x| ẋ: damping that grows with displacement.
     DisplacementDamping { coefficient_n_s_per_m2: f64 },
     /// A law drawn as a formula.
-    Drawn(Atom),
+    Drawn { atom: Atom, largest_m: f64 },
 }
 
 impl TopLaw {
@@ -57,7 +57,7 @@ impl TopLaw {
                 -k * x_m / (1.0 + largest_m.max(x_m.abs()) / scale_m)
             }
             Self::DisplacementDamping { coefficient_n_s_per_m2: c } => -c * x_m.abs() * v_m_s,
-            Self::Drawn(atom) => atom.force([x_m, v_m_s]),
+            Self::Drawn { atom, largest_m } => atom.force([x_m, v_m_s, largest_m.max(x_m.abs())]),
         }
     }
 
@@ -68,7 +68,9 @@ impl TopLaw {
                 let travel = *limit_n / *stiffness_n_per_m;
                 *plastic_m = plastic_m.clamp(x_m - travel, x_m + travel);
             }
-            Self::Degrading { largest_m, .. } => *largest_m = largest_m.max(x_m.abs()),
+            Self::Degrading { largest_m, .. } | Self::Drawn { largest_m, .. } => {
+                *largest_m = largest_m.max(x_m.abs());
+            }
             _ => {}
         }
     }

@@ -39,6 +39,12 @@ pub enum Form {
     NearRest { d: f64 },
     /// (u/s)/(1 + (u/s)²): drag that fades with velocity.
     Slipping { s: f64 },
+    /// −q m/(g + m) with the largest |q| so far, m: the floor's spring, softer for good.
+    Weakening { g: f64 },
+    /// q/(g + m): saturates, and goes back straight.
+    Secant { g: f64 },
+    /// sgn(q) max(|q| − a m, 0): slack that grows.
+    Slack { a: f64 },
 }
 
 /// A law of one form.
@@ -83,9 +89,9 @@ fn odd(x: f64, n: f64) -> f64 {
 }
 
 impl Atom {
-    /// Force or moment on the wall.
-    pub fn force(&self, [x, v]: [f64; 2]) -> f64 {
-        let (q, u) = (x / self.reach[0], v / self.reach[1]);
+    /// Force or moment on the wall at a displacement, a velocity and the largest displacement so far.
+    pub fn force(&self, [x, v, largest]: [f64; 3]) -> f64 {
+        let (q, u, m) = (x / self.reach[0], v / self.reach[1], largest / self.reach[0]);
         -self.size
             * match self.form {
                 Form::Spring { n } => odd(q, n),
@@ -100,6 +106,9 @@ impl Atom {
                 Form::Hardening { d } => q.signum() * ((q.abs() / d).exp() - 1.0),
                 Form::NearRest { d } => u * (-(q / d).powi(2)).exp(),
                 Form::Slipping { s } => (u / s) / (1.0 + (u / s).powi(2)),
+                Form::Weakening { g } => -q * m / (g + m),
+                Form::Secant { g } => q / (g + m),
+                Form::Slack { a } => q.signum() * (q.abs() - a * m).max(0.0),
             }
     }
 
@@ -154,6 +163,9 @@ impl Atom {
             Form::Hardening { .. } => vec![format!("-f*sign({x})*(exp(abs({x})/d)-1)")],
             Form::NearRest { .. } => vec![format!("-c*{v}*exp(-({x}/d)**2)")],
             Form::Slipping { .. } => vec![format!("-f*({v}/s)/(1+({v}/s)**2)")],
+            Form::Weakening { .. } => vec![format!("k*{x}*x_max/(g+x_max)")],
+            Form::Secant { .. } => vec![format!("-f*{x}/(g+x_max)")],
+            Form::Slack { .. } => vec![format!("-k*sign({x})*max(abs({x})-a*x_max,0)")],
         }
     }
 
@@ -185,6 +197,9 @@ impl Atom {
             Form::Saturation { d } | Form::Snapping { d } | Form::Hardening { d } => {
                 vec![size("f", 1.0, String::new()), at("d", d)]
             }
+            Form::Weakening { g } => vec![size("k", x, per_x("1")), at("g", g)],
+            Form::Secant { g } => vec![size("f", 1.0, String::new()), at("g", g)],
+            Form::Slack { a } => vec![size("k", x, per_x("1")), pure("a", a)],
             Form::NearRest { d } => vec![size("c", v, per_v("1")), at("d", d)],
             Form::DragSaturation { s } | Form::Slipping { s } => {
                 vec![size("f", 1.0, String::new()), speed("s", s)]

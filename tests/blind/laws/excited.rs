@@ -12,25 +12,26 @@ const POINTS: usize = 300;
 /// A wall that moves by less than this share of the largest is at rest.
 const MOVES: f64 = 0.02;
 
-/// Displacements, velocities and the law's force or moment at its place, of tests to fit and held out; null without a law.
+/// Displacements, velocities, the law's force or moment at its place and the largest displacement so far, of tests to fit and
+/// held out; null without a law.
 pub fn excited(case: &Case, tests: &[Test]) -> Value {
     let law = |hidden: &Hidden| if let Hidden::Law(atom) = hidden { Some(*atom) } else { None };
     let atoms = case.hidden.iter().filter_map(law).collect::<Vec<_>>();
     let Some(first) = atoms.first() else { return Value::Null };
     let points = |tests: &[Test]| {
         let all = tests.iter().flat_map(|test| motion(case, test, first.site)).collect::<Vec<_>>();
-        let most = all.iter().fold(0.0, |most: f64, [q, _]| most.max(q.abs()));
-        let moving = all.into_iter().filter(|[q, _]| q.abs() > MOVES * most).collect::<Vec<_>>();
+        let most = all.iter().fold(0.0, |most: f64, [q, ..]| most.max(q.abs()));
+        let moving = all.into_iter().filter(|[q, ..]| q.abs() > MOVES * most).collect::<Vec<_>>();
         let every = moving.len().div_ceil(POINTS).max(1);
-        let force = |motion: &[f64; 2]| atoms.iter().map(|atom| atom.force(*motion)).sum::<f64>();
-        moving.iter().step_by(every).map(|m| json!([m[0], m[1], force(m)])).collect::<Vec<_>>()
+        let force = |motion: &[f64; 3]| atoms.iter().map(|atom| atom.force(*motion)).sum::<f64>();
+        moving.iter().step_by(every).map(|m| json!([m[0], m[1], force(m), m[2]])).collect::<Vec<_>>()
     };
     let (fit, held_out) = tests.split_at(case.fit_tests);
     json!({ "fit": points(fit), "held_out": points(held_out) })
 }
 
-/// Displacement and velocity at a place: at the top those of small rotations, which are enough to tell where a test went.
-fn motion(case: &Case, test: &Test, site: Site) -> Vec<[f64; 2]> {
+/// Displacement, velocity and largest displacement so far at a place: at the top those of small rotations, which are enough to tell where a test went.
+fn motion(case: &Case, test: &Test, site: Site) -> Vec<[f64; 3]> {
     let heights = [case.actual.crack_height_m, case.actual.height_m - case.actual.crack_height_m];
     let at = |theta: &[f64; 2]| match site {
         Site::Top => theta[0] * heights[0] + theta[1] * heights[1],
@@ -38,5 +39,10 @@ fn motion(case: &Case, test: &Test, site: Site) -> Vec<[f64; 2]> {
         Site::Crack => theta[1] - theta[0],
     };
     let three = test.true_rad.windows(3);
-    three.map(|w| [at(&w[1]), (at(&w[2]) - at(&w[0])) / (2.0 * STEP_S)]).collect()
+    let mut largest = 0.0_f64;
+    let mut so_far = |q: f64| {
+        largest = largest.max(q.abs());
+        largest
+    };
+    three.map(|w| [at(&w[1]), (at(&w[2]) - at(&w[0])) / (2.0 * STEP_S), so_far(at(&w[1]))]).collect()
 }

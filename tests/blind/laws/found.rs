@@ -6,8 +6,8 @@ use serde_json::Value;
 
 use super::super::score::reading::{list, text, texts};
 
-/// Displacement, velocity and the true force or moment at a place.
-pub type Excited = [f64; 3];
+/// Displacement, velocity, the true force or moment, and the largest displacement so far at a place.
+pub type Excited = [f64; 4];
 
 /// The formula of an effect, ready to be worked out.
 fn formula(effect: &FoundEffect) -> Option<Formula> {
@@ -29,11 +29,11 @@ pub fn function_error(answer: &Value, diagnosis: &Summary, points: &[Excited]) -
         return None;
     }
     let softer = if place == "top" { softer(answer, diagnosis)? } else { 0.0 };
-    let found = |[q, u, _]: &Excited| {
-        formulas.iter().map(|(_, formula)| formula.value([*q, *u, 0.0])).sum::<f64>() + softer * q
+    let found = |[q, u, _, largest]: &Excited| {
+        formulas.iter().map(|(_, formula)| formula.value([*q, *u, *largest])).sum::<f64>() + softer * q
     };
     let off = points.iter().map(|point| (found(point) - point[2]).powi(2)).sum::<f64>();
-    let all = points.iter().map(|[.., force]| force.powi(2)).sum::<f64>();
+    let all = points.iter().map(|[_, _, force, _]| force.powi(2)).sum::<f64>();
     (all > 0.0).then(|| (off / all).sqrt())
 }
 
@@ -45,9 +45,9 @@ pub fn curve_error(answer: &Value, diagnosis: &Summary, points: &[Excited]) -> O
         return None;
     }
     let within = |[low, high]: [f64; 2], x: f64| low <= x && x <= high;
-    let inside = points.iter().filter(|[x, v, _]| within(by_x.range, *x) && within(by_v.range, *v));
+    let inside = points.iter().filter(|[x, v, ..]| within(by_x.range, *x) && within(by_v.range, *v));
     let softer = softer(answer, diagnosis)?;
-    let apart = |[x, v, force]: &Excited| {
+    let apart = |[x, v, force, _]: &Excited| {
         let [a, b] = [told(by_x, *x), told(by_v, *v)];
         // Bands of both curves as if they erred apart.
         (a[0] + b[0] + softer * x - force, a[1].hypot(b[1]), *force)

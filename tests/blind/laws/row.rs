@@ -177,7 +177,7 @@ impl LawRow {
 
 fn excited(answer: &Value, part: &str) -> Vec<Excited> {
     let point =
-        |point: &Value| Some([0, 1, 2].map(|i| point.get(i).and_then(Value::as_f64).unwrap_or(f64::NAN)));
+        |point: &Value| Some([0, 1, 2, 3].map(|i| point.get(i).and_then(Value::as_f64).unwrap_or(f64::NAN)));
     list(answer, &format!("/excited/{part}")).iter().filter_map(point).collect()
 }
 

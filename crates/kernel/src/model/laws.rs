@@ -4,7 +4,8 @@
 use wide::f64x2;
 
 use super::effect::{EffectSums, Lanes, Yielding};
-use super::regime::{Change, Kink, Regime, Side};
+use super::formula::FormulaLaws;
+use super::regime::{Change, Kink, Regime, Side, TopMemory};
 use crate::fused::fused;
 
 /// Everything that acts on the wall beyond its own masses, summed over the wall's spring and its effects.
@@ -93,6 +94,8 @@ pub(crate) struct PiecewiseLaws {
     friction_n: f64,
     /// Whether a formula jumps against the motion.
     formulas_rub: bool,
+    /// Whether a formula depends on how far the top has been.
+    formulas_remember: bool,
     gap_m: f64,
     one_sided_n_per_m: [f64; 2],
     yielding: Option<Yielding>,
@@ -102,7 +105,7 @@ impl PiecewiseLaws {
     /// The laws of a wall, if any has a kink.
     ///
     /// Every sum by its name: a new one does not compile here until somebody says whether its law has kinks.
-    pub fn new(smooth: Laws, effects: &EffectSums, formulas_rub: bool) -> Option<Self> {
+    pub fn new(smooth: Laws, effects: &EffectSums, formulas: &FormulaLaws) -> Option<Self> {
         let EffectSums {
             friction_n,
             gap_half_width_m: gap_m,
@@ -121,14 +124,17 @@ impl PiecewiseLaws {
             ground: _,
             reading: _,
         } = *effects;
+        let (formulas_rub, formulas_remember) = (formulas.rubs(), formulas.remember_largest());
         let rubs = friction_n > 0.0 || formulas_rub;
-        let kinks = rubs || gap_m > 0.0 || one_sided_n_per_m != [0.0; 2] || yielding.is_some();
+        let kinks =
+            rubs || formulas_remember || gap_m > 0.0 || one_sided_n_per_m != [0.0; 2] || yielding.is_some();
         let floor_n_per_m = smooth.stiffness_n_per_m;
         kinks.then_some(Self {
             smooth,
             floor_n_per_m,
             friction_n,
             formulas_rub,
+            formulas_remember,
             gap_m,
             one_sided_n_per_m,
             yielding,
@@ -150,6 +156,11 @@ impl PiecewiseLaws {
         self.yielding.is_some()
     }
 
+    /// Whether the wall is not at rest as it was before: by a spring that has yielded, or by how far it has been.
+    pub fn remembers(&self) -> bool {
+        self.yields() || self.formulas_remember
+    }
+
     /// Stiffness beyond that of the floor, while every spring acts, N/m.
     pub fn further_stiffness_n_per_m(&self) -> f64 {
         let [negative, positive] = self.one_sided_n_per_m;
@@ -157,12 +168,21 @@ impl PiecewiseLaws {
     }
 
     /// The regime at a displacement and velocity of the top. The plastic displacement moves to where the
-    /// spring holds no more than its force.
-    pub fn regime_at(&self, x_c_m: f64, v_c_m_s: f64, plastic_m: f64) -> Regime {
+    /// spring holds no more than its force, and the largest to no less than the displacement.
+    pub fn regime_at(&self, x_c_m: f64, v_c_m_s: f64, memory: TopMemory) -> Regime {
+        let TopMemory { plastic_m, largest_m } = memory;
         let gap = if x_c_m.abs() > self.gap_m { Side::of(x_c_m) } else { Side::Between };
         let plastic_m = self.yielding.map_or(plastic_m, |spring| spring.plastic_m(plastic_m, x_c_m));
         let leans = if x_c_m == 0.0 { Side::of(v_c_m_s) } else { Side::of(x_c_m) };
-        Regime { slides: Side::of(v_c_m_s), gap, leans, yields: Side::Between, plastic_m }
+        Regime {
+            slides: Side::of(v_c_m_s),
+            gap,
+            leans,
+            yields: Side::Between,
+            plastic_m,
+            grows: Side::Between,
+            largest_m: largest_m.max(x_c_m.abs()),
+        }
     }
 
     /// Largest elastic displacement x_y of the yielding spring, m; 0 without one.
@@ -217,6 +237,7 @@ impl PiecewiseLaws {
         let closes = gap && regime.gap == Side::Between;
         let leans = regime.leans.sign();
         let elastic = yielding && regime.yields == Side::Between;
+        let within = self.formulas_remember && regime.grows == Side::Between;
         let stops = |acts: bool, side: Side| {
             (acts && side != Side::Between).then_some(Kink::Stops { sign: side.sign() })
         };
@@ -234,6 +255,9 @@ impl PiecewiseLaws {
             beyond(leaning && leans >= 0.0, -1.0, 0.0, Change::Leans(Side::Negative)),
             beyond(elastic, 1.0, regime.plastic_m + x_y, Change::Yields(Side::Positive)),
             beyond(elastic, -1.0, regime.plastic_m - x_y, Change::Yields(Side::Negative)),
+            beyond(within, 1.0, regime.largest_m, Change::Grows(Side::Positive)),
+            beyond(within, -1.0, -regime.largest_m, Change::Grows(Side::Negative)),
+            stops(self.formulas_remember, regime.grows),
             stops(yielding, regime.yields),
             stops(self.rubs(), regime.slides),
         ]
@@ -247,17 +271,25 @@ impl PiecewiseLaws {
             Kink::Passes { change: Change::Gap(gap), .. } => Regime { gap, ..*regime },
             Kink::Passes { change: Change::Leans(leans), .. } => Regime { leans, ..*regime },
             Kink::Passes { change: Change::Yields(yields), .. } => Regime { yields, ..*regime },
-            Kink::Stops { .. } => Regime { slides: Side::Between, ..self.unloaded(regime, x_c_m) },
+            Kink::Passes { change: Change::Grows(grows), .. } => Regime { grows, ..*regime },
+            Kink::Stops { .. } => Regime { slides: Side::Between, ..self.turned_back(regime, x_c_m) },
             // A switch of a formula is none of the regime's.
             Kink::Turns { .. } => *regime,
         }
     }
 
-    /// The regime after the velocity of the top has jumped: a spring that yielded the other way unloads.
+    /// The regime after the velocity of the top has jumped: a spring that yielded the other way unloads, and what went
+    /// farther out than ever has come back.
     pub fn at_velocity(&self, regime: &Regime, moves: Side, x_c_m: f64) -> Regime {
-        let turned = moves.sign() * regime.yields.sign() < 0.0;
-        let regime = if turned { self.unloaded(regime, x_c_m) } else { *regime };
+        let turned = |side: Side| moves.sign() * side.sign() < 0.0;
+        let regime = if turned(regime.yields) { self.unloaded(regime, x_c_m) } else { *regime };
+        let regime = if turned(regime.grows) { inside(&regime, x_c_m) } else { regime };
         Regime { slides: moves, ..regime }
+    }
+
+    /// The regime once the top has stopped.
+    fn turned_back(&self, regime: &Regime, x_c_m: f64) -> Regime {
+        inside(&self.unloaded(regime, x_c_m), x_c_m)
     }
 
     /// The regime once the spring does not yield any more.
@@ -269,5 +301,13 @@ impl PiecewiseLaws {
                 Regime { yields: Side::Between, plastic_m, ..*regime }
             }
         }
+    }
+}
+
+/// The regime once the top does not go farther out any more.
+fn inside(regime: &Regime, x_c_m: f64) -> Regime {
+    match regime.grows {
+        Side::Between => *regime,
+        _ => Regime { grows: Side::Between, largest_m: regime.largest_m.max(x_c_m.abs()), ..*regime },
     }
 }

@@ -47,7 +47,7 @@ pub(crate) use motion::{Configuration, Motion, RatePair};
 pub(crate) use motion_row::MotionRow;
 pub use parameters::{ImpactLaw, Restitution, WallParameters};
 pub(crate) use regime::Kink;
-pub use regime::{Regime, Side};
+pub use regime::{Regime, Side, TopMemory};
 pub(crate) use rocking::{Carried, opening};
 pub use rocking::{RockingWall, State};
 pub(crate) use side_by_side::{ConfigurationLanes, Motions, RateLanes, ReactionLanes};

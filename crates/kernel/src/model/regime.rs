@@ -62,6 +62,19 @@ pub struct Regime {
     pub yields: Side,
     /// Plastic displacement x_p of the yielding spring, m.
     pub plastic_m: f64,
+    /// On which side the top is farther out than it ever was, and goes on; between: it has been as far.
+    pub grows: Side,
+    /// How far it had been before, m: the largest |x_C|.
+    pub largest_m: f64,
+}
+
+/// What the laws at the top keep of the past.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct TopMemory {
+    /// Plastic displacement of the yielding spring, m.
+    pub plastic_m: f64,
+    /// The largest |x_C| so far, m.
+    pub largest_m: f64,
 }
 
 /// Where a regime ends.
@@ -81,6 +94,7 @@ pub(crate) enum Change {
     Gap(Side),
     Leans(Side),
     Yields(Side),
+    Grows(Side),
 }
 
 /// A speed of the top within this share of what it is the difference of is zero: some hundred roundings.
@@ -115,15 +129,17 @@ impl RockingWall {
         let held = piecewise_laws.rubs() && regime.slides == Side::Between;
         self.motions.iter_mut().for_each(|motion| motion.set_laws(laws, held));
         self.formulas.slide(regime.slides);
+        self.formulas.remember(regime.grows, regime.largest_m);
         self.share_branches();
     }
 
-    /// Enters the regime of a state that nothing went before, but for a plastic displacement in m.
-    pub fn enter_regime_of_state(&mut self, contact: Contact, state: &State, plastic_m: f64) {
+    /// Enters the regime of a state that nothing went before, but for what the laws at the top keep.
+    pub fn enter_regime_of_state(&mut self, contact: Contact, state: &State, memory: TopMemory) {
+        if let Some(piecewise_laws) = self.piecewise_laws {
+            let [x_c, v_c, _] = self.motion(contact).top(state.theta, state.omega, [0.0; 2]);
+            self.enter_regime(piecewise_laws.regime_at(x_c, v_c, memory));
+        }
         self.turn_switches(contact, state, [0.0; 2], None);
-        let Some(piecewise_laws) = self.piecewise_laws else { return };
-        let [x_c, v_c, _] = self.motion(contact).top(state.theta, state.omega, [0.0; 2]);
-        self.enter_regime(piecewise_laws.regime_at(x_c, v_c, plastic_m));
     }
 
     /// Goes through a kink.

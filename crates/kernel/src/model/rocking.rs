@@ -78,7 +78,7 @@ impl RockingWall {
         let formulas = FormulaLaws::new(wall.formulas.clone());
         let mut rocking = Self {
             coefficients: wall.coefficients(),
-            piecewise_laws: PiecewiseLaws::new(laws, &wall.effects, formulas.rubs()),
+            piecewise_laws: PiecewiseLaws::new(laws, &wall.effects, &formulas),
             slopes: slopes(wall, &formulas),
             formulas,
             least_speed_m_s: 0.0,

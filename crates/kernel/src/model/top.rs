@@ -6,6 +6,7 @@ use super::contact::Contact;
 use super::geometry::{Pair, Rotations};
 use super::mass_matrix::Freedom;
 use super::motion::{Configuration, Equations, Motion};
+use super::regime::TopMemory;
 use super::rocking::RockingWall;
 
 impl Motion {
@@ -91,10 +92,13 @@ impl RockingWall {
     }
 
     /// Force of everything at the top that acts by its displacement (m) and velocity (m/s), N. A yielding
-    /// spring starts from this plastic displacement, m.
+    /// spring starts from this plastic displacement, m. To formulas the top was never farther out.
     pub fn top_force_n(&self, x_c_m: f64, v_c_m_s: f64, plastic_m: f64) -> f64 {
         let laws = match &self.piecewise_laws {
-            Some(piecewise_laws) => piecewise_laws.laws(&piecewise_laws.regime_at(x_c_m, v_c_m_s, plastic_m)),
+            Some(piecewise_laws) => {
+                let memory = TopMemory { plastic_m, ..TopMemory::default() };
+                piecewise_laws.laws(&piecewise_laws.regime_at(x_c_m, v_c_m_s, memory))
+            }
             None => *self.motions[0].laws(),
         };
         let named_n = laws.spring_force_n(x_c_m) + laws.damping_force_n(v_c_m_s);

@@ -16,7 +16,8 @@ use super::rest::RestLimits;
 use super::simulator::{Placed, Simulator, Start};
 use super::totals::Totals;
 use crate::model::{
-    Carried, Contact, MechanicsError, Pair, Pivot, Reactions, RockingWall, State, Vector, opening,
+    Carried, Contact, MechanicsError, Pair, Pivot, Reactions, Regime, RockingWall, Side, State, TopMemory,
+    Vector, opening,
 };
 use crate::solver::{Controller, Point, Quintic, STAGES, Step};
 pub(super) use step::StepRequest;
@@ -84,7 +85,7 @@ impl<O: Observer> Run<O> {
         let mut wall = Box::new(simulator.wall.clone());
         wall.enter_branches(&placed.state, placed.crushed_rad);
         let contact = wall.with_beds_as_at(placed.contact, placed.state.theta);
-        wall.enter_regime_of_state(contact, &placed.state, placed.plastic_displacement_m);
+        wall.enter_regime_of_state(contact, &placed.state, placed.memory);
         Self {
             rest: simulator.rest.clone(),
             collapse_rad: simulator.wall.wall().collapse_rotation_rad(),
@@ -273,9 +274,10 @@ impl<O: Observer> Run<O> {
         };
         self.now.velocity = self.wall.with_slow_top_stopped(contact, &self.state());
         let state = self.state();
-        if self.wall.rests_in(contact) && piecewise_laws.yields() {
+        if self.wall.rests_in(contact) && piecewise_laws.remembers() {
             // A spring that has yielded leans on the wall at rest.
-            self.wall.enter_regime_of_state(contact, &state, self.wall.regime().plastic_m);
+            let Regime { plastic_m, largest_m, .. } = self.wall.regime();
+            self.wall.enter_regime_of_state(contact, &state, TopMemory { plastic_m, largest_m });
             self.rest = RestLimits::new(&self.wall);
         }
         let rest_reserve = self.rest.reserve(ground);
@@ -318,6 +320,15 @@ impl<O: Observer> Run<O> {
     fn plastic_displacement_m(&self) -> f64 {
         let x_c = self.wall.top_displacement_m(self.contact, self.now.position);
         self.wall.wall().plastic_displacement_m(self.wall.regime().plastic_m, x_c)
+    }
+
+    /// The largest displacement of the top until now, m, where it is kept.
+    fn largest_displacement_m(&self) -> f64 {
+        let regime = self.wall.regime();
+        match regime.grows {
+            Side::Between => regime.largest_m,
+            _ => self.wall.top_displacement_m(self.contact, self.now.position).abs().max(regime.largest_m),
+        }
     }
 
     fn reactions(&self, point: &Point, ground: Vector) -> Reactions {
@@ -390,6 +401,7 @@ impl<O: Observer> Run<O> {
                 contact: Some(self.contact),
                 plastic_displacement_m: self.plastic_displacement_m(),
                 crushed_rad: self.wall.crushed_rad(self.now.position),
+                largest_displacement_m: self.largest_displacement_m(),
             },
         }
     }

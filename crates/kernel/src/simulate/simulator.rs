@@ -7,7 +7,7 @@ use super::rest::RestLimits;
 use super::run::Run;
 use super::side_by_side::Prepared;
 use super::{Accuracy, Shaking};
-use crate::model::{Contact, Joint, Pivot, RockingWall, State, Vector, Wall, opening};
+use crate::model::{Contact, Joint, Pivot, RockingWall, State, TopMemory, Vector, Wall, opening};
 use crate::solver::{Controller, ErrorScale};
 
 /// Error of a step allowed, as a share of the error of a run. Impacts magnify what is there before them. With
@@ -39,6 +39,28 @@ pub struct Start {
     /// The largest rotations so far of the joint at the ground and of that at the crack, each to the right and to the
     /// left, rad, without sign: what a joint that crushes remembers. Others have no use for it.
     pub crushed_rad: [[f64; 2]; 2],
+    /// The largest |x_C| before, m, which formulas may depend on (`x_max`). Where the start is farther out, that is it.
+    pub largest_displacement_m: f64,
+}
+
+impl Start {
+    /// In a state at a time in s, with what the laws at the top keep of the past.
+    pub fn with_memory(time_s: f64, state: State, contact: Contact, memory: TopMemory) -> Self {
+        let TopMemory { plastic_m, largest_m } = memory;
+        let contact = Some(contact);
+        Self {
+            time_s,
+            state,
+            contact,
+            plastic_displacement_m: plastic_m,
+            largest_displacement_m: largest_m,
+            ..Self::default()
+        }
+    }
+
+    fn memory(&self) -> TopMemory {
+        TopMemory { plastic_m: self.plastic_displacement_m, largest_m: self.largest_displacement_m }
+    }
 }
 
 /// A wall and a shaking made ready. Their equations, limits and samples are worked out once, so that a window
@@ -58,8 +80,8 @@ pub struct Simulator {
 pub(super) struct Placed {
     pub contact: Contact,
     pub state: State,
-    pub plastic_displacement_m: f64,
     pub crushed_rad: [[f64; 2]; 2],
+    pub memory: TopMemory,
 }
 
 impl Simulator {
@@ -162,12 +184,7 @@ impl Simulator {
                 state.theta[i] = if i == 0 { 0.0 } else { state.theta[0] };
             }
         }
-        Placed {
-            contact,
-            state,
-            plastic_displacement_m: start.plastic_displacement_m,
-            crushed_rad: start.crushed_rad,
-        }
+        Placed { contact, state, crushed_rad: start.crushed_rad, memory: start.memory() }
     }
 
     /// Moves a start onto its contact state.
@@ -195,11 +212,6 @@ impl Simulator {
         if contact.crack.sign() * (*theta2 - *theta1) < 0.0 {
             *theta2 = *theta1;
         }
-        Placed {
-            contact,
-            state,
-            plastic_displacement_m: start.plastic_displacement_m,
-            crushed_rad: start.crushed_rad,
-        }
+        Placed { contact, state, crushed_rad: start.crushed_rad, memory: start.memory() }
     }
 }

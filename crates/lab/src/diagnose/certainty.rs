@@ -221,7 +221,11 @@ pub fn confused(data: &Data, recalibrated: &FittedHypothesis, tried: &[FittedHyp
     // A bed that hardly gives is a stiff one: what it does near nothing takes long to simulate and tells little.
     let left_out = |a: &Addition| *a == Addition::Placebo || a.role() == Some(Role::Bed);
     let real = singles.filter(|t| !left_out(&t.hypothesis.additions[0])).collect::<Vec<_>>();
-    let traces = real.par_iter().filter_map(|t| trace(data, recalibrated, t)).collect::<Vec<_>>();
+    // All are looked at about the same wall in the same states.
+    let Some(chords) = data.fit.chords(&recalibrated.hypothesis, &recalibrated.fit) else {
+        return Vec::new();
+    };
+    let traces = real.par_iter().filter_map(|t| trace(data, recalibrated, &chords, t)).collect::<Vec<_>>();
     let one = |t: &&Trace| t.tried.hypothesis.unknowns.len() == t.tried.hypothesis.nuisances + 1;
     let effects = traces.iter().filter(|t| t.tried.hypothesis.additions[0].kind().is_some()).filter(one);
     let mut all = effects.filter_map(|effect| most_confused(effect, &traces)).collect::<Vec<_>>();
@@ -229,7 +233,12 @@ pub fn confused(data: &Data, recalibrated: &FittedHypothesis, tried: &[FittedHyp
     all
 }
 
-fn trace<'t>(data: &Data, recalibrated: &FittedHypothesis, tried: &'t FittedHypothesis) -> Option<Trace<'t>> {
+fn trace<'t>(
+    data: &Data,
+    recalibrated: &FittedHypothesis,
+    chords: &[DMatrix<f64>],
+    tried: &'t FittedHypothesis,
+) -> Option<Trace<'t>> {
     let h = &tried.hypothesis;
     // The wall's own numbers as they were fitted, and nothing added.
     let values = h.values_from(&recalibrated.hypothesis, &recalibrated.fit.values);
@@ -240,8 +249,9 @@ fn trace<'t>(data: &Data, recalibrated: &FittedHypothesis, tried: &'t FittedHypo
         (sd.is_finite() && sd > 0.0).then_some((CHANGE_SD * sd).min(h.unknowns[i].scale))
     };
     let changes = (0..h.unknowns.len()).map(change).collect::<Option<Vec<_>>>()?;
-    let (slopes, _) = data.fit.slopes(h, &at, Some(&changes))?;
-    let (near, _) = data.fit.slopes(h, &at, Some(&changes.iter().map(|c| c / 2.0).collect::<Vec<_>>()))?;
+    let half = changes.iter().map(|c| c / 2.0).collect::<Vec<_>>();
+    let slopes = data.fit.slopes_over(h, &at, &changes, Some(chords))?;
+    let near = data.fit.slopes_over(h, &at, &half, Some(chords))?;
     let linear = |(far, near): (WindowSlopes, WindowSlopes)| is_linear(&far, &near).then_some(far);
     Some(Trace { tried, slopes: slopes.into_iter().zip(near).map(linear).collect() })
 }

@@ -47,7 +47,9 @@ use verdict::{Found, judge, on_beds};
 /// # Errors
 /// An input error if no window of a test to fit starts in a pattern beyond doubt.
 pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Diagnosis> {
-    Diagnosis::new(&findings(experiment, progress)?)
+    let findings = findings(experiment, progress)?;
+    progress.begin("how sure the answer is, and what else could be", 1);
+    Diagnosis::new(&findings)
 }
 
 /// The hypotheses fitted, and the verdict; a sensor's gain that shows is kept with the tests, so that patterns are read

@@ -33,15 +33,15 @@ fn law(wall: &Wall, formula: &Formula) -> Result<FormulaLaw, FormulaError> {
             "place = \"ground\"",
         ));
     }
-    let range = reach(wall, formula.place());
+    let mut range = reach(wall, formula.place());
+    if formula.remembers() {
+        range.high[2] = range.high[0];
+    }
     let jumps = formula.check(&range)?;
     let friction = jumps.iter().position(|jump| *jump == Jump::AgainstMotion);
-    let law = FormulaLaw::new(formula, range.high[2], friction);
+    let weight_n = if joint.is_some() { range.high[2] } else { 0.0 };
+    let law = FormulaLaw::new(formula, weight_n, friction);
     match joint {
-        None if formula.depends_on(2) => Err(FormulaError::found(
-            "`a`, the acceleration",
-            "x and v: what goes with the acceleration is a mass, which takes part in impacts too (carriage_mass)",
-        )),
         Some(_) if friction.is_some() => Err(FormulaError::found(
             "a moment that jumps at w = 0",
             "what is smooth there, such as tanh(w/s) with a small s: nothing holds a joint that is open",

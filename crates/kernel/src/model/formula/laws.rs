@@ -17,14 +17,34 @@ pub(super) fn joint_of(place: Place) -> Option<Joint> {
     }
 }
 
+/// The largest |x_C| so far, as a formula at the top sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Largest {
+    /// On which side the top is farther out than it ever was: there it is |x_C|.
+    grows: Side,
+    /// How far it had been before, m.
+    before_m: f64,
+}
+
+impl Largest {
+    fn at(self, x_c_m: f64) -> f64 {
+        match self.grows {
+            Side::Between => self.before_m,
+            side => side.sign() * x_c_m,
+        }
+    }
+}
+
 /// One formula, ready to run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FormulaLaw {
     pub(super) program: Arc<Program>,
     /// `None`: at the top.
     pub(super) joint: Option<Joint>,
-    /// The third variable: the weight on the joint, N.
-    third: f64,
+    /// The third variable at a joint: the weight on it, N.
+    weight_n: f64,
+    /// The third variable at the top, where it occurs.
+    largest: Option<Largest>,
     /// The switch at which it jumps against the motion.
     pub(super) friction: Option<usize>,
     pub(super) branches: Branches,
@@ -32,16 +52,34 @@ pub(crate) struct FormulaLaw {
 
 impl FormulaLaw {
     /// In the branches of rest; friction holds.
-    pub fn new(formula: &Formula, third: f64, friction: Option<usize>) -> Self {
+    pub fn new(formula: &Formula, weight_n: f64, friction: Option<usize>) -> Self {
         let program = Arc::clone(formula.program());
-        let at_rest = program.branches_at([0.0, 0.0, third], [0.0; 3]);
+        let at_rest = program.branches_at([0.0, 0.0, weight_n], [0.0; 3]);
+        let new = Largest { grows: Side::Between, before_m: 0.0 };
         let branches = friction.map_or(at_rest, |switch| at_rest.with(switch, Branch::Zero));
-        Self { program, joint: joint_of(formula.place()), third, friction, branches }
+        let joint = joint_of(formula.place());
+        Self { program, joint, weight_n, largest: formula.remembers().then_some(new), friction, branches }
     }
 
     /// The variables at a displacement or rotation and its rate.
     pub(super) fn state(&self, q: f64, rate: f64) -> State {
-        [q, rate, self.third]
+        [q, rate, self.largest.map_or(self.weight_n, |largest| largest.at(q))]
+    }
+
+    /// How fast the third variable changes at a rate of displacement.
+    pub(super) fn third_rate(&self, rate: f64) -> f64 {
+        self.largest.map_or(0.0, |largest| largest.grows.sign() * rate)
+    }
+
+    /// Whether the third variable is a displacement that changes.
+    pub(super) fn grows(&self) -> bool {
+        self.largest.is_some_and(|largest| largest.grows != Side::Between)
+    }
+
+    /// The variables where the top may be farther out than it is known to have been.
+    fn state_anywhere(&self, q: f64, rate: f64) -> State {
+        let third = self.largest.map_or(self.weight_n, |largest| largest.before_m.max(q.abs()));
+        [q, rate, third]
     }
 
     /// Force or moment on the wall, N or N m.
@@ -52,7 +90,7 @@ impl FormulaLaw {
 
     /// The same as it is written, whatever branch it is in.
     fn as_written(&self, q: f64, rate: f64) -> f64 {
-        self.program.value(self.state(q, rate), &Branches::FREE)
+        self.program.value(self.state_anywhere(q, rate), &Branches::FREE)
     }
 
     /// The same at rest.
@@ -70,13 +108,15 @@ impl FormulaLaw {
 
     /// Stiffness and damping at a state, where they are finite and resist.
     fn slopes_at(&self, q: f64, rate: f64) -> Pair {
-        let state = self.state(q, rate);
+        let state = self.state_anywhere(q, rate);
         let branches = self.program.branches_at(state, [rate, 0.0, 0.0]);
         let against = |rates: State| {
             let slope = -self.program.rate(state, rates, &branches);
             if slope.is_finite() { slope.max(0.0) } else { 0.0 }
         };
-        [against([1.0, 0.0, 0.0]), against([0.0, 1.0, 0.0])]
+        let inside = against([1.0, 0.0, 0.0]);
+        let outwards = if self.largest.is_some() { against([1.0, 0.0, 1f64.copysign(q)]) } else { inside };
+        [inside.max(outwards), against([0.0, 1.0, 0.0])]
     }
 }
 
@@ -140,6 +180,11 @@ impl FormulaLaws {
         self.laws.iter().any(|law| law.friction.is_some())
     }
 
+    /// Whether any depends on how far the top has been.
+    pub fn remember_largest(&self) -> bool {
+        self.laws.iter().any(|law| law.largest.is_some())
+    }
+
     /// What friction can add at the top while it holds it: the least and the most, N.
     pub fn holds_n(&self, x_c_m: f64) -> [f64; 2] {
         let limits = self.at(None).map(|law| law.holds_n(x_c_m));
@@ -160,9 +205,18 @@ impl FormulaLaws {
         }
     }
 
-    /// Takes the branches of the same formulas elsewhere.
+    /// Tells how far the top has been, m, and on which side it is farther out now.
+    pub fn remember(&mut self, grows: Side, before_m: f64) {
+        for law in self.laws.iter_mut().filter(|law| law.largest.is_some()) {
+            law.largest = Some(Largest { grows, before_m });
+        }
+    }
+
+    /// Takes branches and memory of the same formulas elsewhere.
     pub fn take_branches(&mut self, other: &Self) {
-        self.laws.iter_mut().zip(&other.laws).for_each(|(own, law)| own.branches = law.branches);
+        for (own, law) in self.laws.iter_mut().zip(&other.laws) {
+            (own.branches, own.largest) = (law.branches, law.largest);
+        }
     }
 
     /// How stiff and how viscous they are, over displacements up to a size in m or rad and speeds up to a size

@@ -27,7 +27,7 @@ pub(crate) enum Path {
     Rate(f64),
     /// With both.
     Both,
-    /// Nowhere: with a weight, which stays.
+    /// Nowhere: with a weight, or with how far the top has been, which stay.
     Nowhere,
 }
 
@@ -69,8 +69,8 @@ impl Turn<'_> {
         match &self.switch.at {
             SwitchAt::Line { variable: 0, value } => Path::Displacement(*value),
             SwitchAt::Line { variable: 1, value } => Path::Rate(*value),
-            SwitchAt::Line { .. } => Path::Nowhere,
-            SwitchAt::Surface(_) => Path::Both,
+            SwitchAt::Line { .. } if !self.law.grows() => Path::Nowhere,
+            SwitchAt::Line { .. } | SwitchAt::Surface(_) => Path::Both,
         }
     }
 
@@ -90,12 +90,13 @@ impl Turn<'_> {
     /// The argument, and its rate.
     pub fn argument(&self, [q, rate, second]: Place) -> (f64, f64) {
         let state = self.law.state(q, rate);
-        self.switch.argument_and_rate(state, [rate, second, 0.0], &self.law.branches)
+        self.switch.argument_and_rate(state, [rate, second, self.law.third_rate(rate)], &self.law.branches)
     }
 
     /// What the argument is known to, where displacement and rate are known to these errors.
     pub fn rounding(&self, [q, rate, _]: Place, [of_q, of_rate]: Pair) -> f64 {
-        self.switch.rounding(self.law.state(q, rate), [of_q, of_rate, 0.0], &self.law.branches)
+        let of_third = if self.law.grows() { of_q } else { 0.0 };
+        self.switch.rounding(self.law.state(q, rate), [of_q, of_rate, of_third], &self.law.branches)
     }
 
     /// The side that the argument is on, or, where it is zero to its rounding, goes to; `None` if it stays zero.

@@ -23,6 +23,9 @@ use mrbd_kernel::model::{Role, Wall};
 use mrbd_kernel::simulate::Accuracy;
 use rayon::prelude::*;
 
+/// Hypotheses, best first, of which the errors of whole runs are told over numbers that fit as well.
+const RANGES_TOLD: usize = 12;
+
 impl Findings<'_> {
     /// Everything that `diagnosis.json` tells.
     pub(super) fn summary(&self, physics: &[Physics; 2], force: &ForceBeforeAfter) -> Summary {
@@ -57,7 +60,7 @@ impl Findings<'_> {
             },
             could_hide: self.could_hide(),
             confused: confused(&data, &found.recalibrated, &found.tried),
-            rivals: found.rivals(&data).into_par_iter().map(|tried| self.rival(tried)).collect(),
+            rivals: self.rivals(&found.rivals(&data)),
             hypotheses: self.own_hypotheses(),
             missing_force: force.summary(physics),
             next_tests: next_tests(self),
@@ -258,8 +261,13 @@ impl Findings<'_> {
         finite(windowed_error(&own.map(|(_, fit)| fit.clone()).collect::<Vec<WindowFit>>()))
     }
 
+    /// Hypotheses in order; the errors of whole runs of the first of them over numbers that fit as well, too.
+    fn rivals(&self, tried: &[&FittedHypothesis]) -> Vec<Rival> {
+        tried.par_iter().enumerate().map(|(rank, tried)| self.rival(tried, rank < RANGES_TOLD)).collect()
+    }
+
     /// One hypothesis that was tried, with the figures of every other.
-    pub(super) fn rival(&self, tried: &FittedHypothesis) -> Rival {
+    pub(super) fn rival(&self, tried: &FittedHypothesis, with_range: bool) -> Rival {
         let h = &tried.hypothesis;
         let number = |i: usize| FittedNumber {
             key: h.unknowns[i].key.clone(),
@@ -269,7 +277,7 @@ impl Findings<'_> {
         };
         let data = self.data();
         let [against_fit, against_held_out] = tried.against(&data);
-        let wme = self.ensemble_wme(tried);
+        let wme = self.ensemble_wme(tried, with_range);
         let fitted = |all: &Vec<Option<f64>>| all.first().copied().flatten();
         Rival {
             name: h.name(),
@@ -284,10 +292,11 @@ impl Findings<'_> {
     }
 
     /// Errors over whole runs of the tests to fit and held out, of the fitted wall first and then of those that fit as well.
-    fn ensemble_wme(&self, tried: &FittedHypothesis) -> [Vec<Option<f64>>; 2] {
+    fn ensemble_wme(&self, tried: &FittedHypothesis, with_range: bool) -> [Vec<Option<f64>>; 2] {
         // The vertical motion of the placebo is not in its wall.
         let is_placebo = tried.hypothesis.additions.contains(&Addition::Placebo);
-        let walls = if is_placebo { Vec::new() } else { ensemble(tried).unwrap_or_default() };
+        let mut walls = if is_placebo { Vec::new() } else { ensemble(tried).unwrap_or_default() };
+        walls.truncate(if with_range { walls.len() } else { 1 });
         [Purpose::Fit, Purpose::HoldOut].map(|purpose| self.mean_wmes(&walls, purpose))
     }
 

@@ -146,7 +146,7 @@ mod tests {
         for share in [-0.9, -0.5, 0.3, 0.6, 0.9] {
             let v = share * velocity[1].min(-velocity[0]);
             let [force_n, sd_n] = curve.parts[1].force_n(v);
-            let truth = law.first.force([0.0, v]);
+            let truth = law.first.force([0.0, v, 0.0]);
             // Straight pieces of a parabola are off by 2 % of the largest.
             assert!((force_n - truth).abs() < 6.0 + 4.0 * sd_n, "{v} m/s: {force_n} ± {sd_n} for {truth}");
         }

@@ -58,7 +58,7 @@ pub fn law_of(tried: &FittedHypothesis) -> Option<Law> {
 /// Largest difference of the forces of two laws over what was excited, over the largest force of the first at its place.
 pub fn difference(points: &Points, one: &Law, other: &Law) -> f64 {
     let at = |site: Site| {
-        let force = |law: &Law, motion: [f64; 2]| {
+        let force = |law: &Law, motion: [f64; 3]| {
             law.atoms().filter(|atom| atom.site == site).map(|atom| atom.force(motion)).sum::<f64>()
         };
         let (mut apart, mut largest) = (0.0_f64, 0.0_f64);

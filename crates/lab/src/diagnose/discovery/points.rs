@@ -69,8 +69,8 @@ impl Points {
         self.column_of(atom.site, |motion| one.force(motion))
     }
 
-    /// Rows of a force or moment at a site by displacement and velocity there.
-    pub fn column_of(&self, site: Site, force: impl Fn([f64; 2]) -> f64) -> DVector<f64> {
+    /// Rows of a force or moment at a site by displacement, velocity and largest displacement so far there.
+    pub fn column_of(&self, site: Site, force: impl Fn([f64; 3]) -> f64) -> DVector<f64> {
         let mut rows = Vec::with_capacity(self.missing.len());
         for stretch in &self.stretches {
             let value = |sample: &Sample| force(sample.motion[site as usize]);
@@ -108,8 +108,8 @@ impl Points {
         self.stretches.iter().flat_map(of).collect()
     }
 
-    /// Displacements and velocities at a site that were excited.
-    pub fn excited(&self, site: Site) -> impl Iterator<Item = [f64; 2]> {
+    /// Displacements and velocities at a site that were excited, with the largest displacements before.
+    pub fn excited(&self, site: Site) -> impl Iterator<Item = [f64; 3]> {
         let samples = self.stretches.iter().flat_map(|stretch| &stretch.samples);
         samples.map(move |sample| sample.motion[site as usize])
     }

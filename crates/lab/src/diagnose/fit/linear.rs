@@ -5,8 +5,9 @@
 //! costs still counts.
 
 use super::window_fit::{At, InState, in_chunks, owned, state_jacobians};
-use super::{Fit, Problem, Replay};
+use super::{Fit, Problem, Replay, WindowFit};
 use crate::diagnose::hypothesis::{Hypothesis, Unknown};
+use crate::experiment::Window;
 use nalgebra::{DMatrix, DVector};
 
 /// A sensitivity is taken over a change of the residuals of this many standard deviations of the noise ...
@@ -46,19 +47,46 @@ pub(super) struct Linearised {
     pub windows: Vec<Linear>,
 }
 
+/// What is known of a window beforehand.
+enum Known {
+    /// It is where it was, under the same values.
+    All(Linear),
+    /// Its Jacobian by the state, from nearby.
+    Chord(DMatrix<f64>),
+    Nothing,
+}
+
 impl Linearised {
-    /// The windows that a fit has in the states that they had; `None` for the others.
-    fn unmoved(self, fit: &Fit) -> impl Iterator<Item = Option<Linear>> {
-        let windows = self.windows.into_iter().zip(self.states).zip(&fit.windows);
-        windows.map(|((linear, x), now)| (x == now.x).then_some(linear))
+    /// What is still known of the windows of a fit. Enough to walk by, a Jacobian by the state serves for one more step,
+    /// unless the state has moved beyond what the measurement leaves open.
+    fn known(self, windows: &[Window], fit: &Fit, sides: Sides) -> Vec<Known> {
+        let same = self.values == fit.values && self.sides == sides;
+        let of = |((linear, x), (window, now)): ((Linear, Vec<f64>), (&Window, &WindowFit))| {
+            let moved = x.iter().zip(&now.x).map(|(before, now)| (now - before).abs());
+            match same && x == now.x {
+                true => Known::All(linear),
+                false
+                    if sides == Sides::OneWhereClear
+                        && linear.is_fresh
+                        && moved.zip(&window.spread).all(|(moved, spread)| moved < *spread) =>
+                {
+                    Known::Chord(linear.jx)
+                }
+                false => Known::Nothing,
+            }
+        };
+        let before = self.windows.into_iter().zip(self.states);
+        before.zip(windows.iter().zip(&fit.windows)).map(of).collect()
     }
 }
 
 /// One window, linear about a state and values; all derivatives by the values are zero where it is not.
 #[derive(Debug)]
 pub(super) struct Linear {
-    /// Residuals by the state.
+    /// Residuals by the state ...
     pub jx: DMatrix<f64>,
+    /// ... and whether they were taken here, and not nearby.
+    is_fresh: bool,
     /// Residuals by the values.
     pub jp: DMatrix<f64>,
     /// Residuals, in standard deviations of the noise.
@@ -72,7 +100,12 @@ pub(super) struct Linear {
 
 impl Linear {
     /// From the slopes to either side.
-    fn new(jx: DMatrix<f64>, jp: [DMatrix<f64>; 2], r: DVector<f64>, changes: &[f64]) -> Self {
+    fn new(
+        (jx, is_fresh): (DMatrix<f64>, bool),
+        jp: [DMatrix<f64>; 2],
+        r: DVector<f64>,
+        changes: &[f64],
+    ) -> Self {
         let q = if jx.ncols() > 0 { jx.clone().qr().q() } else { jx.clone() };
         let left = |columns: &DMatrix<f64>| columns - &q * (q.transpose() * columns);
         let sides = jp.each_ref().map(left);
@@ -84,7 +117,7 @@ impl Linear {
             jp.fill(0.0);
             jp_left.fill(0.0);
         }
-        Self { jx, jp, r, jp_left, r_left, holds }
+        Self { jx, is_fresh, jp, r, jp_left, r_left, holds }
     }
 
     /// Root mean square of the change that a change of one value makes, in standard deviations of the noise.
@@ -157,9 +190,23 @@ impl Problem<'_> {
             Some(changes) => changes.to_vec(),
             None => next_changes(h, &self.linear(h, fit, &first_changes(h), Sides::OneWhereClear)?),
         };
-        let linear = self.linear(h, fit, &changes, Sides::Both)?;
+        Some((self.slopes_over(h, fit, &changes, None)?, changes))
+    }
+
+    /// How each window of a fit changes with the values over these changes of them, where its Jacobian by the state may be
+    /// known. `None` if a neighbour is no wall.
+    pub fn slopes_over(
+        &self,
+        h: &Hypothesis,
+        fit: &Fit,
+        changes: &[f64],
+        chords: Option<&[DMatrix<f64>]>,
+    ) -> Option<Vec<WindowSlopes>> {
+        let chord = |k: usize| chords.and_then(|chords| chords.get(k).cloned());
+        let states = self.states_of(fit).into_iter().enumerate().map(|(k, state)| (state, chord(k)));
+        let linear = self.linear_of(h, fit, &states.collect::<Vec<_>>(), changes, Sides::Both)?;
         let of = |l: Linear| WindowSlopes { residual: l.r_left, by_values: l.jp_left, holds: l.holds };
-        Some((linear.into_iter().map(of).collect(), changes))
+        Some(linear.into_iter().map(of).collect())
     }
 
     /// Every window, linear about the fit; `None` if a neighbour is no wall. What is known of windows that are where they
@@ -172,18 +219,26 @@ impl Problem<'_> {
         sides: Sides,
     ) -> Option<Linearised> {
         let changes = known.as_ref().map_or_else(|| first_changes(h), |known| known.changes.clone());
-        let known = known.filter(|known| known.values == fit.values && known.sides == sides);
-        let mut windows = known.map_or_else(
-            || self.windows.iter().map(|_| None).collect::<Vec<_>>(),
-            |known| known.unmoved(fit).collect(),
+        let known = known.map_or_else(
+            || self.windows.iter().map(|_| Known::Nothing).collect(),
+            |known| known.known(self.windows, fit, sides),
         );
-        let open = (0..windows.len()).filter(|k| windows[*k].is_none()).collect::<Vec<_>>();
-        if !open.is_empty() {
-            let all = self.states_of(fit);
-            let these = open.iter().map(|k| all[*k]).collect::<Vec<_>>();
-            for (k, linear) in open.into_iter().zip(self.linear_of(h, fit, &these, &changes, sides)?) {
-                windows[k] = Some(linear);
+        let states = self.states_of(fit);
+        let (mut windows, mut open) = (Vec::with_capacity(known.len()), Vec::new());
+        for (known, state) in known.into_iter().zip(states) {
+            let (linear, chord) = match known {
+                Known::All(linear) => (Some(linear), None),
+                Known::Chord(chord) => (None, Some(chord)),
+                Known::Nothing => (None, None),
+            };
+            if linear.is_none() {
+                open.push((state, chord));
             }
+            windows.push(linear);
+        }
+        if !open.is_empty() {
+            let mut found = self.linear_of(h, fit, &open, &changes, sides)?.into_iter();
+            windows.iter_mut().filter(|known| known.is_none()).for_each(|window| *window = found.next());
         }
         let windows = windows.into_iter().flatten().collect::<Vec<_>>();
         let changes = next_changes(h, &windows);
@@ -193,24 +248,34 @@ impl Problem<'_> {
 
     /// Every window, linear about the fit; `None` if a neighbour is no wall.
     fn linear(&self, h: &Hypothesis, fit: &Fit, changes: &[f64], sides: Sides) -> Option<Vec<Linear>> {
-        self.linear_of(h, fit, &self.states_of(fit), changes, sides)
+        let states = self.states_of(fit).into_iter().map(|state| (state, None)).collect::<Vec<_>>();
+        self.linear_of(h, fit, &states, changes, sides)
     }
 
-    /// Windows in states, linear about them and the values of a fit.
+    /// Windows in states, some with a Jacobian by the state, linear about them and the values of a fit.
     fn linear_of(
         &self,
         h: &Hypothesis,
         fit: &Fit,
-        these: &[InState],
+        these: &[(InState, Option<DMatrix<f64>>)],
         changes: &[f64],
         sides: Sides,
     ) -> Option<Vec<Linear>> {
         let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
         let neighbours = |(i, change): (usize, &f64)| self.sides(h, fit, i, *change);
         let neighbours = changes.iter().enumerate().map(neighbours).collect::<Option<Vec<_>>>()?;
-        let linear = |these: &[InState]| {
-            let these = At::all(&replay, owned(these));
-            let jx = state_jacobians(&replay, &these.iter().collect::<Vec<_>>());
+        let linear = |these: &[(InState, Option<DMatrix<f64>>)]| {
+            let (states, chords): (Vec<_>, Vec<_>) =
+                these.iter().map(|(state, chord)| (*state, chord)).unzip();
+            let these = At::all(&replay, owned(&states));
+            let without = these.iter().zip(&chords).filter(|(_, chord)| chord.is_none());
+            let mut fresh =
+                state_jacobians(&replay, &without.map(|(at, _)| at).collect::<Vec<_>>()).into_iter();
+            let jx = chords.iter().filter_map(|chord| match chord {
+                Some(chord) => Some((chord.clone(), false)),
+                None => Some((fresh.next()?, true)),
+            });
+            let jx = jx.collect::<Vec<_>>();
             let slopes = neighbours.iter().map(|both| slopes_to(both, &these, sides)).collect::<Vec<_>>();
             let columns = |side: usize, k: usize| {
                 DMatrix::from_columns(&slopes.iter().map(|of| of[side][k].column(0)).collect::<Vec<_>>())
@@ -279,7 +344,12 @@ mod tests {
         let jx = DMatrix::from_column_slice(4, 1, &[1.0, 1.0, 1.0, 1.0]);
         let side =
             |second: [f64; 4]| DMatrix::from_column_slice(4, 2, &[[1.0, 2.0, 3.0, 4.0], second].concat());
-        Linear::new(jx, [side(after), side(before)], DVector::from_vec(vec![2.0, 0.0, 0.0, 0.0]), &[1.0, 1.0])
+        Linear::new(
+            (jx, true),
+            [side(after), side(before)],
+            DVector::from_vec(vec![2.0, 0.0, 0.0, 0.0]),
+            &[1.0, 1.0],
+        )
     }
 
     #[test]
@@ -336,6 +406,25 @@ mod tests {
         fit.values[0] += changes[0];
         let moved = problem.linearised(&h, &fit, Some(again), Sides::Both).expect("a wall");
         assert!(moved.windows.iter().zip(&before).all(|(linear, before)| linear.jp != *before));
+    }
+
+    #[test]
+    fn analytic_a_jacobian_by_the_state_serves_for_one_step_more() {
+        let (tests, h) = swaying();
+        let windows = crate::experiment::windows(&tests);
+        let problem = Problem { tests: &tests, windows: &windows };
+        let mut fit = problem.states(&h, &h.start(), &problem.measured_states(), 0, false).expect("a wall");
+        let first = problem.linearised(&h, &fit, None, Sides::OneWhereClear).expect("a wall");
+        let jacobian = |of: &Linearised, k: usize| of.windows[k].jx.clone();
+        let before = [0, 1].map(|k| jacobian(&first, k));
+        fit.values[0] += first.changes[0];
+        // A state that moves farther than the measurement leaves open is looked at anew.
+        fit.windows[1].x[0] += 1.1 * windows[1].spread[0];
+        let second = problem.linearised(&h, &fit, Some(first), Sides::OneWhereClear).expect("a wall");
+        assert!(jacobian(&second, 0) == before[0] && jacobian(&second, 1) != before[1]);
+        fit.values[0] += second.changes[0];
+        let third = problem.linearised(&h, &fit, Some(second), Sides::OneWhereClear).expect("a wall");
+        assert!(jacobian(&third, 0) != before[0]);
     }
 
     #[test]

@@ -26,7 +26,7 @@ use linear::Linearised;
 pub use linear::WindowSlopes;
 pub use loss::{Loss, more_poor_held_out_sd, nats, poor_share, windowed_error};
 use nalgebra::DMatrix;
-pub use replay::{Replay, SpringMemory, shaken};
+pub use replay::{Replay, TopPast, largest_so_far_m, shaken};
 use window_fit::{
     At, InState, LITTLE, fit_windows_by, in_chunks, other_valleys, owned, state_jacobians, step_of,
     take_steps,

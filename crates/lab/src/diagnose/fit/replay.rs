@@ -1,12 +1,13 @@
 //! A window simulated from a state, against what was measured in it.
 //!
-//! Where a spring at the top yields, its memory is part of that state. It is carried along the measured displacement of
+//! Where laws at the top have a memory, it is part of that state. It is carried along the measured displacement of
 //! the top. What is kept is how far the spring is stretched, not where its plastic displacement lies. A fitted state differs
 //! from the measured one by noise. A spring so stiff that it yields within that noise would start at either limit by chance.
 
 use crate::diagnose::hypothesis::Physics;
 use crate::experiment::{Freedom, Sampled, TestData, Window, held_state};
-use mrbd_kernel::model::{Contact, Effect, Pair, RockingWall, Role};
+use mrbd_formula::Formula;
+use mrbd_kernel::model::{Contact, Pair, RockingWall, Role, TopMemory};
 use mrbd_kernel::simulate::{
     Accuracy, Observer, Prepared, Response, Shaking, Simulator, Start, simulate_watched_side_by_side,
 };
@@ -31,7 +32,7 @@ pub struct Replay<'a> {
     tests: &'a [TestData],
     simulators: Vec<Simulator>,
     /// By test.
-    springs: Vec<SpringMemory>,
+    pasts: Vec<TopPast>,
 }
 
 impl<'a> Replay<'a> {
@@ -42,8 +43,8 @@ impl<'a> Replay<'a> {
             Simulator::new(&physics.wall, &shaking, ACCURACY)
         };
         let simulators = tests.iter().map(simulator).collect::<Vec<_>>();
-        let springs = tests.iter().map(|test| SpringMemory::new(test, physics)).collect();
-        Self { tests, simulators, springs }
+        let pasts = tests.iter().map(|test| TopPast::new(test, physics)).collect();
+        Self { tests, simulators, pasts }
     }
 
     /// Windows simulated from a state each, side by side, which changes nothing but the time it takes.
@@ -92,11 +93,8 @@ impl<'a> Replay<'a> {
         if window.freedom == Freedom::Held {
             state = held_state(wall, &state);
         }
-        let plastic_displacement_m = self.springs[window.test].plastic_m(from, wall, contact, state.theta);
-        let contact = Some(contact);
-        let start =
-            Start { time_s: time_s[from], state, contact, plastic_displacement_m, ..Start::default() };
-        (start, time_s[window.samples.end - 1])
+        let memory = self.pasts[window.test].memory(from, wall, contact, state.theta);
+        (Start::with_memory(time_s[from], state, contact, memory), time_s[window.samples.end - 1])
     }
 
     /// What a simulated window leaves of the measured one.
@@ -129,45 +127,88 @@ pub fn shaken(shaking: &Shaking, reversed_ratio: f64) -> Shaking {
     shaking
 }
 
-/// Stretch of a yielding spring along a test.
+/// What laws at the top keep of the past along a test.
 #[derive(Debug)]
-pub struct SpringMemory {
-    /// Elastic part of the displacement of the top, m, at every sample; empty without such a spring.
+pub struct TopPast {
+    /// Elastic part of the displacement of the top, m, at every sample; empty without a spring that yields.
     elastic_m: Vec<f64>,
+    /// The largest displacement of the top so far, m; empty where no law depends on it.
+    largest_m: Vec<f64>,
 }
 
-impl SpringMemory {
-    /// Carries the spring of a wall along a test.
+impl TopPast {
+    /// Carries the memory of the laws of a wall along a test.
     pub fn new(test: &TestData, physics: &Physics) -> Self {
-        let yields = |effect: &Effect| effect.entry().role == Role::Memory;
-        if !physics.wall.parameters().effects.iter().any(yields) {
-            return Self { elastic_m: Vec::new() };
-        }
-        let wall = RockingWall::new(&physics.wall);
-        let (mut plastic_m, mut elastic_m) = (0.0, 0.0);
-        let at = |k: usize| {
-            let theta = smoothed(test, k);
-            if theta.iter().all(|t| t.is_finite()) {
-                let x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
-                plastic_m = physics.wall.plastic_displacement_m(plastic_m, x_c);
-                elastic_m = x_c - plastic_m;
+        let p = physics.wall.parameters();
+        let yields = p.effects.iter().any(|effect| effect.entry().role == Role::Memory);
+        let remembers = p.formulas.iter().any(Formula::remembers);
+        let (mut elastic_m, mut largest_m) = (Vec::new(), Vec::new());
+        if yields || remembers {
+            let wall = RockingWall::new(&physics.wall);
+            if yields {
+                elastic_m = elastic_along_m(test, physics, &wall);
             }
-            elastic_m
-        };
-        Self { elastic_m: (0..test.theta_rad.len()).map(at).collect() }
+            if remembers {
+                largest_m = largest_so_far_m(test, &wall);
+            }
+        }
+        Self { elastic_m, largest_m }
     }
 
-    /// Plastic displacement at a sample, m, of a wall that is there in a state like the measured one; 0 without a spring.
-    pub fn plastic_m(&self, k: usize, wall: &RockingWall, contact: Contact, theta: Pair) -> f64 {
-        self.elastic_m.get(k).map_or(0.0, |elastic_m| wall.top_displacement_m(contact, theta) - elastic_m)
+    /// The memory at a sample of a wall that is there in a state like the measured one.
+    pub fn memory(&self, k: usize, wall: &RockingWall, contact: Contact, theta: Pair) -> TopMemory {
+        let plastic = |elastic_m: &f64| wall.top_displacement_m(contact, theta) - elastic_m;
+        TopMemory {
+            plastic_m: self.elastic_m.get(k).map_or(0.0, plastic),
+            largest_m: self.largest_m.get(k).copied().unwrap_or(0.0),
+        }
     }
 }
 
-/// The mean of five samples: less noise, and no swing is shorter.
-fn smoothed(test: &TestData, k: usize) -> Pair {
-    let around = k.saturating_sub(2)..(k + 3).min(test.theta_rad.len());
-    let count = around.len() as f64;
-    [0, 1].map(|channel| around.clone().map(|k| test.from_rest_rad(k)[channel]).sum::<f64>() / count)
+/// Elastic part of the displacement of a top with a spring that yields, m, at every sample of a test.
+fn elastic_along_m(test: &TestData, physics: &Physics, wall: &RockingWall) -> Vec<f64> {
+    let (mut plastic_m, mut elastic_m) = (0.0, 0.0);
+    let at = |k: usize| {
+        let theta = smoothed(test, k, &MEAN);
+        if theta.iter().all(|t| t.is_finite()) {
+            let x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
+            plastic_m = physics.wall.plastic_displacement_m(plastic_m, x_c);
+            elastic_m = x_c - plastic_m;
+        }
+        elastic_m
+    };
+    (0..test.theta_rad.len()).map(at).collect()
+}
+
+/// The largest displacement of the top so far, m, at every sample of a test.
+pub fn largest_so_far_m(test: &TestData, wall: &RockingWall) -> Vec<f64> {
+    let mut largest_m = 0.0_f64;
+    let at = |k: usize| {
+        let theta = smoothed(test, k, &PARABOLA);
+        if theta.iter().all(|t| t.is_finite()) {
+            let x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
+            largest_m = largest_m.max(x_c.abs());
+        }
+        largest_m
+    };
+    (0..test.theta_rad.len()).map(at).collect()
+}
+
+/// Weights of five samples: their mean, with less noise; no swing is shorter.
+const MEAN: [f64; 5] = [1.0; 5];
+/// The middle of the parabola through five samples (Savitzky and Golay), which does not cut the peak of a swing.
+const PARABOLA: [f64; 5] = [-3.0, 12.0, 17.0, 12.0, -3.0];
+
+/// Five samples of a test about one, with these weights. At its ends those that there are.
+fn smoothed(test: &TestData, k: usize, weights: &[f64; 5]) -> Pair {
+    let mut sums = [0.0; 3];
+    for (i, weight) in weights.iter().enumerate() {
+        if let Some(k) = (k + i).checked_sub(2).filter(|k| *k < test.theta_rad.len()) {
+            let [lower, upper] = test.from_rest_rad(k);
+            sums = [sums[0] + weight * lower, sums[1] + weight * upper, sums[2] + weight];
+        }
+    }
+    [sums[0] / sums[2], sums[1] / sums[2]]
 }
 
 #[cfg(test)]
@@ -204,7 +245,7 @@ pub(super) mod tests {
     #[test]
     fn analytic_a_stiff_spring_pulls_against_the_motion_whatever_the_noise_of_a_state() {
         let (test, physics) = swaying();
-        let memory = SpringMemory::new(&test, &physics);
+        let memory = TopPast::new(&test, &physics);
         let wall = RockingWall::new(&physics.wall);
         // Far from where it turns, on the way out, back and out to the other side.
         for (k, way) in [(20, 1.0), (60, -1.0), (100, -1.0), (140, 1.0)] {
@@ -212,7 +253,7 @@ pub(super) mod tests {
                 let theta = test.theta_rad[k].map(|t| t + noise_rad);
                 let contact = Contact::of_rotations(theta);
                 let x_c = wall.top_displacement_m(contact, theta);
-                let stretch_m = x_c - memory.plastic_m(k, &wall, contact, theta);
+                let stretch_m = x_c - memory.memory(k, &wall, contact, theta).plastic_m;
                 // Differences of lengths of some millimetres, of which a rounding is 1e-18 m.
                 assert!((stretch_m - way * 1e-5).abs() < 1e-15, "{stretch_m} at sample {k}");
             }
@@ -247,7 +288,8 @@ pub(super) mod tests {
         let mut parameters = physics.wall.parameters().clone();
         parameters.effects.clear();
         let wall = mrbd_kernel::model::Wall::new(parameters).expect("the wall without its spring");
-        let memory = SpringMemory::new(&test, &Physics { wall, ..physics });
-        assert_eq!(memory.plastic_m(60, &RockingWall::new(&swaying().1.wall), Contact::REST, [0.01; 2]), 0.0);
+        let memory = TopPast::new(&test, &Physics { wall, ..physics });
+        let none = memory.memory(60, &RockingWall::new(&swaying().1.wall), Contact::REST, [0.01; 2]);
+        assert_eq!(none, TopMemory::default());
     }
 }

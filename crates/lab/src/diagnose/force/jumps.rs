@@ -2,7 +2,7 @@
 //!
 //! The states come from stretches of a test in one contact state, smoothed sample by sample and clear of impacts.
 
-use crate::diagnose::fit::{SpringMemory, shaken};
+use crate::diagnose::fit::{TopPast, shaken};
 use crate::diagnose::hypothesis::Physics;
 use crate::experiment::{Freedom, TestData, measured_state};
 use mrbd_kernel::model::{Contact, Pair, RockingWall, State};
@@ -92,7 +92,7 @@ pub fn jumps(tests: &[TestData], physics: &Physics) -> Vec<Jump> {
 }
 
 fn of_test(index: usize, test: &TestData, physics: &Physics) -> Vec<Jump> {
-    let spring = SpringMemory::new(test, physics);
+    let past = TopPast::new(test, physics);
     let shaking = shaken(&test.shaking, physics.reversed_ratio);
     let simulator = Simulator::new(&physics.wall, &shaking, Accuracy::default());
     let longest = test.samples_in(LONGEST_DOUBT * simulator.wall().response_time_s());
@@ -109,9 +109,8 @@ fn of_test(index: usize, test: &TestData, physics: &Physics) -> Vec<Jump> {
             return None;
         }
         let (state, contact) = (before.states[inner], before.contact);
-        let plastic_displacement_m = spring.plastic_m(last, simulator.wall(), contact, state.theta);
-        let (time_s, contact) = (test.time_s[last], Some(contact));
-        let start = Start { time_s, state, contact, plastic_displacement_m, ..Start::default() };
+        let memory = past.memory(last, simulator.wall(), contact, state.theta);
+        let start = Start::with_memory(test.time_s[last], state, contact, memory);
         let mut end = End::default();
         let response = simulator.run_from(&start, test.time_s[first], &mut end);
         let impacts = response.impacts;

@@ -1,7 +1,7 @@
 //! The residual of the equations of motion as a force at the top, by the weak form and its test function.
 
 use super::jumps::{Stretch, stretches};
-use crate::diagnose::fit::{SpringMemory, shaken};
+use crate::diagnose::fit::{TopPast, largest_so_far_m, shaken};
 use crate::diagnose::hypothesis::Physics;
 use crate::experiment::{Freedom, TestData, rest_offset_rad};
 use crate::limits::DIRECTION_CLEAR;
@@ -66,7 +66,9 @@ pub(super) struct Residual {
     pub(super) test: TestData,
     pub(super) wall: RockingWall,
     simulator: Simulator,
-    spring: SpringMemory,
+    past: TopPast,
+    /// The largest |x_C| so far, m, by sample.
+    pub(super) largest_m: Vec<f64>,
 }
 
 impl Residual {
@@ -81,10 +83,12 @@ impl Residual {
         test.rest_offset_rad = rest_offset_rad(&test.theta_rad, test.noise_rad);
         test.read_gain = [0, 1].map(|i| test.read_gain[i] / reading.gain[i]);
         let shaking = shaken(&test.shaking, physics.reversed_ratio);
+        let wall = RockingWall::new(&physics.wall);
         Self {
             index,
-            spring: SpringMemory::new(&test, physics),
-            wall: RockingWall::new(&physics.wall),
+            past: TopPast::new(&test, physics),
+            largest_m: largest_so_far_m(&test, &wall),
+            wall,
             simulator: Simulator::new(&physics.wall, &shaking, Accuracy::default()),
             test,
         }
@@ -121,8 +125,8 @@ impl Residual {
     pub(super) fn model(&mut self, stretch: &Stretch) -> Vec<Pair> {
         let at = |(i, state): (usize, &State)| {
             let k = stretch.from + i;
-            let plastic_m = self.spring.plastic_m(k, &self.wall, stretch.contact, state.theta);
-            self.wall.enter_regime_of_state(stretch.contact, state, plastic_m);
+            let memory = self.past.memory(k, &self.wall, stretch.contact, state.theta);
+            self.wall.enter_regime_of_state(stretch.contact, state, memory);
             self.wall.rate(stretch.contact, state, self.ground_about(self.test.time_s[k])).theta_dd
         };
         stretch.states.iter().enumerate().map(at).collect()

@@ -15,8 +15,9 @@ use rayon::prelude::*;
 /// What moves at each place at an instant, and what a unit of force or moment there does to the free bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// By place: displacement and velocity; m and m/s at the top, rad and rad/s at joints.
-    pub motion: [[f64; 2]; 3],
+    /// By place: displacement, velocity and the largest displacement so far, which is told at the top alone; m and m/s at
+    /// the top, rad and rad/s at joints.
+    pub motion: [[f64; 3]; 3],
     /// By place: angular accelerations of both bodies by 1 N or 1 N m, rad/s².
     by_unit: [Pair; 3],
 }
@@ -65,7 +66,7 @@ impl WeakStretch {
         let bodies = bodies(stretch.freedom, test.noise_rad, kernel.curvature_noise(test.step_s));
         let mut weak = Self {
             test: index,
-            samples: stretch.states.iter().map(|state| sample(residual, stretch, state)).collect(),
+            samples: (0..stretch.states.len()).map(|i| sample(residual, stretch, i)).collect(),
             correlations: correlations(&kernel, half, middles.len())?,
             middles,
             kernel,
@@ -119,16 +120,18 @@ impl WeakStretch {
     }
 }
 
-fn sample(residual: &Residual, stretch: &Stretch, state: &State) -> Sample {
+fn sample(residual: &Residual, stretch: &Stretch, i: usize) -> Sample {
     let (wall, contact) = (&residual.wall, stretch.contact);
-    let State { theta, omega } = *state;
+    let State { theta, omega } = stretch.states[i];
     let arms = wall.top_arms_m(contact, theta);
     let of_moments = |moments: Pair| wall.accelerations_by_moments(contact, theta, moments);
+    let x_c = wall.top_displacement_m(contact, theta);
+    let largest_m = residual.largest_m[stretch.from + i].max(x_c.abs());
     Sample {
         motion: [
-            [wall.top_displacement_m(contact, theta), arms[0] * omega[0] + arms[1] * omega[1]],
-            [theta[0], omega[0]],
-            [theta[1] - theta[0], omega[1] - omega[0]],
+            [x_c, arms[0] * omega[0] + arms[1] * omega[1], largest_m],
+            [theta[0], omega[0], 0.0],
+            [theta[1] - theta[0], omega[1] - omega[0], 0.0],
         ],
         by_unit: [of_moments(arms), of_moments([1.0, 0.0]), of_moments([-1.0, 1.0])],
     }

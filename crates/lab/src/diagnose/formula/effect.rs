@@ -37,7 +37,7 @@ mod tests {
     #[test]
     fn analytic_every_shape_is_a_formula_of_the_same_force() {
         for site in Site::ALL {
-            for shape in Shape::ALL {
+            for shape in Shape::ALL.into_iter().filter(|shape| site == Site::Top || !shape.remembers()) {
                 for is_exact in [true, false] {
                     let numbers =
                         [0, 1].map(|i| shape.numbers().get(i).map_or(0.0, |n| n.grid[n.grid.len() / 2]));
@@ -45,7 +45,8 @@ mod tests {
                     let law = Law::of(atom);
                     let formula = law.formulas().unwrap_or_else(|| panic!("{:?}", law.written())).remove(0);
                     for (q, u) in [(0.03, -0.2), (-0.045, 0.1), (0.01, 0.25), (-0.004, -0.3)] {
-                        let [own, written] = [atom.force([q, u]), formula.value([q, u, 0.0])];
+                        let motion = [q, u, 0.046];
+                        let [own, written] = [atom.force(motion), formula.value(motion)];
                         // Two ways to the same number, of a few roundings each.
                         assert!(
                             (own - written).abs() <= 1e-12 * 300.0,

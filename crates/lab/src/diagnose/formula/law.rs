@@ -55,9 +55,10 @@ impl Atom {
         matches!(self.shape, Shape::Spring | Shape::OneSidedSpring(_)) && self.numbers[0] < 1.0
     }
 
-    /// Whether it only resists.
+    /// Whether it only resists, or only takes energy.
     pub fn only_resists(&self) -> bool {
-        self.shape.is_damper() || matches!(self.shape, Shape::Stop(_) | Shape::DeadZone)
+        let takes = self.shape.is_damper() || self.shape.remembers();
+        takes || matches!(self.shape, Shape::Stop(_) | Shape::DeadZone)
     }
 
     /// What a number of it stands for.
@@ -68,7 +69,7 @@ impl Atom {
     /// What one in shares of the largest is in the units of the site, for a number of it.
     pub fn unit_of(&self, number: usize) -> f64 {
         match self.meaning(number) {
-            Meaning::Exponent => 1.0,
+            Meaning::Exponent | Meaning::Share => 1.0,
             Meaning::Displacement => self.reach[0],
             Meaning::Velocity => self.reach[1],
         }
@@ -83,9 +84,10 @@ impl Atom {
         free.collect::<Vec<_>>().into_iter()
     }
 
-    /// Force or moment on the wall at a displacement and a velocity.
-    pub fn force(&self, [q, u]: [f64; 2]) -> f64 {
-        -self.size * self.shape.value(self.numbers, q / self.reach[0], u / self.reach[1])
+    /// Force or moment on the wall at a displacement, a velocity and the largest displacement so far.
+    pub fn force(&self, [q, u, m]: [f64; 3]) -> f64 {
+        let [of_q, of_u] = self.reach;
+        -self.size * self.shape.value(self.numbers, [q / of_q, u / of_u, m / of_q])
     }
 }
 

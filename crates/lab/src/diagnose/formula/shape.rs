@@ -1,7 +1,7 @@
 //! Shapes of single laws: how a force or moment follows displacement and velocity, but for its size.
 //!
 //! All are written in shares of the largest displacement q and velocity u that the tests reach. Of size 1 each resists:
-//! the force on the wall is minus its value. None has a memory.
+//! the force on the wall is minus its value. Some remember how far the top has been: m is the largest |q| so far.
 
 /// A side of the wall's rest, or a direction of its motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -58,6 +58,12 @@ pub enum Shape {
     OneWay(Side),
     /// max(±q, 0)^p u.
     OneSidedOpening(Side),
+    /// −q m/(d + m): the floor's spring, softer for good the farther it has been.
+    Weakening,
+    /// q/(d + m): a force that saturates, and goes back straight to rest.
+    Secant,
+    /// sgn(q) max(|q| − a m, 0): slack that grows.
+    Slack,
 }
 
 /// A power of displacement or velocity, and the number of the shape that it is.
@@ -78,6 +84,8 @@ pub enum Meaning {
     Displacement,
     /// A velocity.
     Velocity,
+    /// A share of a displacement.
+    Share,
 }
 
 /// A number of a shape: its letter, what it is, and the values that are looked at.
@@ -125,9 +133,17 @@ const ONE_WAY: &[ShapeNumber] = &[exponent(&[0.5, 1.0, 1.5, 2.0, 3.0])];
 const ONE_SIDED_OPENING: &[ShapeNumber] =
     &[ShapeNumber { letter: "p", meaning: Meaning::Exponent, grid: &[0.3, 0.5, 1.0, 1.5, 2.0, 3.0] }];
 
+const SCALES: &[ShapeNumber] = &[threshold("g", &[0.25, 0.5, 1.0, 2.0, 4.0, 8.0])];
+const SECANT: &[ShapeNumber] = &[threshold("g", WIDTHS)];
+const SLACK: &[ShapeNumber] = &[ShapeNumber {
+    letter: "a",
+    meaning: Meaning::Share,
+    grid: &[0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],
+}];
+
 impl Shape {
     /// Every shape.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 25] = [
         Self::Spring,
         Self::EvenSpring,
         Self::OneSidedSpring(Side::Positive),
@@ -150,6 +166,9 @@ impl Shape {
         Self::OneWay(Side::Negative),
         Self::OneSidedOpening(Side::Positive),
         Self::OneSidedOpening(Side::Negative),
+        Self::Weakening,
+        Self::Secant,
+        Self::Slack,
     ];
 
     /// The shapes that are looked for at joints, where laws are simpler and the tests tell less.
@@ -181,8 +200,16 @@ impl Shape {
             | Self::DampedBeyond(_)
             | Self::DampedFar
             | Self::OneWay(_)
-            | Self::OneSidedOpening(_) => false,
+            | Self::OneSidedOpening(_)
+            | Self::Weakening
+            | Self::Secant
+            | Self::Slack => false,
         }
+    }
+
+    /// Whether it depends on how far the top has been. It then takes energy for good where its size is positive.
+    pub fn remembers(self) -> bool {
+        matches!(self, Self::Weakening | Self::Secant | Self::Slack)
     }
 
     /// Its numbers but for its size.
@@ -200,6 +227,9 @@ impl Shape {
             Self::DampedBeyond(_) | Self::DampedFar => BEYOND,
             Self::OneWay(_) => ONE_WAY,
             Self::OneSidedOpening(_) => ONE_SIDED_OPENING,
+            Self::Weakening => SCALES,
+            Self::Secant => SECANT,
+            Self::Slack => SLACK,
         }
     }
 
@@ -213,7 +243,10 @@ impl Shape {
             | Self::DeadZone
             | Self::Saturation
             | Self::SlowSaturation
-            | Self::Clipped => false,
+            | Self::Clipped
+            | Self::Weakening
+            | Self::Secant
+            | Self::Slack => false,
             Self::Drag
             | Self::Opening
             | Self::DragSaturation
@@ -237,17 +270,19 @@ impl Shape {
             Self::Opening => [of(0, first), of(1, second)],
             Self::OneSidedOpening(_) => [of(0, first), line],
             Self::DampedBeyond(_) | Self::DampedFar => [None, line],
+            Self::Weakening | Self::Slack => [line, None],
             Self::Saturation
             | Self::SlowSaturation
             | Self::Clipped
             | Self::DragSaturation
             | Self::SlowDragSaturation
-            | Self::Stribeck => [None, None],
+            | Self::Stribeck
+            | Self::Secant => [None, None],
         }
     }
 
-    /// Its value at a displacement and a velocity, both as shares of the largest.
-    pub fn value(self, numbers: [f64; 2], q: f64, u: f64) -> f64 {
+    /// Its value at a displacement, a velocity, and the largest displacement so far, as shares of the largest of all.
+    pub fn value(self, numbers: [f64; 2], [q, u, m]: [f64; 3]) -> f64 {
         let [first, second] = numbers;
         let power = |x: f64, n: f64| if n == 0.0 { 1.0 } else { x.powf(n) };
         // 0⁰ = 1 would be a friction that acts at rest.
@@ -286,6 +321,9 @@ impl Shape {
             }
             Self::OneWay(side) => one_side(side, u, first),
             Self::OneSidedOpening(side) => one_side(side, q, first).abs() * u,
+            Self::Weakening => -q * m / (first + m),
+            Self::Secant => q / (first + m),
+            Self::Slack => q.signum() * (q.abs() - first * m).max(0.0),
         }
     }
 }
@@ -299,7 +337,7 @@ mod tests {
         for shape in Shape::ALL.into_iter().filter(|shape| shape.is_damper()) {
             for numbers in corners(shape) {
                 for (q, u) in motion() {
-                    let power = shape.value(numbers, q, u) * u;
+                    let power = shape.value(numbers, [q, u, 1.0]) * u;
                     assert!(power >= 0.0, "{shape:?} {numbers:?} at {q}, {u}: {power}");
                 }
             }
@@ -311,7 +349,11 @@ mod tests {
         for shape in Shape::ALL.into_iter().filter(|shape| !shape.is_damper()) {
             for numbers in corners(shape) {
                 for (q, u) in motion() {
-                    assert_eq!(shape.value(numbers, q, u), shape.value(numbers, q, 0.3), "{shape:?}");
+                    assert_eq!(
+                        shape.value(numbers, [q, u, 1.0]),
+                        shape.value(numbers, [q, 0.3, 1.0]),
+                        "{shape:?}"
+                    );
                 }
             }
         }
@@ -320,14 +362,36 @@ mod tests {
     #[test]
     fn analytic_shapes_are_what_their_words_say() {
         let near = |a: f64, b: f64| assert!((a - b).abs() < 1e-15, "{a} and {b}");
-        near(Shape::Spring.value([3.0, 0.0], -0.5, 0.0), -0.125);
-        near(Shape::Stop(Side::Negative).value([0.2, 2.0], -0.5, 0.0), -0.09);
-        near(Shape::Stop(Side::Negative).value([0.2, 2.0], 0.5, 0.0), 0.0);
-        near(Shape::DeadZone.value([0.2, 1.0], -0.5, 0.0), -0.3);
-        near(Shape::Drag.value([0.5, 0.0], 0.0, -0.25), -0.5);
-        near(Shape::Opening.value([1.0, 2.0], -0.5, 0.5), 0.125);
-        near(Shape::DampedBeyond(Side::Positive).value([0.2, 0.0], 0.3, -0.5), -0.5);
-        near(Shape::OneWay(Side::Negative).value([2.0, 0.0], 0.0, -0.5), -0.25);
+        near(Shape::Spring.value([3.0, 0.0], [-0.5, 0.0, 0.6]), -0.125);
+        near(Shape::Stop(Side::Negative).value([0.2, 2.0], [-0.5, 0.0, 0.6]), -0.09);
+        near(Shape::Stop(Side::Negative).value([0.2, 2.0], [0.5, 0.0, 0.6]), 0.0);
+        near(Shape::DeadZone.value([0.2, 1.0], [-0.5, 0.0, 0.6]), -0.3);
+        near(Shape::Drag.value([0.5, 0.0], [0.0, -0.25, 0.6]), -0.5);
+        near(Shape::Opening.value([1.0, 2.0], [-0.5, 0.5, 0.6]), 0.125);
+        near(Shape::DampedBeyond(Side::Positive).value([0.2, 0.0], [0.3, -0.5, 0.6]), -0.5);
+        near(Shape::Weakening.value([0.6, 0.0], [0.5, 0.0, 0.6]), -0.25);
+        near(Shape::Secant.value([0.4, 0.0], [-0.5, 0.0, 0.6]), -0.5);
+        near(Shape::Slack.value([0.5, 0.0], [-0.5, 0.0, 0.6]), -0.2);
+        near(Shape::OneWay(Side::Negative).value([2.0, 0.0], [0.0, -0.5, 0.6]), -0.25);
+    }
+
+    #[test]
+    fn analytic_shapes_with_memory_take_energy_over_every_cycle() {
+        for shape in Shape::ALL.into_iter().filter(|shape| shape.remembers()) {
+            for numbers in corners(shape) {
+                // Out to ever more, and back: the work against the force, over paths of straight pieces.
+                let turns = [0.0, 0.3, -0.2, 0.7, -0.9, 1.0, 0.0];
+                let (mut m, mut work) = (0.0_f64, 0.0);
+                for ends in turns.windows(2) {
+                    let at = |k: u32| ends[0] + (ends[1] - ends[0]) * (f64::from(k) + 0.5) / 1e4;
+                    for q in (0..10_000).map(at) {
+                        m = m.max(q.abs());
+                        work += shape.value(numbers, [q, 0.0, m]) * (ends[1] - ends[0]) / 1e4;
+                    }
+                }
+                assert!(work > 0.0, "{shape:?} {numbers:?}: {work}");
+            }
+        }
     }
 
     fn corners(shape: Shape) -> Vec<[f64; 2]> {

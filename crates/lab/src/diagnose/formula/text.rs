@@ -73,6 +73,9 @@ fn signed(shape: Shape, Names { x, v, numbers: [first, second] }: &Names) -> (bo
         Shape::DampedFar => (true, format!("(abs({x})>{text})*{v}")),
         Shape::OneWay(side) => (side == Side::Positive, power(&on(side, v, None), *first)),
         Shape::OneSidedOpening(side) => (true, format!("{}*{v}", power(&on(side, x, None), *first))),
+        Shape::Weakening => (false, format!("{x}*x_max/({text}+x_max)")),
+        Shape::Secant => (true, format!("{x}/({text}+x_max)")),
+        Shape::Slack => (true, format!("sign({x})*max(abs({x})-{text}*x_max,0)")),
     }
 }
 

@@ -158,7 +158,7 @@ fn per(site: Site, variable: usize, power: Number) -> String {
 fn unit_of(site: Site, meaning: Meaning) -> &'static str {
     let [displacement, velocity] = site.motion_units();
     match meaning {
-        Meaning::Exponent => "",
+        Meaning::Exponent | Meaning::Share => "",
         Meaning::Displacement => displacement,
         Meaning::Velocity => velocity,
     }

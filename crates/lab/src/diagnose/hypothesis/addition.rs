@@ -174,7 +174,7 @@ fn law_unknowns(law: &Law, index: usize) -> Vec<Unknown> {
                 let ends = atoms[a].bounds(k);
                 let [displacement, velocity] = atoms[a].site.motion_units();
                 let unit = match number.meaning {
-                    Meaning::Exponent => "",
+                    Meaning::Exponent | Meaning::Share => "",
                     Meaning::Displacement => displacement,
                     Meaning::Velocity => velocity,
                 };

@@ -13,7 +13,7 @@ use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
 use crate::limits::{
     ANSWER_ROUNDS, ANSWER_SHARES, BESIDE_THE_BEST, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME,
-    PAIRS_WITHOUT_A_NAME, REFITTED_FROM, STATES_FOR_WALL, WORTH_A_ROUND, WORTH_POLISH,
+    PAIRS_WITHOUT_A_NAME, REFITTED_FROM, STATES_FOR_WALL, WORTH_A_ROUND, WORTH_POLISH, WORTH_TRYING_AGAIN,
 };
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;
@@ -92,7 +92,8 @@ impl<P: Progress> Trials<'_, P> {
         let singles = self.try_all("single effects", nuisances, &self.starts(before, &recalibrated), &sets);
         let nearest = singles.iter().take(REFITTED_FROM);
         let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, whole));
-        if against(&self.data, &recalibrated) - against(&self.data, &better) < WORTH_POLISH {
+        let worth = WORTH_POLISH.max(WORTH_TRYING_AGAIN * against(&self.data, &better));
+        if against(&self.data, &recalibrated) - against(&self.data, &better) < worth {
             let singles = self.polished(nuisances, before, singles, &better);
             return (better, self.with_giving(singles));
         }

@@ -9,8 +9,8 @@ use crate::diagnose::fit::{
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::{TestData, Window};
 use crate::limits::{
-    HELD_OUT_ERROR, LEAST_SIZE, LEFT_OF_GAP, MISSED_HELD_OUT_SD, MISSED_SHARE, MISSED_SHARE_SD, NOISE,
-    NOISE_AFTER, SIGNIFICANT_SD,
+    HELD_OUT_ERROR, LEAST_SIZE, LEFT_OF_GAP, MISSED_HELD_OUT_SD, MISSED_SHARE, MISSED_SHARE_SD,
+    NEARLY_CLOSES, NOISE, NOISE_AFTER, SIGNIFICANT_SD,
 };
 use mrbd_kernel::model::EffectKind;
 
@@ -111,6 +111,12 @@ pub fn closes(tried: &FittedHypothesis, before: f64) -> bool {
         && more_poor_held_out_sd(&tried.fit.windows, &tried.held_out.windows) < MISSED_HELD_OUT_SD;
     let left = (after * after - 1.0) / (before * before - 1.0).max(f64::MIN_POSITIVE);
     held_out && !too_many_poor(&all_windows(tried)) && (after < NOISE_AFTER || left < LEFT_OF_GAP)
+}
+
+/// Whether what a hypothesis leaves of a gap that was `before` is so little that other starts may close it.
+pub fn nearly_closes(tried: &FittedHypothesis, before: f64) -> bool {
+    let Some(after) = joint_error(tried) else { return false };
+    after < NOISE || after * after - 1.0 < NEARLY_CLOSES * (before * before - 1.0)
 }
 
 /// Kinds of a hypothesis' additions, sorted; `None` if one is no answer.

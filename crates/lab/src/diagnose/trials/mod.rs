@@ -24,7 +24,7 @@ pub use beds::{excess, own_error, widened};
 pub use effects::{FirstFits, WallFits};
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
-    against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds,
+    against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds, nearly_closes,
 };
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub use patterns::{gain_misread, reads_better, set_gain};
@@ -35,7 +35,7 @@ use rayon::prelude::*;
 
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
-use crate::limits::{POLISHED, WORTH_POLISH};
+use crate::limits::{NEAR_BEST, NEAR_BEST_SHARE, POLISHED, WORTH_POLISH};
 use crate::{Progress, Tried};
 use search::{Coarse, worth_finishing};
 use search::{finish, try_coarsely};
@@ -129,7 +129,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Fits the best few once more, about what was found but with the wall's own numbers as given. All stay as they
-    /// are if the best gains little over a simpler hypothesis.
+    /// are if the best gains little over a simpler hypothesis, or none comes near to closing the gap.
     fn polished(
         &self,
         nuisances: &[Nuisance],
@@ -138,10 +138,15 @@ impl<P: Progress> Trials<'_, P> {
         simpler: &FittedHypothesis,
     ) -> Vec<FittedHypothesis> {
         let Some(best) = tried.first() else { return tried };
-        if against(&self.data, simpler) - against(&self.data, best) < WORTH_POLISH {
+        let gap = joint_error(from).unwrap_or(f64::INFINITY);
+        // Of a gap far above the noise likelihood tells little: what is near is told by it too.
+        let best_against = against(&self.data, best);
+        let limit = best_against + NEAR_BEST.max(NEAR_BEST_SHARE * best_against);
+        let count = tried.iter().take(POLISHED).filter(|t| against(&self.data, t) < limit).count();
+        let is_near = tried[..count].iter().any(|t| nearly_closes(t, gap));
+        if !is_near || against(&self.data, simpler) - best_against < WORTH_POLISH {
             return tried;
         }
-        let count = tried.len().min(POLISHED);
         self.progress.begin("the best candidates, again", count);
         let again = |old: &FittedHypothesis| {
             let h = self.hypothesis(nuisances, &old.hypothesis.additions);
