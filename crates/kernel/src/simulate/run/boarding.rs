@@ -86,6 +86,7 @@ impl<O: Observer> Run<O> {
         row.moving.put(i, &self.now, self.quadrature_rate, self.requested_s());
         row.ground.put(i, piece, self.k, self.offset_s);
         row.errors.put(i, &self.controller);
+        row.motions.put_formulas(i, self.wall.motion(self.contact));
         let advances = matches!(self.task, Task::Advance { .. }) && self.is_plain();
         let (limits, totals) = (&mut row.limits, &self.totals);
         limits.advances[i] = f64::from(u8::from(advances));
