@@ -335,10 +335,24 @@ fn analytic_formulas_add_up_and_go_beside_effects() {
 
 #[test]
 fn analytic_a_wall_with_a_formula_moves_side_by_side_as_alone_to_the_bit() {
-    let named = Wall::new(table_wall()).expect("a wall");
-    let mut walls: Vec<Wall> =
-        strangers().into_iter().map(|law| with_formulas(&[law], table_wall())).collect();
-    walls.extend([named.clone(), named.clone(), named]);
+    let bed = Effect::with_parameters("compliant_joint.both", &[5e9, 1e-4]).expect("an effect");
+    let mut walls = Vec::new();
+    for parameters in [table_wall(), WallParameters { effects: vec![bed], ..table_wall() }] {
+        walls.extend(strangers().into_iter().map(|law| with_formulas(&[law], parameters.clone())));
+        let at_all_places = [
+            formula(Place::Top, "-c*v*abs(v)", &[("c", 1500.0, "N*s**2/m**2")]),
+            formula(Place::Ground, "-c*w", &[("c", 800.0, "N*m*s")]),
+            formula(Place::Crack, "-k*phi", &[("k", 900.0, "N*m")]),
+        ];
+        walls.push(with_formulas(&at_all_places, parameters.clone()));
+        // Strangers to formulas in the same rows: with a damper, and without any law.
+        let damper = Effect::with_parameters("viscous_damping", &[1500.0]).expect("an effect");
+        for further in [None, Some(damper)] {
+            let effects = parameters.effects.iter().copied().chain(further).collect();
+            let named = Wall::new(WallParameters { effects, ..parameters.clone() }).expect("a wall");
+            walls.extend([named.clone(), named]);
+        }
+    }
     let mut waiting = walls.iter().enumerate();
     let mut next = || {
         let (index, wall) = waiting.next()?;

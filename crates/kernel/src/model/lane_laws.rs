@@ -4,6 +4,7 @@ use fearless_simd::{Select, Simd, SimdBase, f64x4, mask64x4};
 
 use super::bed::Acting;
 use super::effect::Lanes;
+use super::formula::{FormulaLanes, FormulaRow};
 use super::laws::Laws;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
@@ -116,6 +117,8 @@ pub(crate) struct LawRow {
     drag: Numbers,
     joint_damping: [Numbers; 2],
     damped: Numbers,
+    /// Those written as formulas, in their branches.
+    formulas: FormulaRow,
 }
 
 impl LawRow {
@@ -138,6 +141,13 @@ impl LawRow {
         self.joint_damping[0][i] = joint_damping[0];
         self.joint_damping[1][i] = joint_damping[1];
         self.damped[i] = f64::from(u8::from(motion.damped));
+        self.put_formulas(i, motion);
+    }
+
+    /// The formulas of the wall in a lane, in the branches they are in by now.
+    #[inline(always)]
+    pub fn put_formulas(&mut self, i: usize, motion: &Motion) {
+        self.formulas[i].copy(&motion.formulas);
     }
 }
 
@@ -170,8 +180,8 @@ pub(crate) struct LawLanes<S: Simd> {
 impl<S: Simd> LawLanes<S> {
     #[inline(always)]
     pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        let row = LawRow::of(m);
-        Self { spring: SpringLanes::new(simd, &row), further: FurtherLanes::new(simd, &row) }
+        let mut row = LawRow::of(m);
+        Self { spring: SpringLanes::new(simd, &row), further: FurtherLanes::new(simd, &mut row) }
     }
 }
 
@@ -182,17 +192,17 @@ impl<S: Simd> Acting<F<S>> for LawLanes<S> {
     }
 
     #[inline(always)]
-    fn damping_force_n(&self, _: F<S>, v_c_m_s: F<S>) -> F<S> {
-        self.further.damping_force_n(v_c_m_s)
+    fn damping_force_n(&self, x_c_m: F<S>, v_c_m_s: F<S>) -> F<S> {
+        self.further.damping_force_n(x_c_m, v_c_m_s)
     }
 
     #[inline(always)]
-    fn joint_moments_n_m(&self, _: [F<S>; 2], omega: [F<S>; 2]) -> [F<S>; 2] {
-        self.further.joint_moments_n_m(omega)
+    fn joint_moments_n_m(&self, theta: [F<S>; 2], omega: [F<S>; 2]) -> [F<S>; 2] {
+        self.further.joint_moments_n_m(|| theta, omega)
     }
 }
 
-/// Laws beyond a linear spring: a cubic one, dampers, drag. A lane without them keeps its sums as they are.
+/// Laws beyond a linear spring: a cubic one, dampers, drag, formulas. A lane without them keeps its sums as they are.
 pub(super) struct FurtherLanes<S: Simd> {
     cubic: F<S>,
     linear: mask64x4<S>,
@@ -201,11 +211,13 @@ pub(super) struct FurtherLanes<S: Simd> {
     at_ground: F<S>,
     at_crack: F<S>,
     damped: mask64x4<S>,
+    formulas: FormulaLanes<S>,
 }
 
 impl<S: Simd> FurtherLanes<S> {
+    /// Takes the formulas out of the row, until [`FurtherLanes::put_back`].
     #[inline(always)]
-    pub fn new(simd: S, row: &LawRow) -> Self {
+    pub fn new(simd: S, row: &mut LawRow) -> Self {
         let cubic = from_row(simd, &row.cubic);
         Self {
             cubic,
@@ -215,7 +227,13 @@ impl<S: Simd> FurtherLanes<S> {
             at_ground: from_row(simd, &row.joint_damping[0]),
             at_crack: from_row(simd, &row.joint_damping[1]),
             damped: from_row(simd, &row.damped).simd_eq(1.0),
+            formulas: FormulaLanes::new(simd, std::mem::take(&mut row.formulas)),
         }
+    }
+
+    #[inline(always)]
+    pub fn put_back(self, row: &mut LawRow) {
+        row.formulas = self.formulas.into_row();
     }
 
     /// As [`Laws::spring_force_n`].
@@ -225,17 +243,18 @@ impl<S: Simd> FurtherLanes<S> {
         self.linear.select(spring.force_n(x_c), fused(-secant, x_c, spring.offset))
     }
 
-    /// As [`Laws::damping_force_n`].
+    /// As [`Laws::damping_force_n`], and that of formulas.
     #[inline(always)]
-    pub fn damping_force_n(&self, v_c: F<S>) -> F<S> {
-        fused(-self.viscous, v_c, self.drag)
+    pub fn damping_force_n(&self, x_c: F<S>, v_c: F<S>) -> F<S> {
+        self.formulas.with_top_force_n(fused(-self.viscous, v_c, self.drag), x_c, v_c)
     }
 
-    /// As [`Laws::joint_moments_n_m`].
+    /// As [`Laws::joint_moments_n_m`], and those of formulas.
     #[inline(always)]
-    pub fn joint_moments_n_m(&self, [w1, w2]: [F<S>; 2]) -> [F<S>; 2] {
+    pub fn joint_moments_n_m(&self, theta: impl Fn() -> [F<S>; 2], [w1, w2]: [F<S>; 2]) -> [F<S>; 2] {
         let at_crack = self.at_crack * (w2 - w1);
-        [fused(-self.at_ground, w1, at_crack), -at_crack]
+        let moments = [fused(-self.at_ground, w1, at_crack), -at_crack];
+        self.formulas.with_joint_moments_n_m(moments, theta, [w1, w2])
     }
 
     /// A number with a further one where a lane is damped, as it is where not.

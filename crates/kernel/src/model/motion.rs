@@ -352,7 +352,7 @@ impl Motion {
         if self.formulas.is_empty() {
             return damping;
         }
-        damping + f64x2::new(self.formulas.joint_moments_n_m(theta(), omega.to_array()))
+        damping + f64x2::new(self.formulas.joint_moments_n_m(theta, omega.to_array()))
     }
 
     #[inline(always)]

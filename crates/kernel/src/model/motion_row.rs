@@ -50,4 +50,9 @@ impl MotionRow {
         self.lower_inertia[i] = m.lower_inertia;
         self.laws.put(i, m);
     }
+
+    /// The formulas of a motion whose other laws are in the lane.
+    pub fn put_formulas(&mut self, i: usize, m: &Motion) {
+        self.laws.put_formulas(i, m);
+    }
 }

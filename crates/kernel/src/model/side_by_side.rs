@@ -10,8 +10,9 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
+use super::formula::angles;
 use super::joint_forces::{JointForce, JointForces, Reactions};
 use super::lane_laws::{FurtherLanes, SpringLanes};
 use super::motion_row::MotionRow;
@@ -50,11 +51,21 @@ pub(crate) struct Motions<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
 pub(crate) struct ConfigurationLanes<S: Simd> {
     sin_1: F<S>,
     cos_1: F<S>,
+    sin_2: F<S>,
+    cos_2: F<S>,
     /// r_Q, r_C, V, U.
     q: [F<S>; 2],
     c: [F<S>; 2],
     v: [F<S>; 2],
     u: [F<S>; 2],
+}
+
+impl<S: Simd> ConfigurationLanes<S> {
+    /// θ_1 and θ_2, to a rounding.
+    fn theta(&self) -> [F<S>; 2] {
+        let of = |sin: F<S>, cos: F<S>| F::simd_from(sin.simd, angles(sin.into(), cos.into()));
+        [of(self.sin_1, self.cos_1), of(self.sin_2, self.cos_2)]
+    }
 }
 
 /// Angular accelerations of both bodies, the power of the ground and that of losses.
@@ -132,7 +143,8 @@ fn library_sin_cos<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
 
 impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHER> {
     #[inline(always)]
-    pub fn new(simd: S, row: &MotionRow) -> Self {
+    pub fn new(simd: S, row: &mut MotionRow) -> Self {
+        let further = if FURTHER { Some(FurtherLanes::new(simd, &mut row.laws)) } else { None };
         let one = |of: &Numbers| from_row(simd, of);
         let two = |of: &[Numbers; 2]| [from_row(simd, &of[0]), from_row(simd, &of[1])];
         let upper = one(&row.upper).simd_eq(1.0);
@@ -155,7 +167,15 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
             lower_inertia: one(&row.lower_inertia),
             m_dp: one(&row.laws.m_dp),
             spring: SpringLanes::new(simd, &row.laws),
-            further: if FURTHER { Some(FurtherLanes::new(simd, &row.laws)) } else { None },
+            further,
+        }
+    }
+
+    /// Puts back what [`Motions::new`] took out of the row.
+    #[inline(always)]
+    pub fn put_back(self, row: &mut MotionRow) {
+        if let Some(further) = self.further {
+            further.put_back(&mut row.laws);
         }
     }
 
@@ -166,6 +186,8 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
         ConfigurationLanes {
             sin_1,
             cos_1,
+            sin_2,
+            cos_2,
             q: rotated(self.q, sin_1, cos_1),
             c: rotated(self.c, sin_2, cos_2),
             v: rotated(self.v, sin_1, cos_1),
@@ -197,12 +219,13 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let v_c = r[1] * omega;
         let carriage_acceleration = fused(-r[0], omega * omega, a_x);
-        let mut top = self.spring_force_n(r[0] + self.o_c) - self.m_dp * carriage_acceleration;
+        let x_c = r[0] + self.o_c;
+        let mut top = self.spring_force_n(x_c) - self.m_dp * carriage_acceleration;
         let mut weight_and_ground = fused(w[0], a_y, -w[1] * a_x);
         let mut loss = F::splat(theta.simd, 0.0);
         if let Some(further) = &self.further {
-            let damping = further.damping_force_n(v_c);
-            let [joint, _] = further.joint_moments_n_m([omega; 2]);
+            let damping = further.damping_force_n(x_c, v_c);
+            let [joint, _] = further.joint_moments_n_m(|| [theta; 2], [omega; 2]);
             top = further.with(top, damping);
             weight_and_ground = further.with(weight_and_ground, joint);
             loss = further.where_damped(-fused(damping, v_c, joint * omega));
@@ -234,9 +257,9 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
         let none = F::splat(x_c.simd, 0.0);
         let (mut damping, mut spring_and_damping, mut joint_moments) = (none, spring, [none; 2]);
         if let Some(further) = &self.further {
-            damping = further.where_damped(further.damping_force_n(v_c));
+            damping = further.where_damped(further.damping_force_n(x_c, v_c));
             spring_and_damping = further.with(spring, damping);
-            joint_moments = further.joint_moments_n_m([w1, w2]);
+            joint_moments = further.joint_moments_n_m(|| t.theta(), [w1, w2]);
         }
         let carriage_acceleration = a_x - t.q[0] * squares[0] - t.c[0] * squares[1];
         let kappa = t.q[1] * t.u[0] - t.q[0] * t.u[1];

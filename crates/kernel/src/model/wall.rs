@@ -238,10 +238,14 @@ impl Wall {
     }
 }
 
-/// The sums of all effects. The lanes do no formulas.
+/// The sums of all effects. The lanes do formulas, but not those of which friction holds the top.
 fn sums(p: &WallParameters) -> EffectSums {
     let sums = EffectSums::of(&p.effects);
-    if p.formulas.is_empty() { sums } else { EffectSums { lanes: Lanes::Unknown, ..sums } }
+    if p.formulas.is_empty() {
+        sums
+    } else {
+        EffectSums { lanes: sums.lanes.max(Lanes::WhileSliding), ..sums }
+    }
 }
 
 /// Masses above the ground and above the crack, kg.

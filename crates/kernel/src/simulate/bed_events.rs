@@ -38,6 +38,13 @@ impl BedChange {
         }
         (opening(self.joint, at.position) - self.limit_rad, opening(self.joint, at.velocity))
     }
+
+    /// Smallest of what is left at the coefficients of a path, given the smallest and the largest of them.
+    #[inline]
+    fn least_left(&self, [least, most]: [f64; 2]) -> f64 {
+        let nearest = if self.sign > 0.0 { most } else { least };
+        (self.limit_rad - nearest) * self.sign
+    }
 }
 
 /// The first change of contact inside a step, and the share of the step at which it is.
@@ -52,15 +59,12 @@ pub(super) fn first_bed_change(
     if !wall.wall().rolls() {
         return None;
     }
-    let size = motion.bounds().iter().sum();
+    let size: f64 = motion.bounds().iter().sum();
+    let [least, most] = motion.gaps_between();
     let mut first = None;
     for joint in wall.joints() {
         let Some(law) = wall.joint_law(joint) else { continue };
-        let path = match joint {
-            Joint::Ground => motion.coordinate(0),
-            Joint::Crack => motion.difference(),
-        };
-        let was_open = opened[joint as usize];
+        let (i, was_open) = (joint as usize, opened[joint as usize]);
         let changes = match (contact.at(joint), wall.branch(joint)) {
             (side, Branch::Beyond) if side.is_open() => beyond_kink(joint, law, side),
             (side, _) => changes_of(joint, law, side, was_open),
@@ -68,7 +72,14 @@ pub(super) fn first_bed_change(
         for change in changes.into_iter().flatten() {
             let share = match change.kind {
                 BedChangeKind::Stops(_) => share_of_stop(&change, step),
-                _ => share_of(&change, &path, size),
+                _ => {
+                    let rounding = ROUNDINGS * f64::EPSILON * size.max(change.limit_rad.abs());
+                    // Most steps are far from every limit, and their coefficients prove it.
+                    if change.least_left([least[i], most[i]]) > rounding {
+                        continue;
+                    }
+                    share_of(&change, &motion.gap(i), rounding)
+                }
             };
             let Some(share) = share else { continue };
             if first.is_none_or(|(_, earliest)| share < earliest) {
@@ -125,17 +136,9 @@ fn share_of_stop(change: &BedChange, step: &Step) -> Option<f64> {
     first_end(rate.times(change.sign), ROUNDINGS * f64::EPSILON * size[0].max(size[1]))
 }
 
-/// Where the rotation across the joint passes the limit.
-///
-/// `size` is that of the rotations it is the difference of.
-#[inline]
-fn share_of(change: &BedChange, path: &Bernstein<6>, size: f64) -> Option<f64> {
-    let rounding = ROUNDINGS * f64::EPSILON * size.max(change.limit_rad.abs());
+/// Where the rotation across the joint passes the limit, of a step that is not surely far from it.
+fn share_of(change: &BedChange, path: &Bernstein<6>, rounding: f64) -> Option<f64> {
     let mut left = path.below(change.limit_rad).times(change.sign);
-    // Most steps are far from every limit, and their coefficients prove it.
-    if left.0.iter().all(|c| *c > rounding) {
-        return None;
-    }
     let [start, next, ..] = left.0;
     if start < 0.0 && next > start {
         // Beyond the limit by what the change before was located less well than to roundings, and on its way back.

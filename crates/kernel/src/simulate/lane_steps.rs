@@ -296,13 +296,14 @@ fn steps_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
 where
     Motions<S, AS_ONE, FURTHER>: Stepping<S>,
 {
-    let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &row.motions);
+    let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &mut row.motions);
     loop {
         let landed = motions.step(simd, row);
         let done = row.settle(&motions, &landed, samples);
         let left = row.taken & !done.to_bitmask();
         if left != 0 || row.watched {
             row.landed.store(&landed);
+            motions.put_back(&mut row.motions);
             return left;
         }
     }

@@ -37,6 +37,9 @@ const MOST_FACTOR: f64 = 5.0;
 /// The estimate falls with this power of the step: the fifth of the embedded method, and one more (see `error`).
 const ESTIMATE_ORDER: i32 = 6;
 
+/// Below it numbers have a fraction.
+const MOST_WITH_FRACTION: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
+
 /// The power with which the estimate falls.
 #[inline(always)]
 fn to_estimate_order<N: Copy + Mul<Output = N>>(ratio: N) -> N {
@@ -48,6 +51,16 @@ fn to_estimate_order<N: Copy + Mul<Output = N>>(ratio: N) -> N {
 #[inline]
 fn longer_s(h: f64, error: f64) -> f64 {
     h * (SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER))).min(MOST_FACTOR)
+}
+
+/// The next whole number, as `ceil` has it. That is a call of a library on processors that may lack SSE4.1.
+#[inline]
+fn whole_parts(ratio: f64) -> f64 {
+    if ratio.is_nan() || ratio.abs() >= MOST_WITH_FRACTION {
+        return ratio;
+    }
+    let whole = ratio as i64 as f64;
+    if whole < ratio { whole + 1.0 } else { whole }
 }
 
 impl Controller {
@@ -67,7 +80,7 @@ impl Controller {
         if remaining_s <= self.proposed_s {
             return remaining_s;
         }
-        remaining_s / (remaining_s / self.proposed_s).ceil()
+        remaining_s / whole_parts(remaining_s / self.proposed_s)
     }
 
     /// Scaled error of a step, in units of the bound.

@@ -68,10 +68,25 @@ impl Quintic {
         Bernstein(self.both.map(|c| c.to_array()[i]))
     }
 
+    /// The first coordinate (0), or the second less the first (1).
+    #[inline]
+    pub fn gap(&self, i: usize) -> Bernstein<6> {
+        Bernstein(self.gaps.map(|c| c.to_array()[i]))
+    }
+
     /// Second coordinate less the first.
     #[inline]
     pub fn difference(&self) -> Bernstein<6> {
-        Bernstein(self.gaps.map(|c| c.to_array()[1]))
+        self.gap(1)
+    }
+
+    /// Smallest and largest coefficients of both gaps, between which these stay over the step.
+    #[inline]
+    pub fn gaps_between(&self) -> [[f64; 2]; 2] {
+        let [first, ref later @ ..] = self.gaps;
+        let least = later.iter().fold(first, |least, c| least.fast_min(*c));
+        let most = later.iter().fold(first, |most, c| most.fast_max(*c));
+        [least.to_array(), most.to_array()]
     }
 
     /// Bounds on the magnitudes of the coordinates over the step.

@@ -131,15 +131,35 @@ pub(crate) struct Slopes {
     pub joints: [Pair; 2],
 }
 
+/// Moments at joints of formulas of which none acts there, with the signs that zeros have as sums of nothing.
+pub(super) const NO_MOMENTS: Pair = [0.0, -0.0];
+
 /// All formulas of a wall.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct FormulaLaws {
     pub(super) laws: Vec<FormulaLaw>,
+    /// Whether any acts at a joint.
+    at_joints: bool,
 }
 
 impl FormulaLaws {
     pub fn new(laws: Vec<FormulaLaw>) -> Self {
-        Self { laws }
+        Self { at_joints: laws.iter().any(|law| law.joint.is_some()), laws }
+    }
+
+    /// Whether any acts at a joint.
+    #[inline(always)]
+    pub fn act_at_joints(&self) -> bool {
+        self.at_joints
+    }
+
+    /// Takes over those of another wall.
+    #[inline]
+    pub fn copy(&mut self, other: &Self) {
+        if !self.is_empty() || !other.is_empty() {
+            self.laws.clone_from(&other.laws);
+            self.at_joints = other.at_joints;
+        }
     }
 
     /// Whether there is none.
@@ -159,9 +179,15 @@ impl FormulaLaws {
         self.at(None).map(|law| law.as_written(x_c_m, v_c_m_s)).sum()
     }
 
-    /// Moments on θ_1 and θ_2, N m, of those at the joints: M_1 - M_2 and M_2.
+    /// Moments on θ_1 and θ_2, N m, of those at the joints: M_1 - M_2 and M_2. Where there are none, [`NO_MOMENTS`].
+    #[inline(always)]
+    pub fn joint_moments_n_m(&self, theta: impl Fn() -> Pair, omega: Pair) -> Pair {
+        // Angles cost more than most formulas.
+        if self.at_joints { self.moments_n_m(theta(), omega) } else { NO_MOMENTS }
+    }
+
     #[inline(never)]
-    pub fn joint_moments_n_m(&self, theta: Pair, omega: Pair) -> Pair {
+    fn moments_n_m(&self, theta: Pair, omega: Pair) -> Pair {
         let across = |pair: Pair| [pair[0], pair[1] - pair[0]];
         let (phi, rates) = (across(theta), across(omega));
         let [ground, crack] = [Joint::Ground, Joint::Crack].map(|joint| {

@@ -9,9 +9,12 @@
 //! the jump.
 
 mod check;
+mod lanes;
 mod laws;
 mod switches;
 
 pub(in crate::model) use check::checked;
+pub(crate) use lanes::FormulaRow;
+pub(in crate::model) use lanes::{FormulaLanes, angles};
 pub(crate) use laws::{FormulaLaw, FormulaLaws, Slopes};
 pub(crate) use switches::{Path, Turn};

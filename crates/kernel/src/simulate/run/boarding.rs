@@ -25,7 +25,9 @@ impl<O: Observer> Run<O> {
 
     /// Whether steps without an event are the same for it as for any other run.
     fn is_plain(&self) -> bool {
-        !self.wall.formulas().have_switches() && !self.wall.wall().gives() && !self.wall.is_held()
+        let formulas = self.wall.formulas();
+        let watched = formulas.have_switches() || formulas.remember_largest();
+        !watched && !self.wall.wall().gives() && !self.wall.is_held()
     }
 
     /// Puts all that the next step needs in a lane.
@@ -86,6 +88,7 @@ impl<O: Observer> Run<O> {
         row.moving.put(i, &self.now, self.quadrature_rate, self.requested_s());
         row.ground.put(i, piece, self.k, self.offset_s);
         row.errors.put(i, &self.controller);
+        row.motions.put_formulas(i, self.wall.motion(self.contact));
         let advances = matches!(self.task, Task::Advance { .. }) && self.is_plain();
         let (limits, totals) = (&mut row.limits, &self.totals);
         limits.advances[i] = f64::from(u8::from(advances));
