@@ -223,6 +223,11 @@ limits! {
     BED_DAMPING: f64 = 1e-3, "s";
     /// Share of the squared error above noise that the best of these must take away for beds to be fitted.
     BEDS_ASKED_FOR: f64 = 0.3, "share";
+    /// Share of the squared error above noise that they must take away, in the tests held out, for effects beside them to be
+    /// looked for.
+    BESIDE_BEDS_FROM: f64 = 0.5, "share";
+    /// Effects of one number that are fitted beside them: those that promise most.
+    BESIDE_BEDS: usize = 3, "";
     /// Squared error above noise, over that of the best bed, up to which others are fitted to all windows.
     BEDS_NEAR_BEST: f64 = 2.0, "";
 }

@@ -146,6 +146,23 @@ impl Row {
         self.kind.starts_with("outside")
     }
 
+    /// Whether an effect is among those that are hidden.
+    pub fn hides(&self, effect: &str) -> bool {
+        self.hidden.iter().any(|hidden| hidden == effect)
+    }
+
+    /// Whether an effect is among those named.
+    pub fn names(&self, effect: &str) -> bool {
+        self.verdict == "named" && self.named.iter().any(|named| named == effect)
+    }
+
+    /// Share of the squared windowed error above noise that is taken away in the tests held out; `None` where there is none.
+    pub fn taken(&self) -> Option<f64> {
+        let excess = |error: f64| error * error - 1.0;
+        let before = self.before.map(excess).filter(|before| *before > 0.0)?;
+        Some(1.0 - excess(self.after?) / before)
+    }
+
     /// Whether something was claimed to be there, by name, as a class or as a formula.
     pub fn claims(&self) -> bool {
         matches!(self.verdict.as_str(), "named" | "class" | "formula" | "formula_class")

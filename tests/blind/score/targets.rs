@@ -61,6 +61,7 @@ pub fn table(rows: &[Row]) -> String {
     let both = pairs.iter().filter(|row| row.all_visible());
     add("– both visible", "", Counted::of(both, |row| row.exact()).told());
     add("– wrong name", "", Counted::of(&pairs, |row| row.wrong()).told());
+    lines_of_beds(rows, &mut add);
     let named: Vec<&Row> = rows.iter().filter(|row| row.right()).collect();
     let of = |value: fn(&Row) -> Option<f64>| median(named.iter().filter_map(|row| value(row)));
     let told = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
@@ -75,6 +76,41 @@ pub fn table(rows: &[Row]) -> String {
     );
     printed(&lines)
 }
+
+/// Windowed error held out from which joints that give are visible, over the noise.
+const VISIBLE_BEDS: f64 = 2.0;
+/// Share of the squared error above noise that they are to take away in tests held out.
+const TAKEN: f64 = 0.8;
+
+/// Figures of walls whose joints give; none where there are no such walls.
+fn lines_of_beds(rows: &[Row], add: &mut impl FnMut(&str, &str, String)) {
+    let on_beds = rows.iter().filter(|row| row.hides(BEDS)).collect::<Vec<_>>();
+    if on_beds.is_empty() {
+        return;
+    }
+    let visible = on_beds.iter().filter(|row| row.before.is_some_and(|error| error > VISIBLE_BEDS));
+    let named = |row: &&&Row| row.names(BEDS);
+    add(
+        "joints that give, visible: named, whatever is beside them",
+        "≥ 90 %",
+        Counted::of(visible, named).told(),
+    );
+    let named = on_beds.iter().filter(named).collect::<Vec<_>>();
+    let most = |row: &&&&Row| row.taken().is_some_and(|share| share >= TAKEN);
+    add("– named: at least 80 % of the gap taken away held out", "", Counted::of(&named, most).told());
+    let beside = on_beds.iter().filter(|row| row.hidden.len() == 2).collect::<Vec<_>>();
+    add(
+        "an effect on joints that give: both named",
+        "≥ 85 %",
+        Counted::of(&beside, |row| row.exact()).told(),
+    );
+    add("– wrong name", "", Counted::of(&beside, |row| row.wrong()).told());
+    let alone = on_beds.iter().filter(|row| row.hidden.len() == 1).collect::<Vec<_>>();
+    add("joints that give alone: wrong name", "", Counted::of(&alone, |row| row.wrong()).told());
+}
+
+/// Joints that give, among effects.
+const BEDS: &str = "compliant_joint";
 
 /// Figure, target and what was reached as a table in Markdown.
 pub fn printed(lines: &[[String; 3]]) -> String {

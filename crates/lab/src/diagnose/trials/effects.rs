@@ -105,7 +105,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Where single effects start: from the wall as given, and where one of its numbers was not known, with that fitted.
-    fn starts<'t>(
+    pub(super) fn starts<'t>(
         &self,
         before: &'t FittedHypothesis,
         recalibrated: &'t FittedHypothesis,

@@ -78,6 +78,20 @@ pub fn names(tried: &FittedHypothesis) -> Vec<String> {
     h.additions.iter().enumerate().map(name).collect()
 }
 
+/// Names of the best and of others that cannot be told from it, each once.
+fn names_of_all<'t>(
+    best: &FittedHypothesis,
+    others: impl IntoIterator<Item = &'t FittedHypothesis>,
+) -> Vec<String> {
+    let mut all = Vec::new();
+    for name in names(best).into_iter().chain(others.into_iter().flat_map(names)) {
+        if !all.contains(&name) {
+            all.push(name);
+        }
+    }
+    all
+}
+
 /// Last word of the key of a number of the wall, without its unit.
 pub fn name_of_number(number: &WallNumber) -> String {
     let last = number.key.rsplit('.').next().unwrap_or(number.key);
