@@ -110,7 +110,11 @@ impl Row {
         let Some(deviation) = number(answer, "/effects/0/deviation") else { return };
         let parameter = text(answer, "/effects/0/parameter");
         let kind = &self.hidden[0];
-        let Some(effect) = effects.iter().find(|effect| effect.kind.as_ref() == Some(kind)) else { return };
+        // One kind may stand at both joints.
+        let name = text(answer, "/effects/0/name");
+        let is_it = |effect: &&FoundEffect| effect.kind.as_ref() == Some(kind);
+        let same = effects.iter().filter(is_it).find(|effect| effect.name.as_ref() == Some(&name));
+        let Some(effect) = same.or_else(|| effects.iter().find(is_it)) else { return };
         let found = effect.parameters.get(&parameter);
         self.parameter_error = found.map(|found| (found - value).abs() / deviation);
         let interval = effect.interval.get(&parameter);
@@ -154,6 +158,12 @@ impl Row {
     /// Whether an effect is among those named.
     pub fn names(&self, effect: &str) -> bool {
         self.verdict == "named" && self.named.iter().any(|named| named == effect)
+    }
+
+    /// Whether an effect is among those named, or in the class.
+    pub fn tells(&self, effect: &str) -> bool {
+        let in_class = || self.named.iter().chain(&self.equivalent).any(|named| named == effect);
+        self.names(effect) || (self.verdict == "class" && in_class())
     }
 
     /// Share of the squared windowed error above noise that is taken away in the tests held out; `None` where there is none.

@@ -8,6 +8,9 @@ use super::row::Row;
 /// Up to this an effect is to be named nearly always, rad.
 const LOW_NOISE_RAD: f64 = 1.001e-4;
 
+/// Formulations of the simulators that make cases.
+const FORMULATIONS: [&str; 4] = ["own", "compliant", "corners", "springs"];
+
 /// What a word of the table means.
 pub const NOTE: &str = "visible: at least twice the smallest size that the diagnosis says it could detect; \
                         of nominal size or more where it does not say";
@@ -23,6 +26,12 @@ pub fn table(rows: &[Row]) -> String {
     for noise in NOISES_RAD {
         let at = nothing.iter().filter(|row| row.noise_rad == noise);
         add(&format!("– at {noise:.0e} rad"), "≤ 5 %", Counted::of(at, |row| row.claims()).told());
+    }
+    for formulation in FORMULATIONS {
+        let of = nothing.iter().filter(|row| row.simulator == formulation).collect::<Vec<_>>();
+        if !of.is_empty() {
+            add(&format!("– {formulation}"), "≤ 5 %", Counted::of(&of, |row| row.claims()).told());
+        }
     }
     let one: Vec<&Row> = rows.iter().filter(|row| row.hides_effect() && row.hidden.len() == 1).collect();
     let visible = |row: &&&Row| row.visible() && row.prior.starts_with("k_d to 2 %");
@@ -89,15 +98,21 @@ fn lines_of_beds(rows: &[Row], add: &mut impl FnMut(&str, &str, String)) {
         return;
     }
     let visible = on_beds.iter().filter(|row| row.before.is_some_and(|error| error > VISIBLE_BEDS));
-    let named = |row: &&&Row| row.names(BEDS);
+    let named = |row: &&&Row| row.tells(BEDS);
     add(
-        "joints that give, visible: named, whatever is beside them",
+        "joints that give, visible: named or in the class, whatever is beside them",
         "≥ 90 %",
         Counted::of(visible, named).told(),
     );
     let named = on_beds.iter().filter(named).collect::<Vec<_>>();
     let most = |row: &&&&Row| row.taken().is_some_and(|share| share >= TAKEN);
     add("– named: at least 80 % of the gap taken away held out", "", Counted::of(&named, most).told());
+    let errors = on_beds.iter().filter_map(|row| row.parameter_error).collect::<Vec<_>>();
+    let error = median(errors.iter().copied());
+    let told = error.map_or("no cases".into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));
+    add("– stiffness, median error", "≤ 10 %", told);
+    let covered = Counted::of(on_beds.iter().filter_map(|row| row.covered), |covered| *covered);
+    add("– 90 % interval holds it", "85 to 95 %", covered.told());
     let beside = on_beds.iter().filter(|row| row.hidden.len() == 2).collect::<Vec<_>>();
     add(
         "an effect on joints that give: both named",

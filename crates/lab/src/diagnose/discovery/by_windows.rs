@@ -125,22 +125,6 @@ impl<P: Progress> Trials<'_, P> {
         let gain = against(&self.data, gap.recalibrated) - against(&self.data, tried);
         let laws = tried.hypothesis.laws(&tried.fit.values);
         let sound = |law: &Law| lies_inside(law) && holds_in_each_test(&searched.equations, law);
-        eprintln!(
-            "DBG law {} closes {} does {} gain {gain} inside {} each {} held {:?}",
-            tried.hypothesis.name(),
-            closes(tried, gap.error),
-            does_something(tried),
-            laws.iter().all(lies_inside),
-            laws.iter().all(|l| holds_in_each_test(&searched.equations, l)),
-            tried
-                .held_out
-                .windows
-                .iter()
-                .zip(self.data.held_out.windows)
-                .filter(|(f, _)| f.squares / f.freedom > 2.0)
-                .map(|(f, w)| (w.samples.start, (10.0 * f.squares / f.freedom).round() / 10.0))
-                .collect::<Vec<_>>()
-        );
         closes(tried, gap.error) && does_something(tried) && gain >= WORTH_A_NAME && laws.iter().all(sound)
     }
 

@@ -59,6 +59,19 @@ impl Found {
         all
     }
 
+    /// The hypothesis that leaves least, where what it leaves is more than noise: that of a name with a remainder, or of all that
+    /// was tried in vain.
+    pub fn least_leaving(&self) -> Option<&FittedHypothesis> {
+        let error = |tried: &FittedHypothesis| joint_error(tried).unwrap_or(f64::INFINITY);
+        match self.verdict {
+            Verdict::PlaceOnly | Verdict::Unknown => {
+                let all = self.tried.iter().chain([&self.recalibrated]);
+                all.min_by(|a, b| error(a).total_cmp(&error(b)))
+            }
+            _ => self.remainder.as_ref().map(|_| &self.after),
+        }
+    }
+
     /// The hypothesis whose wall is written: that of the answer, or the wall as given where there is none.
     pub fn kept(&self) -> &FittedHypothesis {
         match self.verdict {

@@ -19,7 +19,7 @@ use super::trials::{FittedHypothesis, kind_of};
 pub use judge::{Found, judge};
 pub use on_beds::on_beds;
 pub use other_law::{OtherLaw, Trend};
-pub use remainder::{NextRival, Remainder};
+pub use remainder::{NextRival, Remainder, model_error_rad};
 use serde::{Deserialize, Serialize};
 pub use worth_naming::power;
 

@@ -11,7 +11,9 @@ use crate::diagnose::trials::{
     FittedHypothesis, Trials, WallFits, against, all_windows, closes, does_something, excess, is_noise,
     joint_error,
 };
-use crate::limits::{BESIDE_BEDS_FROM, EQUIVALENT, REMAINDER_RIVAL, REMAINDER_TAKEN, WORTH_A_NAME};
+use crate::limits::{
+    BED_OWN_ERROR, BEDS_GAP, BESIDE_BEDS_FROM, EQUIVALENT, REMAINDER_RIVAL, REMAINDER_TAKEN, WORTH_A_NAME,
+};
 use mrbd_kernel::model::Role;
 
 /// The verdict where joints that give are the answer, or part of it; `None` where they are not.
@@ -19,29 +21,11 @@ pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found
     let WallFits { before, recalibrated } = wall;
     let beds = trials.beds(wall);
     let alone = beds.first().filter(|best| does_something(best))?;
-    eprintln!(
-        "DBG alone {} {:?} {:?} {:?}",
-        alone.hypothesis.name(),
-        alone.fit.values,
-        alone.errors(),
-        Remainder::new(&trials.data, recalibrated, alone, &[])
-    );
     let OnBeds { best, near, pairs } = with_effect(trials, wall, &beds)?;
-    for p in &pairs {
-        eprintln!(
-            "DBG pair {} {:?} {:?} {:?} worth {}",
-            p.hypothesis.name(),
-            p.fit.values,
-            p.errors(),
-            Remainder::new(&trials.data, alone, p, &[]),
-            is_worth_it(trials, wall, alone, p)
-        );
-    }
-    eprintln!("DBG best {}", best.hypothesis.name());
     if Remainder::new(&trials.data, recalibrated, &best, &[])?.taken_held_out < REMAINDER_TAKEN {
         return None;
     }
-    let rivals = trials.coarse_singles(before);
+    let rivals = trials.rivals_of_beds(before);
     let standing = Standing::of(trials, wall, &best, &rivals)?;
     Some(standing.found(trials, wall, best, &near, [beds, pairs, rivals].concat()))
 }
@@ -59,15 +43,6 @@ impl BedsBeside {
         let effects = singles.iter().filter(|t| is_effect(t));
         let effect = effects.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()))?.clone();
         let beds = trials.beds_beside(&effect);
-        for p in &beds {
-            eprintln!(
-                "DBG beside {} {:?} {:?} {:?}",
-                p.hypothesis.name(),
-                p.fit.values,
-                p.errors(),
-                Remainder::new(&trials.data, &effect, p, singles)
-            );
-        }
         let (best, others) = beds.split_first()?;
         let is_other =
             |other: &&FittedHypothesis| names(other) != names(best) && comes_near(trials, best, other);
@@ -176,21 +151,26 @@ fn with_effect<P: Progress>(
     else {
         return Some(OnBeds { best: alone.clone(), near: Vec::new(), pairs });
     };
-    let near = others.iter().filter(|other| comes_near(trials, two, other)).cloned().collect();
+    let is_as_good =
+        |other: &&FittedHypothesis| comes_near(trials, two, other) && is_worth_it(trials, wall, alone, other);
+    let near = others.iter().filter(is_as_good).cloned().collect();
     Some(OnBeds { best: two.clone(), near, pairs })
 }
 
 /// Whether an effect beside joints that give is named with them: it follows to the noise and gains what a second effect must,
-/// or it takes away most of what they leave, in small swings and in large ones.
+/// or it takes away most of what they leave, in small swings and in large ones, where that is more than another way to model
+/// a bed leaves.
 fn is_worth_it<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     alone: &FittedHypothesis,
     two: &FittedHypothesis,
 ) -> bool {
+    let [gap, left] = [&wall.recalibrated, alone].map(|tried| excess(&all_windows(tried)));
+    let is_more = left > BED_OWN_ERROR * gap && joint_error(alone).is_some_and(|error| error > BEDS_GAP);
     let takes_most = || Remainder::new(&trials.data, alone, two, &[]).is_some_and(|r| r.holds());
     let to_noise = || follows(trials, wall, two, &[]) && worth_two(&trials.data, alone, two);
-    does_something(two) && (takes_most() || to_noise())
+    does_something(two) && ((is_more && takes_most()) || to_noise())
 }
 
 /// Whether the tests cannot tell another effect from the best: by likelihood where that leaves noise, else by what each leaves.

@@ -10,7 +10,7 @@ use crate::diagnose::fit::WindowFit;
 use crate::diagnose::trials::{Data, FittedHypothesis, does_something, excess, kinds};
 use crate::experiment::Window;
 use crate::limits::{
-    REMAINDER_BY_SWING, REMAINDER_GAP, REMAINDER_RIVAL, REMAINDER_TAKEN, STIFFEST_NAMED_PA_PER_M,
+    LEFT_OUT, REMAINDER_BY_SWING, REMAINDER_GAP, REMAINDER_RIVAL, REMAINDER_TAKEN, STIFFEST_NAMED_PA_PER_M,
 };
 use mrbd_kernel::model::Role;
 
@@ -129,6 +129,24 @@ fn by_swing(data: &Data, without: &FittedHypothesis, with: &FittedHypothesis) ->
         share_taken(&without, &with)
     };
     Some([share(&all[..half])?, share(&all[half..])?])
+}
+
+/// Error of a model over windows without that of the noise, rad; `None` where it is no more than noise.
+///
+/// Without the windows followed worst, as the windowed error.
+pub fn model_error_rad(data: &Data, tried: &FittedHypothesis) -> Option<f64> {
+    let noise_rad_2 = |window: &Window| {
+        let [one, two] = data.fit.tests[window.test].noise_rad;
+        0.5 * (one * one + two * two)
+    };
+    let windows = data.fit.windows.iter().chain(data.held_out.windows);
+    let fits = tried.fit.windows.iter().chain(&tried.held_out.windows);
+    let mut all =
+        windows.zip(fits).map(|(w, fit)| (fit.reduced() - 1.0) * noise_rad_2(w)).collect::<Vec<_>>();
+    all.sort_by(f64::total_cmp);
+    let kept = all.len() - (LEFT_OUT * all.len() as f64).floor() as usize;
+    let mean = all[..kept].iter().sum::<f64>() / kept as f64;
+    (mean > 0.0).then(|| mean.sqrt())
 }
 
 #[cfg(test)]

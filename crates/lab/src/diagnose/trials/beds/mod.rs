@@ -15,7 +15,9 @@
 //! model leaves, as if that were the noise.
 
 mod beside;
+mod few;
 mod probe;
+mod rivals;
 
 use rayon::prelude::*;
 

@@ -1,11 +1,11 @@
 //! Beds looked at in few windows: whether these ask for one, and where its fit begins.
 
+use super::few::Few;
 use super::{excess, in_rounds};
 use crate::Progress;
-use crate::diagnose::fit::{Fit, Problem};
+use crate::diagnose::fit::Fit;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
 use crate::diagnose::trials::{FittedHypothesis, Trials};
-use crate::experiment::Window;
 use crate::limits::{BED_DAMPING, BED_DECADES, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_WINDOWS};
 use rayon::prelude::*;
 
@@ -22,7 +22,7 @@ struct Probed {
 /// fitted, or with an effect.
 pub struct Probe<'t, P> {
     trials: &'t Trials<'t, P>,
-    windows: Vec<Window>,
+    few: Few,
     wall: &'t FittedHypothesis,
     beds: Vec<Probed>,
 }
@@ -34,12 +34,10 @@ impl<'t, P: Progress> Probe<'t, P> {
         wall: &'t FittedHypothesis,
         without: &FittedHypothesis,
     ) -> Option<Self> {
-        let asked = spread_over(trials.data.fit.windows.len(), BEDS_WINDOWS);
-        let left = asked.iter().map(|k| without.fit.windows[*k].clone()).collect::<Vec<_>>();
-        let windows = asked.iter().map(|k| trials.data.fit.windows[*k].clone()).collect();
-        let mut probe = Self { trials, windows, wall, beds: Vec::new() };
+        let few = Few::new(trials.data.fit, BEDS_WINDOWS, 1.0);
+        let left = few.left(&without.fit);
+        let mut probe = Self { trials, few, wall, beds: Vec::new() };
         probe.beds = probe.probed(&BED_DECADES);
-        eprintln!("DBG probe {} least {} of {}", wall.hypothesis.name(), probe.least(), excess(&left));
         (probe.least() < (1.0 - BEDS_ASKED_FOR) * excess(&left)).then_some(probe)
     }
 
@@ -58,16 +56,12 @@ impl<'t, P: Progress> Probe<'t, P> {
         let chosen = beds().iter().filter_map(best).collect::<Vec<_>>();
         let fit = |p: &&Probed| {
             let (h, start) = self.states(p.bed, p.stiffness_pa_per_m, p.damping_s)?;
-            let fit = in_rounds(&self.problem(), &h, start)?;
+            let fit = in_rounds(&self.few.problem(), &h, start)?;
             Some((h, fit))
         };
         let mut begun = chosen.par_iter().filter_map(fit).collect::<Vec<_>>();
         begun.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
         begun
-    }
-
-    fn problem(&self) -> Problem<'_> {
-        Problem { tests: self.trials.data.fit.tests, windows: &self.windows }
     }
 
     fn probed(&self, stiffness_pa_per_m: &[f64]) -> Vec<Probed> {
@@ -91,26 +85,8 @@ impl<'t, P: Progress> Probe<'t, P> {
             let number = if unknown.measure == Measure::Softness { stiffness_pa_per_m } else { damping_s };
             *value = unknown.within(unknown.measure.value_of(number));
         }
-        let problem = self.problem();
+        let problem = self.few.problem();
         let fit = problem.states(&h, &values, &problem.measured_states(), 1, false)?;
         Some((h, fit))
-    }
-}
-
-/// At most `most` of `count` places, spread evenly.
-fn spread_over(count: usize, most: usize) -> Vec<usize> {
-    let chosen = count.min(most);
-    (0..chosen).map(|i| i * count / chosen).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn analytic_few_windows_are_spread_over_all() {
-        assert_eq!(spread_over(9, 3), [0, 3, 6]);
-        assert_eq!(spread_over(2, 3), [0, 1]);
-        assert!(spread_over(0, 3).is_empty());
     }
 }
