@@ -83,8 +83,12 @@ fn numbers(pushed: &Pushed) -> Vec<Number> {
 }
 
 fn notes(pushed: &Pushed) -> Vec<String> {
-    let bed = |bed: Option<f64>| bed.map_or("sharp edges".to_owned(), |bed| format!("a bed of {bed:e} Pa/m"));
-    let [ground, crack] = pushed.beds_pa_per_m.map(bed);
+    let [ground, crack] =
+        [0, 1].map(|joint: usize| match (pushed.beds_pa_per_m[joint], &pushed.joint_laws[joint]) {
+            (Some(bed), _) => format!("a bed of {bed:e} Pa/m"),
+            (None, Some(kind)) => kind.clone(),
+            (None, None) => "sharp edges".to_owned(),
+        });
     vec![
         format!("Joints: {ground} at the ground, {crack} at the crack, loaded by what stands above them."),
         "Dampers and friction at the top do not count. The bodies are rigid and do not slide.".into(),

@@ -83,6 +83,19 @@ fn analytic_a_bed_of_the_wall_file_is_the_bed_of_the_command() {
 }
 
 #[test]
+fn analytic_a_rival_of_a_bed_is_told_and_takes_its_part_of_the_force() {
+    let folder = folder();
+    let effect = "kind = \"rounded_edges\"\njoint = \"crack\"\nworn_width_m = 0.01\nradius_m = 0.5\n";
+    std::fs::write(folder.path().join("worn.toml"), format!("{HELD}[[effects]]\n{effect}")).expect("written");
+    let worn = json(folder.path(), &["push", "worn.toml", "--json"]);
+    let sharp = json(folder.path(), &["push", "wall.toml", "--json"]);
+    assert_eq!(worn["joint_laws"], serde_json::json!([null, "rounded_edges"]));
+    assert_eq!(worn["beds_pa_per_m"], serde_json::json!([null, null]));
+    let largest = |found: &Value| found["curve"]["largest_force_over_weight"].as_f64().expect("a number");
+    assert!(largest(&worn) < largest(&sharp));
+}
+
+#[test]
 fn rejects_what_is_no_push() {
     let folder = folder();
     std::fs::write(folder.path().join("m.csv"), "x,y\n1,2\n").expect("written");

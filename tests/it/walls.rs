@@ -2,7 +2,8 @@
 
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{
-    Contact, Effect, G_M_S2, ImpactLaw, Pivot, Restitution, State, Touching, Vector, Wall, WallParameters,
+    Contact, Effect, G_M_S2, ImpactLaw, Pivot, Restitution, Role, State, Touching, Vector, Wall,
+    WallParameters,
 };
 use mrbd_kernel::simulate::{History, Shaking};
 use rand::{RngExt, SeedableRng};
@@ -140,7 +141,45 @@ pub fn any_of_all_effects(rng: &mut ChaCha8Rng, wall: &WallParameters) -> Vec<Ef
     if of_beds.random_bool(0.5) {
         effects.extend(any_bed(&mut of_beds, wall, &effects));
     }
+    // And from another: rivals of beds where there is none.
+    let mut of_rivals = rng.clone();
+    of_rivals.set_stream(rng.get_stream() + (1 << 33));
+    let has_bed = effects.iter().any(|effect| effect.entry().role == Role::Bed);
+    if !has_bed && of_rivals.random_bool(0.5) {
+        effects.extend(any_rival(&mut of_rivals, wall, &effects));
+    }
     effects
+}
+
+/// Three lines, a bed that crushes or worn edges, of sizes that matter; none where the wall would fall on it.
+fn any_rival(rng: &mut ChaCha8Rng, wall: &WallParameters, others: &[Effect]) -> Option<Effect> {
+    let joint = ["ground", "crack", "both"][rng.random_range(0..3)];
+    let (b, alpha) = (wall.lower_width_m, wall.lower_width_m / wall.height_m);
+    let damping_s = if rng.random_bool(0.5) { 0.0 } else { log_uniform(rng, 1e-5, 1e-2) };
+    let rival = match rng.random_range(0..3) {
+        0 => {
+            let first_rad = log_uniform(rng, 1e-3, 0.1) * alpha;
+            let last_rad = first_rad * rng.random_range(1.5..30.0);
+            let values = [rng.random_range(0.3..1.0), first_rad, last_rad, damping_s];
+            effect(&format!("trilinear_joint.{joint}"), &values)
+        }
+        1 => {
+            // The toe crushes from some share of the slenderness on: (0.85 f)² L/(2 k N).
+            let load_n = wall.mass_kg * G_M_S2;
+            let block_m = log_uniform(rng, 0.003, 0.2) * b;
+            let strength_pa = load_n / (0.85 * block_m * wall.length_m);
+            let yields_rad = log_uniform(rng, 0.01, 1.0) * alpha;
+            let stiffness = (0.85 * strength_pa).powi(2) * wall.length_m / (2.0 * yields_rad * load_n);
+            let values = [stiffness.clamp(1e6, 1e11), strength_pa, damping_s];
+            effect(&format!("crushing_joint.{joint}"), &values)
+        }
+        _ => {
+            let worn_m = rng.random_range(0.01..0.45) * b;
+            effect(&format!("rounded_edges.{joint}"), &[worn_m, worn_m / log_uniform(rng, 0.01, 2.0)])
+        }
+    };
+    let effects = others.iter().copied().chain([rival]).collect();
+    Wall::new(WallParameters { effects, ..wall.clone() }).is_ok().then_some(rival)
 }
 
 /// A bed in a joint or in both, in whole contact up to 1e-4 to 1e-2 of the slenderness; none where the wall would fall

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use mrbd_kernel::model::{G_M_S2, Wall};
 use mrbd_statics::{
     Chain, Curve, Edges, LeastCrack, Load, Mechanism, Point, Push, Restraint, Side, VirtualWork,
-    beds_pa_per_m, least_crack_height,
+    least_crack_height,
 };
 
 /// Share of the displacement of the crack by which a support that counts as rigid lets the top move.
@@ -212,7 +212,7 @@ fn restrained(wall: &Wall, edges: Edges, side: Side, restraint: Restraint) -> Re
         |chain| Push { chain, restraint: restraint.clone(), load: Load::Uniform, fallen_rad }.curve();
     let curve = pushed(chain);
     let shape = shape(&curve.points);
-    let has_beds = edges == Edges::AsTheyAre && beds_pa_per_m(wall).iter().any(Option::is_some);
+    let has_beds = edges == Edges::AsTheyAre && wall.joint_laws().iter().any(Option::is_some);
     let first =
         [Mechanism::OneBlock, Mechanism::UpperBody].map(|m| m.work(&sharp).map(|work| work.alpha_0()));
     let alpha_first = first.into_iter().flatten().fold(f64::INFINITY, f64::min);

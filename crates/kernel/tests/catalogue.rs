@@ -92,7 +92,7 @@ fn analytic_every_effect_acts_where_its_role_says() {
         let expected = match effect.entry().role {
             Role::Sensor => (false, true),
             Role::Mass | Role::Damper | Role::Friction | Role::Spring | Role::Memory => (true, false),
-            Role::Corners | Role::Bed | Role::Impact | Role::GroundMotion => (true, false),
+            Role::Corners | Role::Bed | Role::JointLaw | Role::Impact | Role::GroundMotion => (true, false),
         };
         assert_eq!((moves, reads), expected, "{effect:?}: (moves the wall, changes the reading)");
     }
@@ -152,10 +152,12 @@ fn analytic_every_law_at_the_top_is_what_its_role_and_quantity_mean() {
 fn analytic_every_effect_moves_the_wall_side_by_side_as_alone_to_the_bit() {
     let mut walls: Vec<Vec<Effect>> = variants().flat_map(sizes).map(|effect| vec![effect]).collect();
     walls.push(Vec::new());
-    // One of each kind at once: their laws together.
-    walls.push(
-        EffectKind::ALL.iter().filter_map(|kind| kind.variants().next()).map(|v| v.example()).collect(),
-    );
+    // One of each kind at once: their laws together. A joint has one law, of a bed or of one of its rivals.
+    let is_joint_law = |kind: &&EffectKind| matches!(kind.entry().role, Role::Bed | Role::JointLaw);
+    for law in EffectKind::ALL.iter().filter(is_joint_law) {
+        let others = EffectKind::ALL.iter().filter(|kind| *kind == law || !is_joint_law(kind));
+        walls.push(others.filter_map(|kind| kind.variants().next()).map(|v| v.example()).collect());
+    }
     let alone: Vec<String> = walls.iter().map(|effects| bits(&alone(effects).0)).collect();
     for level in levels() {
         for ((effects, response), alone) in walls.iter().zip(side_by_side_at(level, &walls)).zip(&alone) {
@@ -213,7 +215,7 @@ fn analytic_every_entry_agrees_with_itself() {
 fn place(entry: &EffectEntry) -> Place {
     match entry.role {
         Role::Mass | Role::Damper | Role::Friction | Role::Spring | Role::Memory => entry.place,
-        Role::Corners | Role::Bed => Place::Joint,
+        Role::Corners | Role::Bed | Role::JointLaw => Place::Joint,
         Role::Impact => Place::Impacts,
         Role::GroundMotion => Place::GroundMotion,
         Role::Sensor => Place::Sensor,

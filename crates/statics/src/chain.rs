@@ -11,7 +11,7 @@ pub enum Edges {
     Full,
     /// The corners of the wall file, narrowed by crushing, sharp.
     Crushed,
-    /// The corners of the wall file, on the beds of its effects.
+    /// The corners of the wall file, with the laws that its effects give the joints.
     AsTheyAre,
 }
 
@@ -92,11 +92,14 @@ impl Chain {
         let height_m = [h_1, p.height_m - h_1];
         let mass_kg = height_m.map(|h_i| p.mass_kg * h_i / p.height_m);
         let widths_m = if edges == Edges::Full { [p.thickness_m; 2] } else { wall.width_m() };
-        let beds = if edges == Edges::AsTheyAre { beds_pa_per_m(wall) } else { [None; 2] };
+        let none = ([None; 2], [None; 2]);
+        let (beds, laws) =
+            if edges == Edges::AsTheyAre { (beds_pa_per_m(wall), wall.joint_laws()) } else { none };
         let above_kg = [p.mass_kg + p.diaphragm_mass_kg, mass_kg[1] + p.diaphragm_mass_kg];
-        let joint = |i: usize| match beds[i] {
-            Some(bed) => Joint::on_bed(widths_m[i], above_kg[i] * G_M_S2, bed, p.length_m),
-            None => Joint::sharp(widths_m[i], above_kg[i] * G_M_S2),
+        let joint = |i: usize| match (beds[i], laws[i]) {
+            (Some(bed), _) => Joint::on_bed(widths_m[i], above_kg[i] * G_M_S2, bed, p.length_m),
+            (None, Some(law)) => Joint::by_law(widths_m[i], above_kg[i] * G_M_S2, law),
+            (None, None) => Joint::sharp(widths_m[i], above_kg[i] * G_M_S2),
         };
         Self {
             height_m,

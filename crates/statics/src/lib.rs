@@ -4,7 +4,7 @@
 //!
 //! | module | from | to |
 //! | --- | --- | --- |
-//! | [`Joint`] | width, load, a bed of springs | the moment at a rotation |
+//! | [`Joint`] | width, load, a bed of springs or a rival of it | the moment at a rotation |
 //! | [`Chain`] | a wall | where its masses are at a rotation, and how they move |
 //! | [`Mechanism`], [`VirtualWork`] | a chain that begins to turn | α_0, e*, M* of the Circolare 2019 |
 //! | [`least_crack_height`] | a chain held at its top | the crack with the least α_0 |

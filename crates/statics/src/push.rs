@@ -1,7 +1,7 @@
 //! A slow push: force against displacement of a wall, from rest until it falls.
 //!
 //! The displacement of the loaded place is given, the force follows. At each displacement the wall takes the rotations
-//! at which its potential energy is least beside those before: weights lifted, springs at the top, beds in the joints.
+//! at which its potential energy is least beside those before: weights lifted, springs at the top, what the joints store and lose.
 //! Sharp joints make kinks of the energy. A wall sits in such a kink while a joint is closed.
 
 use crate::chain::{Chain, Moved, Moves};

@@ -1,6 +1,6 @@
 //! Pushes against closed forms.
 
-use mrbd_kernel::model::{G_M_S2, Wall, WallParameters};
+use mrbd_kernel::model::{Effect, G_M_S2, Wall, WallParameters};
 use mrbd_statics::{Chain, Curve, Edges, Joint, Load, Mechanism, Point, Push, Restraint, Side};
 
 fn wall(change: impl Fn(&mut WallParameters)) -> Wall {
@@ -67,6 +67,31 @@ fn analytic_a_held_wall_on_beds_follows_the_closed_form() {
                 (found - line).abs() < 0.005 * 2.0 * (0.1 / 3.0) * weight_n,
                 "{stiffness} {share}: {found} {line}"
             );
+        }
+    }
+}
+
+#[test]
+fn analytic_a_held_wall_on_the_rivals_of_beds_follows_their_closed_forms() {
+    // As on beds. Three lines: F h/2 = N_1 τ b/2 + 2 N_2 τ b/2 - W h θ/2 where both joints carry the share τ.
+    let weight_n = wall(|_| {}).parameters().mass_kg * G_M_S2;
+    for (name, values) in [
+        ("trilinear_joint.both", &[0.6, 0.002, 0.03, 0.0][..]),
+        ("crushing_joint.both", &[1e9, 5e5, 0.0]),
+        ("rounded_edges.both", &[0.02, 0.8]),
+    ] {
+        let effect = Effect::with_parameters(name, values).expect("an effect");
+        let wall = wall(|p| p.effects = vec![effect]);
+        let [ground, crack] = wall.joint_laws().map(|law| law.expect("a law in both"));
+        let curve = push(&wall, Restraint::Held, Load::Crack);
+        for share in [0.003, 0.02, 0.1, 0.3, 0.6] {
+            let theta = share * 0.1 / 1.5;
+            let moments = ground.moment_n_m(theta) + 2.0 * crack.moment_n_m(2.0 * theta);
+            let line = (moments - weight_n * 3.0 * theta / 2.0) / 1.5;
+            let found = force_n(&curve, share * 0.1);
+            // Squares of rotations; lines between points 1 % of b apart.
+            let apart = (found - line).abs() / (2.0 * (0.1 / 3.0) * weight_n);
+            assert!(apart < 0.005, "{name} {share}: {found} {line}");
         }
     }
 }

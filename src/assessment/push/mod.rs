@@ -6,7 +6,7 @@ pub use measured::{Measured, MeasuredPoint};
 
 use serde::{Deserialize, Serialize};
 
-use mrbd_kernel::model::Wall;
+use mrbd_kernel::model::{Effect, Role, Wall};
 use mrbd_statics::{Chain, Curve, Edges, Joint, Load, Point, Push, Restraint, Side, beds_pa_per_m};
 
 /// What a manifest says such results are.
@@ -45,6 +45,9 @@ pub struct Pushed {
     pub weight_n: f64,
     /// Beds at ground and crack, Pa/m; `None` for sharp edges.
     pub beds_pa_per_m: [Option<f64>; 2],
+    /// Kinds of the effects that give the joints at ground and crack another law than a bed; `None` where there is none.
+    #[serde(default)]
+    pub joint_laws: [Option<String>; 2],
     /// The wall as it is.
     pub curve: PushCurve,
     /// The same wall on the sharp edges of its full thickness.
@@ -113,6 +116,7 @@ impl Question {
             thickness_m: wall.parameters().thickness_m,
             weight_n: chain.weight_n(),
             beds_pa_per_m: self.bed_pa_per_m.map_or(beds_pa_per_m(wall), |bed| [Some(bed); 2]),
+            joint_laws: if self.bed_pa_per_m.is_some() { [None, None] } else { rivals(wall) },
             curve: curve(chain),
             rigid: curve(Chain::of(wall, Edges::Full, self.side)),
             measured: None,
@@ -128,6 +132,18 @@ impl Question {
             ..chain
         }
     }
+}
+
+/// Kinds of the effects that are rivals of beds, by joint.
+fn rivals(wall: &Wall) -> [Option<String>; 2] {
+    let mut kinds = [None, None];
+    let is_rival = |effect: &&Effect| effect.entry().role == Role::JointLaw && !effect.is_neutral();
+    for effect in wall.parameters().effects.iter().filter(is_rival) {
+        for joint in effect.variant().joints() {
+            kinds[*joint as usize] = Some(effect.kind().name().to_owned());
+        }
+    }
+    kinds
 }
 
 impl PushCurve {

@@ -162,7 +162,7 @@ impl RockingWall {
     fn margins<S: Simd>(&self, simd: S, four: &[Contact], collision: &Collision) -> [(f64, Pair); LANES] {
         let last = four.len() - 1;
         let to = [four[0], four[last.min(1)], four[last.min(2)], four[last]];
-        if self.wall().gives() {
+        if self.wall().rolls() {
             return to.map(|to| self.margin(to, collision));
         }
         self.margins_on_edges(simd, &to, collision)

@@ -116,7 +116,7 @@ impl PiecewiseLaws {
             lanes: _,
             // In the widths, at impacts, in the ground motion, in the reading.
             indentation_m: _,
-            beds: _,
+            joints: _,
             impact_factors: _,
             ground: _,
             reading: _,

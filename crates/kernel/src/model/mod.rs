@@ -28,8 +28,8 @@ mod top;
 mod vector;
 mod wall;
 
-pub use bed::Bed;
-pub(crate) use bed::{BeddedMotion, JointLanes};
+pub use bed::{Bed, CrushingJoint, JointLaw, RoundedEdges, TrilinearJoint};
+pub(crate) use bed::{BeddedMotion, Branch, JointLanes};
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub(crate) use effect::GroundChange;
 pub use effect::{

@@ -14,8 +14,8 @@ use fearless_simd::Level;
 
 use wide::f64x2;
 
-use super::bed::{Acting, BeddedMotion, BeddedRate};
-use super::contact::Contact;
+use super::bed::{Acting, BeddedMotion, BeddedRate, JointShape};
+use super::contact::{Contact, Joint};
 use super::formula::FormulaLaws;
 use super::geometry::{Arms, Pair, Rotations};
 use super::joint_forces::Masses;
@@ -146,7 +146,7 @@ impl Motion {
         let masses = Masses::new(wall, laws.carriage_mass_kg);
         let (lower_inertia, [inertia_1, inertia_2], u) = masses.about_pivots(&arms);
         let v = arms.g1 * m1 + arms.q * upper_mass;
-        let bedded = wall.gives().then(|| Box::new(BeddedMotion::new(wall, contact, laws.carriage_mass_kg)));
+        let bedded = wall.rolls().then(|| Box::new(BeddedMotion::new(wall, contact, laws.carriage_mass_kg)));
         Self {
             freedom: bedded.as_ref().map_or(Freedom::of(contact), |bedded| bedded.freedom()),
             held: false,
@@ -248,6 +248,13 @@ impl Motion {
     #[inline]
     pub fn is_bedded(&self) -> bool {
         self.bedded.is_some()
+    }
+
+    /// Gives a joint of a wall whose joints give another shape.
+    pub fn reshape(&mut self, joint: Joint, shape: JointShape) {
+        if let Some(bedded) = &mut self.bedded {
+            bedded.reshape(joint, shape);
+        }
     }
 
     /// The equations of a wall whose joints give.

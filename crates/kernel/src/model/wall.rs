@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use super::bed::Bed;
-use super::effect::{self, EffectKind, EffectSums, Lanes, Reading};
+use super::bed::{Bed, Carries, JointLaw, law_at};
+use super::effect::{self, EffectSums, Lanes, Reading};
 use super::formula::{FormulaLaw, checked};
 use super::parameters::WallParameters;
 
@@ -36,8 +36,8 @@ pub struct Wall {
     pub(crate) alpha_i_rad: [f64; 2],
     /// Widths b_1, b_2 between the rocking corners, m, as the effects leave them.
     pub(crate) width_m: [f64; 2],
-    /// Beds of the joints that give, at the ground and at the crack.
-    pub(crate) beds: [Option<Bed>; 2],
+    /// Laws of the joints in place of sharp edges, at the ground and at the crack.
+    pub(crate) joint_laws: [Option<JointLaw>; 2],
     /// The sums of the effects.
     pub(crate) effects: EffectSums,
     /// The laws of the formulas.
@@ -69,16 +69,12 @@ impl Wall {
         let alpha_i_rad = [alpha_1, alpha_2];
         check_collapse(p.collapse_rotation_ratio, alpha_i_rad)?;
         let above_kg = above_kg(p, mass_kg);
-        let beds = [0, 1].map(|j| {
-            let bedding = effects.beds[j]?;
-            Some(Bed {
-                stiffness_pa_per_m: bedding.stiffness_pa_per_m,
-                damping_s: bedding.damping_s,
-                width_m: width_m[j],
-                length_m: p.length_m,
-                load_n: above_kg[j] * G_M_S2,
-            })
-        });
+        let mut joint_laws = [None; 2];
+        for (j, said) in effects.joints.into_iter().enumerate() {
+            let Some(said) = said else { continue };
+            let carries = Carries { width_m: width_m[j], length_m: p.length_m, load_n: above_kg[j] * G_M_S2 };
+            joint_laws[j] = Some(carries.law(said).map_err(|refusal| refusal.at(&parameters, j))?);
+        }
         let formulas = Vec::new();
         let mut wall = Self {
             height_m,
@@ -86,7 +82,7 @@ impl Wall {
             inertia_kg_m2,
             alpha_i_rad,
             width_m,
-            beds,
+            joint_laws,
             effects,
             parameters,
             formulas,
@@ -101,15 +97,29 @@ impl Wall {
         above_kg(&self.parameters, self.mass_kg).map(|mass_kg| mass_kg * G_M_S2)
     }
 
-    /// Whether a joint lies on a bed.
+    /// Whether a joint gives: turns under any moment, as on a bed.
     #[inline]
     pub fn gives(&self) -> bool {
-        self.beds.iter().any(Option::is_some)
+        self.joint_laws.iter().flatten().any(JointLaw::gives)
     }
 
-    /// Beds of the joints that give, at the ground and at the crack.
+    /// Whether a joint has another law than that of sharp edges.
+    #[inline]
+    pub(crate) fn rolls(&self) -> bool {
+        self.joint_laws.iter().any(Option::is_some)
+    }
+
+    /// Laws of the joints in place of sharp edges, at the ground and at the crack.
+    pub fn joint_laws(&self) -> [Option<JointLaw>; 2] {
+        self.joint_laws
+    }
+
+    /// Beds of the joints that lie on elastic ones, at the ground and at the crack.
     pub fn beds(&self) -> [Option<Bed>; 2] {
-        self.beds
+        self.joint_laws.map(|law| match law {
+            Some(JointLaw::Bed(bed)) => Some(bed),
+            _ => None,
+        })
     }
 
     /// A wall on beds must stand upright by itself.
@@ -117,15 +127,13 @@ impl Wall {
     /// Stiffness of the beds and of the floor's spring less what the weight takes, on θ_1 and θ_2. Joints on
     /// sharp edges do not open from rest.
     fn check_beds(&self) -> Result<(), ImpossibleWall> {
-        let Some(i) = self.parameters.effects.iter().position(|e| e.kind() == EffectKind::CompliantJoint)
-        else {
-            return Ok(());
-        };
         let [h1, h2] = self.height_m;
         let [m1, m2] = self.mass_kg;
         let (m_d, k_d) = (self.parameters.diaphragm_mass_kg, self.parameters.stiffness_n_per_m);
         let falls = [(m1 / 2.0 + m2 + m_d) * h1, (m2 / 2.0 + m_d) * h2].map(|moment| moment * G_M_S2);
-        let stands = match self.beds.map(|bed| bed.map(|bed| bed.rotational_stiffness_n_m())) {
+        let gives = |law: Option<JointLaw>| law.filter(JointLaw::gives);
+        let stiffness = self.joint_laws.map(|law| gives(law).map(|law| law.rotational_stiffness_n_m()));
+        let stands = match stiffness {
             [None, None] => true,
             [Some(ground), None] => ground + k_d * (h1 + h2).powi(2) > falls[0] + falls[1],
             [None, Some(crack)] => crack + k_d * h2 * h2 > falls[1],
@@ -138,23 +146,38 @@ impl Wall {
         if stands {
             return Ok(());
         }
-        let softest =
-            self.beds.iter().flatten().map(|bed| bed.stiffness_pa_per_m).fold(f64::INFINITY, f64::min);
-        let allowed = "stiffer beds: on these the wall falls by its own weight".to_owned();
-        Err(ImpossibleWall {
-            key: Cow::Owned(format!("effects.{i}.stiffness_pa_per_m")),
-            found: format!("{softest:e}"),
-            allowed,
-        })
+        let softest = if stiffness[0].unwrap_or(f64::INFINITY) <= stiffness[1].unwrap_or(f64::INFINITY) {
+            0
+        } else {
+            1
+        };
+        Err(self.too_soft(softest))
     }
 
-    /// This wall with sharp edges in place of its beds.
+    /// Says that the law of a joint lets the wall fall at once.
+    fn too_soft(&self, joint: usize) -> ImpossibleWall {
+        let (key, found) = match &self.joint_laws[joint] {
+            Some(JointLaw::Trilinear(lines)) => ("first_rotation_rad", lines.first_rad),
+            Some(JointLaw::Bed(bed)) => ("stiffness_pa_per_m", bed.stiffness_pa_per_m),
+            Some(JointLaw::Crushing(bed)) => ("stiffness_pa_per_m", bed.stiffness_pa_per_m),
+            Some(JointLaw::Rounded(_)) | None => ("kind", 0.0),
+        };
+        let of = if key == "first_rotation_rad" { "a smaller one" } else { "stiffer beds" };
+        let allowed = format!("{of}: on these the wall falls by its own weight");
+        let key = Cow::Owned(format!("effects.{}.{key}", law_at(&self.parameters, joint)));
+        ImpossibleWall { key, found: format!("{found:e}"), allowed }
+    }
+
+    /// This wall with sharp edges in place of the joints that give, under these laws.
     #[must_use]
-    pub(crate) fn with_sharp_edges(&self) -> Self {
+    pub(crate) fn with_sharp_edges(&self, laws: &[Option<JointLaw>; 2]) -> Self {
         let mut sharp = self.clone();
-        sharp.parameters.effects.retain(|effect| effect.kind() != EffectKind::CompliantJoint);
-        sharp.beds = [None; 2];
-        sharp.effects = sums(&sharp.parameters);
+        for (j, law) in laws.iter().enumerate() {
+            if let Some(law) = law.filter(JointLaw::gives) {
+                sharp.width_m[j] = law.edge_width_m();
+                sharp.joint_laws[j] = None;
+            }
+        }
         sharp
     }
 
@@ -306,7 +329,7 @@ fn require(
 }
 
 /// Share of the compressive strength in the rectangular stress block.
-const BLOCK_STRENGTH: f64 = 0.85;
+pub(in crate::model) const BLOCK_STRENGTH: f64 = 0.85;
 
 /// Widths b_1, b_2 between the rocking corners, m.
 ///

@@ -1,10 +1,10 @@
-//! Where the contact of a joint on a bed changes inside a step: whole, in part, or past the middle.
+//! Where the contact of a joint changes inside a step: whole, in part, past the middle, or past a kink of its law.
 
 use super::events::{Event, ROUNDINGS, first_end};
-use crate::model::{Contact, Joint, Pivot, RockingWall, opening};
-use crate::solver::{Bernstein, Point, Quintic};
+use crate::model::{Branch, Contact, Joint, JointLaw, Pivot, RockingWall, opening};
+use crate::solver::{Bernstein, Point, Quintic, Step};
 
-/// A change of the contact of a joint on a bed: sign × (limit - φ) falls below zero.
+/// A change of the contact of a joint: sign × (limit - φ) falls below zero; of one that stops, sign × φ'.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct BedChange {
     pub joint: Joint,
@@ -22,11 +22,20 @@ pub(super) enum BedChangeKind {
     Closes,
     /// A joint that had been open on this side passes the middle.
     Crosses(Pivot),
+    /// An open joint passes the kink of its law outwards; one that crushes begins to.
+    Passes(Pivot),
+    /// The same inwards.
+    Returns,
+    /// A joint that crushes stops.
+    Stops(Pivot),
 }
 
 impl BedChange {
     /// What is left to the change at an instant, and its rate.
     pub fn left(&self, at: &Point) -> (f64, f64) {
+        if let BedChangeKind::Stops(_) = self.kind {
+            return (opening(self.joint, at.velocity), opening(self.joint, at.acceleration));
+        }
         (opening(self.joint, at.position) - self.limit_rad, opening(self.joint, at.velocity))
     }
 }
@@ -37,23 +46,31 @@ pub(super) fn first_bed_change(
     wall: &RockingWall,
     contact: Contact,
     opened: [Pivot; 2],
+    step: &Step,
     motion: &Quintic,
 ) -> Option<(Event, f64)> {
-    if !wall.wall().gives() {
+    if !wall.wall().rolls() {
         return None;
     }
     let size = motion.bounds().iter().sum();
     let mut first = None;
     for joint in wall.joints() {
-        let Some(bed) = wall.bed(joint) else { continue };
+        let Some(law) = wall.joint_law(joint) else { continue };
         let path = match joint {
             Joint::Ground => motion.coordinate(0),
             Joint::Crack => motion.difference(),
         };
         let was_open = opened[joint as usize];
-        let changes = changes_of(joint, bed.full_contact_rad(), contact.at(joint), was_open);
+        let changes = match (contact.at(joint), wall.branch(joint)) {
+            (side, Branch::Beyond) if side.is_open() => beyond_kink(joint, law, side),
+            (side, _) => changes_of(joint, law, side, was_open),
+        };
         for change in changes.into_iter().flatten() {
-            let Some(share) = share_of(&change, &path, size) else { continue };
+            let share = match change.kind {
+                BedChangeKind::Stops(_) => share_of_stop(&change, step),
+                _ => share_of(&change, &path, size),
+            };
+            let Some(share) = share else { continue };
             if first.is_none_or(|(_, earliest)| share < earliest) {
                 first = Some((Event::Bed(change), share));
             }
@@ -62,18 +79,50 @@ pub(super) fn first_bed_change(
     first
 }
 
-/// The changes that may come next of a joint on a bed, whose contact is whole up to ±φ_c.
+/// The changes that may come next of a joint before the kink of its law. Its contact is whole up to ±φ_c; sharp edges
+/// open and close by impacts.
 #[inline]
-fn changes_of(joint: Joint, phi_c: f64, side: Pivot, was_open: Pivot) -> [Option<BedChange>; 3] {
+fn changes_of(joint: Joint, law: &JointLaw, side: Pivot, was_open: Pivot) -> [Option<BedChange>; 3] {
     let to = |limit_rad: f64, sign: f64, kind: BedChangeKind| BedChange { joint, kind, limit_rad, sign };
+    let gives = |change: BedChange| law.gives().then_some(change);
+    let phi_c = law.full_contact_rad();
+    let sign = side.sign();
     match side {
         Pivot::Closed => [
-            Some(to(phi_c, 1.0, BedChangeKind::Opens(Pivot::Right))),
-            Some(to(-phi_c, -1.0, BedChangeKind::Opens(Pivot::Left))),
-            was_open.is_open().then(|| to(0.0, -was_open.sign(), BedChangeKind::Crosses(was_open))),
+            gives(to(phi_c, 1.0, BedChangeKind::Opens(Pivot::Right))),
+            gives(to(-phi_c, -1.0, BedChangeKind::Opens(Pivot::Left))),
+            was_open
+                .is_open()
+                .then(|| to(0.0, -was_open.sign(), BedChangeKind::Crosses(was_open)))
+                .and_then(gives),
         ],
-        side => [Some(to(side.sign() * phi_c, -side.sign(), BedChangeKind::Closes)), None, None],
+        side => [
+            gives(to(sign * phi_c, -sign, BedChangeKind::Closes)),
+            law.kink_rad(side).map(|kink| to(sign * kink, sign, BedChangeKind::Passes(side))),
+            None,
+        ],
     }
+}
+
+/// The change that comes next of a joint beyond the kink of its law.
+fn beyond_kink(joint: Joint, law: &JointLaw, side: Pivot) -> [Option<BedChange>; 3] {
+    let sign = side.sign();
+    let change = match law.kink_rad(side) {
+        _ if law.crushes() => BedChange { joint, kind: BedChangeKind::Stops(side), limit_rad: 0.0, sign },
+        Some(kink) => BedChange { joint, kind: BedChangeKind::Returns, limit_rad: sign * kink, sign: -sign },
+        None => return [None; 3],
+    };
+    [Some(change), None, None]
+}
+
+/// Where a joint stops that has been opening: on the cubic through velocities and accelerations.
+fn share_of_stop(change: &BedChange, step: &Step) -> Option<f64> {
+    let of = |pair: [f64; 2]| opening(change.joint, pair);
+    let [start, end] =
+        [&step.start, &step.end].map(|at| [of(at.velocity), step.h * of(at.acceleration) / 3.0]);
+    let rate = Bernstein([start[0], start[0] + start[1], end[0] - end[1], end[0]]);
+    let size = [&step.start, &step.end].map(|at| at.velocity[0].abs() + at.velocity[1].abs());
+    first_end(rate.times(change.sign), ROUNDINGS * f64::EPSILON * size[0].max(size[1]))
 }
 
 /// Where the rotation across the joint passes the limit.

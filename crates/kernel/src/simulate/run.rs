@@ -82,20 +82,22 @@ impl<O: Observer> Run<O> {
     /// A run that starts as it is placed and ends where its ground path does.
     pub fn new(simulator: &Simulator, placed: &Placed, ground: GroundPath, observer: O) -> Self {
         let mut wall = Box::new(simulator.wall.clone());
-        wall.enter_regime_of_state(placed.contact, &placed.state, placed.plastic_displacement_m);
+        wall.enter_branches(&placed.state, placed.crushed_rad);
+        let contact = wall.with_beds_as_at(placed.contact, placed.state.theta);
+        wall.enter_regime_of_state(contact, &placed.state, placed.plastic_displacement_m);
         Self {
             rest: simulator.rest.clone(),
             collapse_rad: simulator.wall.wall().collapse_rotation_rad(),
             controller: simulator.controller,
             totals: Totals::new(simulator.wall.joints().count()),
             observer,
-            contact: placed.contact,
+            contact,
             now: Point { position: placed.state.theta, velocity: placed.state.omega, ..Point::default() },
             quadrature_rate: [0.0; 2],
             corner_force: None,
             top_velocity_m_s: 0.0,
             stalled: 0,
-            opened: [placed.contact.ground, placed.contact.crack],
+            opened: [contact.ground, contact.crack],
             wall,
             ground,
             just_turned: None,
@@ -387,6 +389,7 @@ impl<O: Observer> Run<O> {
                 state: State { theta: self.now.position, omega: self.now.velocity },
                 contact: Some(self.contact),
                 plastic_displacement_m: self.plastic_displacement_m(),
+                crushed_rad: self.wall.crushed_rad(self.now.position),
             },
         }
     }

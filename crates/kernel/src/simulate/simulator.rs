@@ -36,6 +36,9 @@ pub struct Start {
     /// A wall without such a spring has no use for it. Friction needs no memory: a top at rest sticks where
     /// it can.
     pub plastic_displacement_m: f64,
+    /// The largest rotations so far of the joint at the ground and of that at the crack, each to the right and to the
+    /// left, rad, without sign: what a joint that crushes remembers. Others have no use for it.
+    pub crushed_rad: [[f64; 2]; 2],
 }
 
 /// A wall and a shaking made ready. Their equations, limits and samples are worked out once, so that a window
@@ -56,6 +59,7 @@ pub(super) struct Placed {
     pub contact: Contact,
     pub state: State,
     pub plastic_displacement_m: f64,
+    pub crushed_rad: [[f64; 2]; 2],
 }
 
 impl Simulator {
@@ -78,7 +82,7 @@ impl Simulator {
             time_s: rocking.response_time_s(),
             fastest_rate_per_s: rocking.fastest_rate_per_s(),
         };
-        let share = if wall.gives() { STEP_SHARE_ON_BEDS } else { STEP_SHARE };
+        let share = if wall.rolls() { STEP_SHARE_ON_BEDS } else { STEP_SHARE };
         let controller = Controller::new(scale, share * accuracy.tolerance, ground.step_s());
         Self { rest: RestLimits::new(&rocking), controller, wall: rocking, record, ground }
     }
@@ -158,7 +162,12 @@ impl Simulator {
                 state.theta[i] = if i == 0 { 0.0 } else { state.theta[0] };
             }
         }
-        Placed { contact, state, plastic_displacement_m: start.plastic_displacement_m }
+        Placed {
+            contact,
+            state,
+            plastic_displacement_m: start.plastic_displacement_m,
+            crushed_rad: start.crushed_rad,
+        }
     }
 
     /// Moves a start onto its contact state.
@@ -186,6 +195,11 @@ impl Simulator {
         if contact.crack.sign() * (*theta2 - *theta1) < 0.0 {
             *theta2 = *theta1;
         }
-        Placed { contact, state, plastic_displacement_m: start.plastic_displacement_m }
+        Placed {
+            contact,
+            state,
+            plastic_displacement_m: start.plastic_displacement_m,
+            crushed_rad: start.crushed_rad,
+        }
     }
 }

@@ -12,6 +12,8 @@ use super::super::geometry::{Pair, Rotations};
 use super::super::impact::Impact;
 use super::super::mass_matrix::{Freedom, MassMatrix};
 use super::super::rocking::{RockingWall, State, opening};
+use super::joint_law::JointLaw;
+use super::shape::Branch;
 
 /// r_0: where half of the change of an impact is taken. Of 0.1, 0.2, 0.3 and 0.5 it leaves the least error, or one
 /// within 2 % of the least, in each of three walls that another program moved on springs (docs/model.md).
@@ -52,6 +54,24 @@ impl RockingWall {
         let omega = [0, 1].map(|i| state.omega[i] + share * (sharp[i] - state.omega[i]));
         let loss_j = 0.5 * (on_bed(contact).quadratic(state.omega) - on_bed(after).quadratic(omega));
         Ok(Impact { contact: after, omega, loss_j, ..impact })
+    }
+}
+
+impl RockingWall {
+    /// A joint begins to crush: its edge goes inwards from now on, so that the point about which the body turns moves at
+    /// once. Gives the velocities after it.
+    pub(crate) fn begin_to_crush(
+        &mut self,
+        contact: Contact,
+        joint: Joint,
+        law: JointLaw,
+        state: &State,
+    ) -> Pair {
+        let rotations = Rotations::new(state.theta);
+        let before = self.motion(contact).mass_matrix(rotations);
+        self.set_branch(joint, law, Branch::Beyond);
+        let motion = self.motion(contact);
+        passed([&before, &motion.mass_matrix(rotations)], motion.freedom.along(joint), state.omega)
     }
 }
 

@@ -5,8 +5,9 @@ use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
 use super::super::joint_forces::Masses;
 use super::super::vector::Vector;
-use super::motion::{BeddedMotion, JointShape, Rolls};
+use super::motion::{BeddedMotion, Rolls};
 use super::roll::{Roll, RollingBed};
+use super::shape::JointShape;
 use crate::lanes::{LANES, lanes};
 
 type F<S> = f64x4<S>;
@@ -52,20 +53,20 @@ impl<S: Simd> Branch<S> {
     }
 }
 
-/// What joints on beds only have; 0 of an edge.
+/// What joints on beds only have; 0 of an edge. Rivals of beds go alone, as the catalogue says.
 #[inline(always)]
 fn of_bed(joint: &JointShape, number: fn(&RollingBed) -> f64) -> f64 {
     match joint {
-        JointShape::Edge { .. } => 0.0,
         JointShape::Bed { rolling, .. } => number(rolling),
+        _ => 0.0,
     }
 }
 
 #[inline(always)]
 fn side(joint: &JointShape) -> f64 {
     match joint {
-        JointShape::Edge { .. } => 0.0,
         JointShape::Bed { side, .. } => *side,
+        _ => 0.0,
     }
 }
 
@@ -73,7 +74,7 @@ fn side(joint: &JointShape) -> f64 {
 fn half_m(joint: &JointShape) -> f64 {
     match joint {
         JointShape::Edge { half_m } => *half_m,
-        JointShape::Bed { .. } => 0.0,
+        _ => 0.0,
     }
 }
 

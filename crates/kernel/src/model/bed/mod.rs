@@ -11,11 +11,23 @@
 //! | loss | the bed's damper, and at crossings the share of the sharp edge's impact that the bed lets through | soft beds have no impacts, stiff beds have those of sharp edges |
 
 mod crossing;
+mod crushing;
+mod joint_law;
 mod lanes;
 mod law;
 mod motion;
+mod of_wall;
 mod roll;
+mod rounded;
+mod shape;
+mod trilinear;
 
+pub use crushing::CrushingJoint;
+pub use joint_law::JointLaw;
 pub(crate) use lanes::JointLanes;
 pub use law::Bed;
 pub(crate) use motion::{Acting, BeddedMotion, BeddedRate};
+pub(in crate::model) use of_wall::{Carries, law_at};
+pub use rounded::RoundedEdges;
+pub(crate) use shape::{Branch, JointShape};
+pub use trilinear::TrilinearJoint;

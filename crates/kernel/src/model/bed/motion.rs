@@ -21,13 +21,20 @@ use super::super::motion::Motion;
 use super::super::number::Number;
 use super::super::vector::{Vector, sin_cos};
 use super::super::wall::{G_M_S2, Wall};
-use super::law::Bed;
-use super::roll::{Roll, RollingBed, across};
+use super::joint_law::JointLaw;
+use super::roll::{Roll, across};
+use super::shape::{Branch, JointShape};
 use crate::instructions::dispatch;
 
 /// What a joint does as it turns by φ.
 pub(crate) trait Rolls<N> {
     fn roll(&self, phi: N) -> Roll<N>;
+
+    /// Moment against the opening of a joint that crushes, by which energy is lost, N m.
+    #[inline(always)]
+    fn crushing_n_m(&self, _phi: N) -> Option<N> {
+        None
+    }
 }
 
 /// What acts on a wall beyond weight, inertia and beds.
@@ -38,44 +45,6 @@ pub(crate) trait Acting<N> {
     fn damping_force_n(&self, x_c_m: N, v_c_m_s: N) -> N;
     /// Moments of the joint dampers on θ_1 and θ_2, and those of formulas, N m.
     fn joint_moments_n_m(&self, theta: [N; 2], omega: [N; 2]) -> [N; 2];
-}
-
-/// One joint in its state of contact.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum JointShape {
-    /// Closed (0), or turning about a sharp edge at ± half the width, m.
-    Edge { half_m: f64 },
-    /// On a bed, in whole contact (0) or in part towards a side.
-    Bed { bed: Bed, rolling: RollingBed, side: f64 },
-}
-
-impl JointShape {
-    fn of(wall: &Wall, contact: Contact, joint: Joint) -> Self {
-        let side = contact.at(joint).sign();
-        match wall.beds[joint as usize] {
-            Some(bed) => Self::Bed { bed, rolling: RollingBed::new(&bed), side },
-            None => Self::Edge { half_m: side * wall.width_m[joint as usize] / 2.0 },
-        }
-    }
-
-    fn stored_j(&self, phi: f64) -> f64 {
-        match self {
-            Self::Edge { .. } => 0.0,
-            Self::Bed { bed, side, .. } => bed.stored_j(*side, phi),
-        }
-    }
-}
-
-impl Rolls<f64> for JointShape {
-    #[inline(always)]
-    fn roll(&self, phi: f64) -> Roll {
-        match self {
-            Self::Edge { half_m: 0.0 } => Roll::default(),
-            Self::Edge { half_m } => Roll::about_edge(*half_m, phi),
-            Self::Bed { rolling, side: 0.0, .. } => rolling.in_full_contact(phi),
-            Self::Bed { rolling, side, .. } => rolling.in_part(*side, phi),
-        }
-    }
 }
 
 /// The motion of one contact state of a wall with beds, or those of several walls side by side. The laws at the
@@ -196,10 +165,16 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
 
     /// Moments of the beds on θ_1 and θ_2, those that store and those that lose energy, N m.
     #[inline(always)]
-    fn bed_moments(&self, pose: &Pose<N>, omega: [N; 2]) -> [[N; 2]; 2] {
-        let rates = across(omega);
+    fn bed_moments(&self, pose: &Pose<N>, [theta, omega]: [[N; 2]; 2]) -> [[N; 2]; 2] {
+        let (rotations, rates) = (across(theta), across(omega));
         let [ground, crack] = &pose.rolls;
-        let (lost_0, lost_1) = (ground.damping_n_m_s * rates[0], crack.damping_n_m_s * rates[1]);
+        let [lost_0, lost_1] = [0, 1].map(|j: usize| {
+            let damper = pose.rolls[j].damping_n_m_s * rates[j];
+            match self.joints[j].crushing_n_m(rotations[j]) {
+                Some(crushing) => damper + crushing,
+                None => damper,
+            }
+        });
         [[crack.moment_n_m - ground.moment_n_m, -crack.moment_n_m], [lost_1 - lost_0, -lost_1]]
     }
 
@@ -228,7 +203,7 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
         let damping_n = acting.damping_force_n(x_c, v.c.x);
         let dampers = acting.joint_moments_n_m(theta, omega);
         let force_n = acting.spring_force_n(x_c) + damping_n;
-        let [stored, lost] = self.bed_moments(&pose, omega);
+        let [stored, lost] = self.bed_moments(&pose, [theta, omega]);
         let inertia = self.masses.momenta(arms, &drift);
         let levers = [arms.r_q.y, arms.r_c.y];
         let f = [
@@ -296,11 +271,15 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
 impl BeddedMotion {
     pub fn new(wall: &Wall, contact: Contact, carriage_mass_kg: f64) -> Self {
         let [h1, h2] = wall.height_m;
-        let moves = |joint: Joint| wall.beds[joint as usize].is_some() || contact.at(joint).is_open();
+        let law = |joint: Joint| wall.joint_laws[joint as usize].as_ref();
+        let moves = |joint: Joint| law(joint).is_some_and(JointLaw::gives) || contact.at(joint).is_open();
         let free = |joint: Joint| if moves(joint) { Pivot::Right } else { Pivot::Closed };
         let freedom = Freedom::of(Contact { ground: free(Joint::Ground), crack: free(Joint::Crack) });
         Self {
-            joints: [Joint::Ground, Joint::Crack].map(|joint| JointShape::of(wall, contact, joint)),
+            joints: [Joint::Ground, Joint::Crack].map(|joint| {
+                let width_m = wall.width_m[joint as usize];
+                JointShape::new(law(joint), width_m, contact.at(joint), Branch::default())
+            }),
             freedom,
             masses: Masses::new(wall, carriage_mass_kg),
             height_1_m: h1,
@@ -383,14 +362,12 @@ impl BeddedMotion {
 
     /// Stiffness of the beds in whole contact and their damping, on θ_1 and θ_2: what small motions feel.
     pub fn stiffness_and_damping(&self) -> [MassMatrix; 2] {
-        let of = |number: fn(&Roll) -> f64| {
-            let at = |joint: &JointShape| match joint {
-                JointShape::Edge { .. } => 0.0,
-                JointShape::Bed { rolling, .. } => number(&rolling.in_full_contact(1.0)),
-            };
-            let [ground, crack] = [at(&self.joints[0]), at(&self.joints[1])];
-            MassMatrix { m11: ground + crack, m12: -crack, m22: crack }
-        };
-        [of(|roll| roll.moment_n_m), of(|roll| roll.damping_n_m_s)]
+        let [ground, crack] = self.joints.map(|joint| joint.stiffness_and_damping());
+        [0, 1].map(|i| MassMatrix { m11: ground[i] + crack[i], m12: -crack[i], m22: crack[i] })
+    }
+
+    /// Puts a joint into another branch of its law, or under another law.
+    pub fn reshape(&mut self, joint: Joint, shape: JointShape) {
+        self.joints[joint as usize] = shape;
     }
 }

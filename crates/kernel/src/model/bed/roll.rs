@@ -8,7 +8,7 @@ use super::law::Bed;
 
 /// Below this share of φ_c the law of contact in part is not followed any further. A step may try a state
 /// there before the change of contact is found.
-const LEAST_PARTIAL: f64 = 0.25;
+pub(super) const LEAST_PARTIAL: f64 = 0.25;
 
 /// How the middle of the upper face moves as a joint turns by φ, in the axes of the body below; and what the
 /// joint does beyond that. A sharp edge has the same, without moment and energy.
@@ -87,6 +87,21 @@ impl<N: Number> Roll<N> {
     }
 }
 
+impl Roll {
+    /// The same towards the other side, for -1.
+    #[must_use]
+    pub fn mirrored_to(self, side: f64) -> Self {
+        let Self { place, slope, bend, .. } = self;
+        Self {
+            place: Vector::new(side * place.x, place.y),
+            slope: Vector::new(slope.x, side * slope.y),
+            bend: Vector::new(side * bend.x, bend.y),
+            moment_n_m: side * self.moment_n_m,
+            ..self
+        }
+    }
+}
+
 impl<N: Number> RollingBed<N> {
     /// The joint in whole contact: the body turns about the middle, which stays.
     #[inline(always)]
@@ -136,7 +151,7 @@ impl<N: Number> RollingBed<N> {
 
 /// Sine, cosine, and one less the cosine without cancellation.
 #[inline(always)]
-fn turned<N: Number>(phi: N) -> (N, N, N) {
+pub(super) fn turned<N: Number>(phi: N) -> (N, N, N) {
     let (sin, cos) = phi.library_sine_and_cosine();
     (sin, cos, sin * sin / (phi.constant(1.0) + cos))
 }

@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 
 use super::super::contact::Joint;
 use super::entry::{EffectChoice, EffectEntry, EffectParameter, Place};
-use super::{Effect, EffectError, MOST_PARAMETERS, signal, structural};
+use super::{Effect, EffectError, MOST_PARAMETERS, joint, signal, structural};
 
 /// Declares the kinds: the enumeration, the list of all and the entry of each. A kind cannot be in one and
 /// not in another.
@@ -45,7 +45,10 @@ catalogue! {
     YieldingSpring => structural::YIELDING_SPRING,
     JointDamping => structural::JOINT_DAMPING,
     CornerIndentation => structural::CORNER_INDENTATION,
-    CompliantJoint => structural::COMPLIANT_JOINT,
+    CompliantJoint => joint::COMPLIANT_JOINT,
+    TrilinearJoint => joint::TRILINEAR_JOINT,
+    CrushingJoint => joint::CRUSHING_JOINT,
+    RoundedEdges => joint::ROUNDED_EDGES,
     ImpactDissipation => structural::IMPACT_DISSIPATION,
     VerticalGroundMotion => signal::VERTICAL_GROUND_MOTION,
     RecordGain => signal::RECORD_GAIN,

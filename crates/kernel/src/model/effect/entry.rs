@@ -38,6 +38,8 @@ pub enum Role {
     Corners,
     /// A bed of springs in a joint, in place of a sharp edge.
     Bed,
+    /// Another law of a joint in place of a sharp edge: a rival of beds.
+    JointLaw,
     /// Factors on the coefficients C_l of impacts.
     Impact,
     /// Another ground motion than the recorded one.
@@ -80,6 +82,14 @@ pub enum Quantity {
     BedStiffness,
     /// A share of the width between two rocking corners, m.
     CornerWidth,
+    /// A radius of a rocking edge, m.
+    EdgeRadius,
+    /// A rotation across a joint at which its law changes, rad.
+    JointRotation,
+    /// A share of the moment of sharp edges.
+    MomentShare,
+    /// A strength in compression, Pa.
+    Strength,
     /// A rotation, rad.
     Rotation,
     /// A time, s.
@@ -99,12 +109,13 @@ impl Quantity {
             Quantity::TopStiffness => "N/m",
             Quantity::TopCubicStiffness => "N/m³",
             Quantity::TopDamping => "N s/m",
-            Quantity::TopDisplacement | Quantity::CornerWidth => "m",
+            Quantity::TopDisplacement | Quantity::CornerWidth | Quantity::EdgeRadius => "m",
             Quantity::JointDamping => "N m s/rad",
             Quantity::BedStiffness => "Pa/m",
-            Quantity::Rotation => "rad",
+            Quantity::Strength => "Pa",
+            Quantity::Rotation | Quantity::JointRotation => "rad",
             Quantity::Time => "s",
-            Quantity::Ratio | Quantity::ImpactFactor => "",
+            Quantity::Ratio | Quantity::ImpactFactor | Quantity::MomentShare => "",
         }
     }
 }

@@ -13,6 +13,7 @@ use mrbd_formula::Formula;
 
 mod catalogue;
 mod entry;
+mod joint;
 mod signal;
 mod structural;
 mod sums;
@@ -20,9 +21,10 @@ mod toml_form;
 
 pub use catalogue::{EffectKind, EffectVariant};
 pub use entry::{EffectChoice, EffectEntry, EffectParameter, Lanes, Place, Quantity, Role};
+pub(super) use joint::SHARP_PA_PER_M;
 pub use sums::Reading;
-pub(super) use sums::check;
-pub(crate) use sums::{EffectSums, GroundChange, Yielding};
+pub(crate) use sums::{EffectSums, GroundChange, SaidOfJoint, Yielding};
+pub(super) use sums::{check, is_joint_law};
 pub use toml_form::FurtherLaw;
 
 /// Parameters of the kind that has most: one a coefficient of Table 2.

@@ -1,7 +1,7 @@
 //! Effects in the wall: at its top C, at its joints and at impacts.
 
 use super::entry::{EffectChoice, EffectEntry, EffectParameter, Lanes, Place, Quantity, Role};
-use super::sums::{Bedding, Yielding};
+use super::sums::Yielding;
 
 /// In the order of [`super::JOINTS`].
 const JOINT: EffectChoice =
@@ -278,62 +278,6 @@ pub(super) static CORNER_INDENTATION: EffectEntry = EffectEntry {
     confused_with: &["diaphragm.mass_kg", "corner_indentation"],
     told_by: "pushing the wall statically until the joint opens, which gives the lever of its weight",
     add: |effect, sums| sums.indentation_m[effect.choice_index()] += effect.value(0),
-};
-
-/// Stiffness of a bed that counts as a sharp edge, Pa/m: a wall of some metres is in whole contact within
-/// 1e-7 rad of rest on it.
-pub(in crate::model) const SHARP_PA_PER_M: f64 = 1e13;
-
-pub(super) static COMPLIANT_JOINT: EffectEntry = EffectEntry {
-    name: "compliant_joint",
-    place: Place::Joint,
-    role: Role::Bed,
-    lanes: Lanes::Known,
-    choice: Some(EffectChoice {
-        key: "joint",
-        // In the order of [`super::JOINTS`], and both.
-        options: &["ground", "crack", "both"],
-        meaning: "the joint that gives",
-    }),
-    parameters: &[
-        EffectParameter {
-            key: "stiffness_pa_per_m",
-            quantity: Quantity::BedStiffness,
-            neutral: SHARP_PA_PER_M,
-            optional: false,
-            least: 1e6,
-            most: SHARP_PA_PER_M,
-            example: 1e9,
-            meaning: "pressure per indentation; the largest value is a sharp edge",
-        },
-        EffectParameter {
-            key: "damping_s",
-            quantity: Quantity::Time,
-            neutral: 0.0,
-            optional: true,
-            least: 0.0,
-            most: 1.0,
-            example: 4e-4,
-            meaning: "time ζ of dampers beside the springs, a pressure k (δ + ζ δ'); left out: none",
-        },
-    ],
-    may_repeat: true,
-    law: "M = k L b³ φ/12 up to φ_c = 2 N/(k L b²), then N (b/2 - c/3) sign φ with c = sqrt(2 N/(k L |φ|))",
-    description: "A joint that gives: a bed of springs without tension in place of a sharp edge. The body turns \
-                  about the middle of the zone of contact, whose width falls as the joint opens. Soft beds take \
-                  the impacts away: mortar, worn or crushed edges.",
-    fingerprint: "moment of the weight that grows with the opening of the joint, slower the softer it is",
-    at_impacts: "the share of the impact that the bed is too stiff to carry; none where it is soft",
-    confused_with: &["corner_indentation", "impact_dissipation", "joint_damping"],
-    told_by: "pushing the wall slowly from rest: force against displacement, before the joint is open",
-    add: |effect, sums| {
-        let bedding = Bedding { stiffness_pa_per_m: effect.value(0), damping_s: effect.value(1) };
-        let acts = (bedding.stiffness_pa_per_m < SHARP_PA_PER_M).then_some(bedding);
-        match effect.choice_index() {
-            2 => sums.beds = [acts; 2],
-            joint => sums.beds[joint] = acts,
-        }
-    },
 };
 
 pub(super) static IMPACT_DISSIPATION: EffectEntry = EffectEntry {

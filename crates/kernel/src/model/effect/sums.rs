@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::super::contact::Joint;
 use super::super::parameters::WallParameters;
 use super::super::wall::ImpossibleWall;
-use super::{Effect, EffectKind, Lanes};
+use super::{Effect, EffectKind, Lanes, Role};
 use crate::written;
 
 /// Everything the effects of a wall add to it; without effects, nothing.
@@ -29,8 +29,8 @@ pub(crate) struct EffectSums {
     pub joint_damping_n_m_s: [f64; 2],
     /// How far the corners at the ground and at the crack lie inwards, both corners of a joint together, m.
     pub indentation_m: [f64; 2],
-    /// Beds of the joints at the ground and at the crack.
-    pub beds: [Option<Bedding>; 2],
+    /// Laws of the joints at the ground and at the crack in place of sharp edges.
+    pub joints: [Option<SaidOfJoint>; 2],
     /// Factors on C_1 … C_8.
     pub impact_factors: [f64; 8],
     /// What becomes of the record.
@@ -60,11 +60,13 @@ impl Yielding {
     }
 }
 
-/// What an effect says of the bed of a joint; width and load follow from the wall.
+/// What an effect says of the law of a joint; width and load follow from the wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Bedding {
-    pub stiffness_pa_per_m: f64,
-    pub damping_s: f64,
+pub(crate) enum SaidOfJoint {
+    Bed { stiffness_pa_per_m: f64, damping_s: f64 },
+    Trilinear { plateau: f64, first_rad: f64, last_rad: f64, damping_s: f64 },
+    Crushing { stiffness_pa_per_m: f64, strength_pa: f64, damping_s: f64 },
+    Rounded { worn_width_m: f64, radius_m: f64 },
 }
 
 /// The ground motion made of a record: gain times the record, later, with a share of it upwards.
@@ -118,12 +120,17 @@ impl EffectSums {
         yielding: None,
         joint_damping_n_m_s: [0.0; 2],
         indentation_m: [0.0; 2],
-        beds: [None; 2],
+        joints: [None; 2],
         impact_factors: [1.0; 8],
         ground: GroundChange::NONE,
         reading: Reading::TRUE,
         lanes: Lanes::Known,
     };
+
+    /// Gives the joints of an effect a law.
+    pub(super) fn say_of_joints(&mut self, effect: &Effect, said: Option<SaidOfJoint>) {
+        effect.variant().joints().iter().for_each(|joint| self.joints[*joint as usize] = said);
+    }
 
     pub fn of(effects: &[Effect]) -> Self {
         let mut sums = Self::NONE;
@@ -149,11 +156,10 @@ pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(
             let found = format!("{} again", kind.name);
             return Err(refused(i, found, "one effect of this kind: two have no common law".to_owned()));
         }
-        let twice =
-            |earlier: &Effect| earlier.kind() == EffectKind::CompliantJoint && share_a_joint(earlier, effect);
-        if effect.kind() == EffectKind::CompliantJoint && p.effects[..i].iter().any(twice) {
+        let twice = |earlier: &Effect| is_joint_law(earlier) && share_a_joint(earlier, effect);
+        if is_joint_law(effect) && p.effects[..i].iter().any(twice) {
             let found = format!("{} at a joint that has one", kind.name);
-            return Err(refused(i, found, "one bed in a joint".to_owned()));
+            return Err(refused(i, found, "one bed in a joint, or one of its rivals".to_owned()));
         }
         let at_crack = effect.variant().joints().contains(&Joint::Crack);
         if at_crack && p.crack_height_m.is_none() {
@@ -177,6 +183,11 @@ pub(in crate::model) fn check(p: &WallParameters, sums: &EffectSums) -> Result<(
         }
     }
     Ok(())
+}
+
+/// Whether an effect is the law of a joint in place of its sharp edges.
+pub(in crate::model) fn is_joint_law(effect: &Effect) -> bool {
+    matches!(effect.entry().role, Role::Bed | Role::JointLaw)
 }
 
 /// Whether two effects at joints act at the same one.

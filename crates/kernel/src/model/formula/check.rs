@@ -46,13 +46,17 @@ fn law(wall: &Wall, formula: &Formula) -> Result<FormulaLaw, FormulaError> {
             "a moment that jumps at w = 0",
             "what is smooth there, such as tanh(w/s) with a small s: nothing holds a joint that is open",
         )),
-        Some(joint) if wall.beds[joint as usize].is_none() && law.at_rest() != 0.0 => {
+        Some(joint) if !gives(wall, joint) && law.at_rest() != 0.0 => {
             let found = format!("a moment of {} N m at phi = 0 and w = 0", law.at_rest());
             let allowed = "no moment there: a closed joint on sharp edges bears what it must";
             Err(FormulaError::found(&found, allowed))
         }
         _ => Ok(law),
     }
+}
+
+fn gives(wall: &Wall, joint: Joint) -> bool {
+    wall.joint_laws[joint as usize].is_some_and(|law| law.gives())
 }
 
 /// What the variables of a place can be: up to the rotations at which the wall has collapsed, and [`FALLS`].

@@ -3,7 +3,7 @@
 use super::super::bed_events::{BedChange, BedChangeKind};
 use super::super::history::Observer;
 use super::{Run, Stop, failed};
-use crate::model::{Contact, Joint, MechanicsError, Pivot, Vector};
+use crate::model::{Branch, Contact, Joint, MechanicsError, Pivot, Vector, opening};
 
 impl<O: Observer> Run<O> {
     /// Enters the contact state after a change, and takes what is lost where the joint passes its middle.
@@ -23,6 +23,10 @@ impl<O: Observer> Run<O> {
             }
             BedChangeKind::Closes => self.contact.with(joint, Pivot::Closed),
             BedChangeKind::Crosses(side) => self.cross(joint, side).map_err(|e| failed(time_s, &e))?,
+            BedChangeKind::Passes(_) | BedChangeKind::Returns | BedChangeKind::Stops(_) => {
+                self.turn_branch(joint, kind);
+                self.contact
+            }
         };
         self.contact = contact;
         self.enter(contact, ground, time_s)
@@ -38,5 +42,26 @@ impl<O: Observer> Run<O> {
         self.totals.impact(&impact);
         self.now.velocity = impact.omega;
         Ok(impact.contact)
+    }
+
+    /// Goes into another branch of a joint's law.
+    fn turn_branch(&mut self, joint: Joint, kind: BedChangeKind) {
+        let Some(law) = self.wall.joint_law(joint).copied() else { return };
+        match kind {
+            BedChangeKind::Stops(side) => {
+                // What is left of the rate is the error of a step.
+                match joint {
+                    Joint::Ground => self.now.velocity[0] = 0.0,
+                    Joint::Crack => self.now.velocity[1] = self.now.velocity[0],
+                }
+                let law = law.turned_by(side, opening(joint, self.now.position));
+                self.wall.set_branch(joint, law, Branch::Before);
+            }
+            BedChangeKind::Passes(_) if law.crushes() => {
+                self.now.velocity = self.wall.begin_to_crush(self.contact, joint, law, &self.state());
+            }
+            BedChangeKind::Passes(_) => self.wall.set_branch(joint, law, Branch::Beyond),
+            _ => self.wall.set_branch(joint, law, Branch::Before),
+        }
     }
 }

@@ -48,7 +48,7 @@ impl<O: Observer> Run<O> {
         let kink = kink.map(|(kink, share)| (Event::Kink(kink), share));
         // What happens to the joints goes first.
         let event = sooner(event, kink).map(|(event, share)| (self.on_edges(event), share));
-        let change = first_bed_change(&self.wall, self.contact, self.opened, &motion);
+        let change = first_bed_change(&self.wall, self.contact, self.opened, step, &motion);
         match sooner(event, change) {
             None => {
                 self.corner_force = end_force;

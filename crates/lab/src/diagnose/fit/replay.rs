@@ -91,7 +91,9 @@ impl<'a> Replay<'a> {
         let from = window.samples.start;
         let wall = self.simulators[window.test].wall();
         let plastic_displacement_m = self.springs[window.test].plastic_m(from, wall, contact, state.theta);
-        let start = Start { time_s: time_s[from], state, contact: Some(contact), plastic_displacement_m };
+        let contact = Some(contact);
+        let start =
+            Start { time_s: time_s[from], state, contact, plastic_displacement_m, ..Start::default() };
         (start, time_s[window.samples.end - 1])
     }
 

@@ -106,8 +106,8 @@ fn of_test(index: usize, test: &TestData, physics: &Physics) -> Vec<Jump> {
         }
         let (state, contact) = (before.states[inner], before.contact);
         let plastic_displacement_m = spring.plastic_m(last, simulator.wall(), contact, state.theta);
-        let start =
-            Start { time_s: test.time_s[last], state, contact: Some(contact), plastic_displacement_m };
+        let (time_s, contact) = (test.time_s[last], Some(contact));
+        let start = Start { time_s, state, contact, plastic_displacement_m, ..Start::default() };
         let mut end = End::default();
         let response = simulator.run_from(&start, test.time_s[first], &mut end);
         let impacts = response.impacts;

@@ -209,8 +209,9 @@ const RIVAL_NUMBERS: [&str; 5] = [
 /// Every addition to a wall that is tried alone: the catalogue, the lumped carriage, numbers outside what was known of
 /// them, and a placebo.
 pub fn candidates(wall: &WallParameters) -> Vec<Addition> {
-    // Beds are tried apart: walls on them take long to simulate.
-    let sought = EffectKind::ALL.iter().filter(|kind| kind.entry().role != Role::Bed);
+    // Beds are tried apart: walls on them take long to simulate. Their rivals are not tried.
+    let sought =
+        EffectKind::ALL.iter().filter(|kind| !matches!(kind.entry().role, Role::Bed | Role::JointLaw));
     let mut all = sought.flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();
     if wall.diaphragm_mass_kg > 0.0 {
         all.push(Addition::LumpedCarriage);

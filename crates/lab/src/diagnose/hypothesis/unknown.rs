@@ -326,6 +326,12 @@ impl Scales {
             Quantity::BedStiffness => {
                 36.0 * self.moment_n_m / (self.length_m * self.width_m.powi(3) * self.rotation_rad)
             }
+            // A tenth of the width along the largest rotation.
+            Quantity::EdgeRadius => 0.1 * self.width_m / self.rotation_rad,
+            // What the weight crushes to a tenth of the width: 0.85 f L b/10 = W.
+            Quantity::Strength => 20.0 * self.moment_n_m / (0.85 * self.length_m * self.width_m.powi(2)),
+            Quantity::JointRotation => 0.3 * self.rotation_rad,
+            Quantity::MomentShare => 0.3,
             Quantity::Rotation => 0.1 * self.rotation_rad,
             Quantity::Time => 0.05 / self.frequency_rad_s,
             Quantity::Ratio | Quantity::ImpactFactor => 1.0,
