@@ -37,6 +37,12 @@ struct Options {
     /// Cases of walls whose joints give.
     #[arg(long, conflicts_with = "laws")]
     beds: bool,
+    /// Cases with nothing hidden, of every formulation.
+    #[arg(long, conflicts_with_all = ["laws", "beds"])]
+    nulls: bool,
+    /// Cases of free bodies on stiff corners.
+    #[arg(long, conflicts_with_all = ["laws", "beds", "nulls"])]
+    corners: bool,
     /// How many cases.
     #[arg(long, default_value_t = 40)]
     cases: u64,
@@ -84,11 +90,7 @@ fn main() -> ExitCode {
 fn go(options: &Options) -> Result<(), String> {
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("outputs/blind").join(&options.set));
     let only = |kind: &cases::kind::Kind| options.only.as_ref().is_none_or(|part| kind.name().contains(part));
-    let draw = match (options.laws, options.beds) {
-        (true, _) => laws::draw::draw,
-        (_, true) => cases::beds::draw,
-        _ => cases::draw::draw,
-    };
+    let draw = options.draw();
     let drawn = options.numbers().map(|number| draw(&options.set, number));
     let known = options.recorded_numbers()?;
     let is_new = |case: &cases::draw::Case| !known.contains(&case.number);
@@ -125,6 +127,17 @@ fn go(options: &Options) -> Result<(), String> {
 }
 
 impl Options {
+    /// How the cases asked for are drawn.
+    fn draw(&self) -> fn(&str, u64) -> cases::draw::Case {
+        match self {
+            Self { laws: true, .. } => laws::draw::draw,
+            Self { beds: true, .. } => cases::beds::draw,
+            Self { nulls: true, .. } => cases::nulls::draw,
+            Self { corners: true, .. } => cases::corners::draw,
+            _ => cases::draw::draw,
+        }
+    }
+
     fn numbers(&self) -> std::ops::Range<u64> {
         self.first..self.first + self.cases
     }

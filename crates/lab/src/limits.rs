@@ -237,6 +237,23 @@ limits! {
     BED_DAMPING: f64 = 1e-3, "s";
     /// Share of the squared error above noise that the best of these must take away for beds to be fitted.
     BEDS_ASKED_FOR: f64 = 0.3, "share";
+    /// Share of the squared error above noise that they must take away, in the tests held out, for effects beside them to be
+    /// looked for.
+    BESIDE_BEDS_FROM: f64 = 0.5, "share";
+    /// Effects of one number that are fitted beside them: those that promise most.
+    BESIDE_BEDS: usize = 3, "";
+    /// Windows in which these are told apart.
+    BESIDE_BEDS_WINDOWS: usize = 60, "";
+    /// Share of the squared error above noise left by beds there that the best of them must take away to be fitted to all windows.
+    BESIDE_BEDS_ASKED_FOR: f64 = 0.5, "share";
+    /// Share of the squared error above noise that beds must leave for effects beside them to be named by what they take away.
+    ///
+    /// Beds of another simulator alone are followed to 1e-3 of it.
+    BED_OWN_ERROR: f64 = 2e-3, "share";
+    /// Rivals of one effect on sharp edges that are fitted to few windows: those that promise most at a glance.
+    BED_RIVALS_IN_FEW: usize = 8, "";
+    /// The best of these are fitted to all windows.
+    BED_RIVALS: usize = 3, "";
     /// Squared error above noise, over that of the best bed, up to which others are fitted to all windows.
     BEDS_NEAR_BEST: f64 = 2.0, "";
 }

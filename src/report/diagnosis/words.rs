@@ -96,8 +96,9 @@ pub fn lead(summary: &Summary) -> String {
             None => format!("Named: {effects}. Nothing else in the catalogue explains these tests."),
         },
         Verdict::Class => format!(
-            "A class: {} explain these tests alike. The first of them: {effects}.",
-            summary.equivalent.join(", ")
+            "A class: {} explain these tests alike. The first of them: {effects}.{}",
+            summary.equivalent.join(", "),
+            summary.remainder.as_ref().map_or(String::new(), |found| format!(" {}", remainder(found)))
         ),
         Verdict::Formula => format!(
             "A formula: {effects}. No effect of the catalogue explains these tests; this law does, as far as they went ({}).",
@@ -135,7 +136,7 @@ fn remainder(found: &Remainder) -> String {
         format!(" The next effect, {}, takes away {}.", next.name, percent(next.taken_held_out.max(0.0)))
     });
     format!(
-        "Of the squared error above noise it takes away {} in the tests held out ({} in those fitted; {} in small swings, {} in large ones), and leaves {} times the noise there: the model’s own error, with which the intervals are told.{next}",
+        "Of the squared error above noise that takes away {} in the tests held out ({} in those fitted; {} in small swings, {} in large ones), and leaves {} times the noise there: the model’s own error, with which the intervals are told.{next}",
         percent(found.taken_held_out),
         percent(found.taken_fit),
         percent(found.taken_small_swings),

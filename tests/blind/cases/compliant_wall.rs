@@ -3,13 +3,21 @@
 use super::super::compliant::wall::{Bed, LooseMass};
 use super::super::compliant::{CompliantWall, TopLaw};
 use super::super::laws::atom::Site;
-use super::draw::Case;
+use super::draw::{Case, Contacts};
 use super::hidden::Hidden;
 use super::walls::WallNumbers;
 
 /// The wall with everything hidden that acts on the wall itself.
 pub fn true_wall(case: &Case) -> CompliantWall {
     let mut wall = wall(&case.actual);
+    match case.contacts {
+        Contacts::SharpEdges => {}
+        Contacts::Corners(corners) => wall.corners = Some(corners),
+        Contacts::Springs { stiffness_pa_per_m, damping_s } => {
+            let stiffness_n_per_m2 = stiffness_pa_per_m * case.actual.length_m;
+            wall.beds = [Some(Bed { stiffness_n_per_m2, damping_s }); 2];
+        }
+    }
     case.hidden.iter().for_each(|effect| add(&mut wall, effect, &case.actual));
     wall
 }
@@ -29,6 +37,8 @@ pub fn wall(numbers: &WallNumbers) -> CompliantWall {
         eccentricity_m: 0.0,
         top: vec![TopLaw::Spring { stiffness_n_per_m: numbers.stiffness_n_per_m, slack_m: 0.0 }],
         joint_damping_n_m_s: [0.0; 2],
+        corners: None,
+        body_damping_n_m_s: [0.0; 2],
         beds: [None; 2],
         joint_laws: [Vec::new(), Vec::new()],
         coefficients: numbers.coefficients,
@@ -119,6 +129,11 @@ fn outside(wall: &mut CompliantWall, law: &str, numbers: &WallNumbers, reach_m: 
         "degrading_spring" => {
             wall.top[0] =
                 TopLaw::Degrading { stiffness_n_per_m: k_d, scale_m: 3.0 * reach_m / size, largest_m: 0.0 };
+        }
+        // c θ' of each body against the ground, as large at both.
+        "body_damping" => {
+            let c = 0.1 * size * wall.weight_above_n(0) * 0.5 * numbers.widths_m[0];
+            wall.body_damping_n_m_s = [c; 2];
         }
         "displacement_damping" => {
             let c = 0.4 * size * impedance / reach_m;

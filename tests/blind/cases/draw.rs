@@ -5,6 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use sha2::{Digest, Sha256};
 
+use super::super::compliant::corner::Corners;
 use super::hidden::{Hidden, Scale, hidden};
 use super::kind::{Freedom, Kind};
 use super::walls::WallNumbers;
@@ -16,6 +17,22 @@ pub enum Simulator {
     Own,
     /// The one with compliant corners.
     Compliant,
+}
+
+/// What joints of free bodies are made of; all so stiff that nothing is hidden by them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Contacts {
+    /// Corners as near to sharp edges as may be.
+    SharpEdges,
+    /// Corners that are alike at the ground and at the crack.
+    Corners(Corners),
+    /// Rows of springs.
+    Springs {
+        /// Stiffness of a joint, Pa/m.
+        stiffness_pa_per_m: f64,
+        /// Damping time, s.
+        damping_s: f64,
+    },
 }
 
 /// What is said to be known of the wall.
@@ -53,6 +70,8 @@ pub struct Case {
     pub target_rad: f64,
     /// That of the tests held out over it.
     pub held_out_amplitude: f64,
+    /// What joints are made of in the second simulator.
+    pub contacts: Contacts,
 }
 
 /// Standard deviations of white noise, rad.
@@ -145,6 +164,7 @@ pub fn of_kind(set: &str, number: u64, kind: Kind, before: usize) -> Case {
         hold_out_tests,
         target_rad,
         held_out_amplitude: 1.0,
+        contacts: Contacts::SharpEdges,
     }
 }
 
@@ -204,12 +224,14 @@ impl Prior {
     }
 }
 
-impl Simulator {
-    /// Name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Simulator::Own => "own",
-            Simulator::Compliant => "compliant",
+impl Case {
+    /// Which formulation made it, in tables.
+    pub fn formulation(&self) -> &'static str {
+        match (self.simulator, self.contacts) {
+            (Simulator::Own, _) => "own",
+            (Simulator::Compliant, Contacts::SharpEdges) => "compliant",
+            (Simulator::Compliant, Contacts::Corners(_)) => "corners",
+            (Simulator::Compliant, Contacts::Springs { .. }) => "springs",
         }
     }
 }

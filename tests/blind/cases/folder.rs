@@ -5,8 +5,9 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
+use super::super::compliant::corner::Corners;
 use super::super::laws::excited::excited;
-use super::draw::{Case, Prior};
+use super::draw::{Case, Contacts, Prior};
 use super::kind::{Freedom, Kind};
 use super::tests::{STEP_S, Test, tests};
 
@@ -86,6 +87,19 @@ pub fn measured(test: &Test) -> String {
     text
 }
 
+/// What joints are made of, where that is drawn.
+fn told(contacts: Contacts) -> Value {
+    match contacts {
+        Contacts::SharpEdges => Value::Null,
+        Contacts::Corners(Corners { stiffness_n_per_m, damping_n_s_per_m }) => {
+            json!({ "stiffness_n_per_m": stiffness_n_per_m, "damping_n_s_per_m": damping_n_s_per_m })
+        }
+        Contacts::Springs { stiffness_pa_per_m, damping_s } => {
+            json!({ "stiffness_pa_per_m": stiffness_pa_per_m, "damping_s": damping_s })
+        }
+    }
+}
+
 /// The answer: the verdicts that are right, what is hidden, and how the case was made.
 fn answer(case: &Case, tests: &[Test]) -> Value {
     let (verdict, equivalent) = match case.kind {
@@ -111,9 +125,10 @@ fn answer(case: &Case, tests: &[Test]) -> Value {
             "set": case.set,
             "number": case.number,
             "kind": case.kind.name(),
-            "simulator": case.simulator.name(),
+            "simulator": case.formulation(),
             "prior": case.prior.name(),
             "noise_rad": case.noise_rad,
+            "contacts": told(case.contacts),
             "size": case.size,
             "fit_tests": case.fit_tests,
             "hold_out_tests": case.hold_out_tests,

@@ -7,6 +7,8 @@
 //! | [`kind`] | what may be hidden, and how often |
 //! | [`draw`] | a number becomes a case: kind, simulator, wall, noise, prior, size, tests |
 //! | [`beds`] | the same of walls whose joints give |
+//! | [`nulls`] | the same with nothing hidden, of every formulation |
+//! | [`corners`] | the same of free bodies on stiff corners, with what was once missed there |
 //! | [`walls`] | the walls of the cases |
 //! | [`hidden`] | the effects with their sizes |
 //! | [`compliant_wall`], [`own_wall`] | the true wall for each simulator |
@@ -15,10 +17,12 @@
 
 pub mod beds;
 pub mod compliant_wall;
+pub mod corners;
 pub mod draw;
 pub mod folder;
 pub mod hidden;
 pub mod kind;
+pub mod nulls;
 pub mod own_wall;
 pub mod tests;
 pub mod walls;

@@ -63,7 +63,10 @@ impl Bodies {
     pub fn new(wall: CompliantWall) -> (Self, Coordinates) {
         // At a corner the other end of a slender body hardly moves with it: about a quarter of its mass does.
         let moved_kg = 0.25 * wall.mass_kg[0].min(wall.mass_kg[1]);
-        let mut corners = Corner::of_wall(wall.weight_above_n(0), moved_kg);
+        let mut corners = match wall.corners {
+            Some(alike) => JOINTS.map(|joint| Corner::alike(alike, wall.weight_above_n(joint))),
+            None => Corner::of_wall(wall.weight_above_n(0), moved_kg),
+        };
         for joint in JOINTS {
             if let Some(bed) = wall.beds[joint] {
                 corners[joint] = Corner::of_bed(bed, wall.weight_above_n(joint), wall.width_m(joint));
@@ -149,6 +152,8 @@ impl Bodies {
         let at_crack = c_crack * turned[1][1] - by_law(1);
         force[2] += at_crack - c_ground * v[2] + by_law(0);
         force[5] -= at_crack;
+        force[2] -= wall.body_damping_n_m_s[0] * v[2];
+        force[5] -= wall.body_damping_n_m_s[1] * v[5];
 
         let top = self.top(&pose);
         let masses = wall.top_masses_kg();

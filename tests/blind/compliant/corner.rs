@@ -2,6 +2,15 @@
 
 use super::wall::{Bed, SPRINGS};
 
+/// Corners that are alike at the ground and at the crack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Corners {
+    /// Stiffness of a corner, N/m.
+    pub stiffness_n_per_m: f64,
+    /// Damping of a corner, N s/m.
+    pub damping_n_s_per_m: f64,
+}
+
 /// What all corners are made of.
 #[derive(Debug, Clone, Copy)]
 pub struct Corner {
@@ -53,6 +62,12 @@ impl Corner {
                 ramp_m: 0.1 * 0.5 * weight_n / stiffness_n_per_m,
             }
         })
+    }
+
+    /// One of corners that are alike, under this weight, N.
+    pub fn alike(Corners { stiffness_n_per_m, damping_n_s_per_m }: Corners, weight_n: f64) -> Self {
+        let ramp_m = 0.1 * 0.5 * weight_n / stiffness_n_per_m;
+        Self { stiffness_n_per_m, damping_n_s_per_m, ramp_m }
     }
 
     /// One of the springs of a bed, which carries its share of a weight, N, at rest over a width, m.

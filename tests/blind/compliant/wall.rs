@@ -1,6 +1,7 @@
 //! The wall as bodies that are free in the plane, and all that acts on it.
 
 use super::super::laws::atom::Atom;
+use super::corner::Corners;
 use super::top::TopLaw;
 
 /// Left and right corner of a joint.
@@ -33,6 +34,10 @@ pub struct CompliantWall {
     pub top: Vec<TopLaw>,
     /// Rotational dampers at the joints, N m s/rad.
     pub joint_damping_n_m_s: [f64; 2],
+    /// Corners that are all alike; `None`: as near to sharp edges as may be.
+    pub corners: Option<Corners>,
+    /// Rotational dampers of each body against the ground, N m s/rad.
+    pub body_damping_n_m_s: [f64; 2],
     /// Beds of springs in the place of corners.
     pub beds: [Option<Bed>; 2],
     /// Laws of the moments across the joints.

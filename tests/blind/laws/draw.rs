@@ -3,7 +3,9 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use super::super::cases::draw::{Case, Prior, Simulator, combination, generator, plastic, scatter, seed};
+use super::super::cases::draw::{
+    Case, Contacts, Prior, Simulator, combination, generator, plastic, scatter, seed,
+};
 use super::super::cases::hidden::{Hidden, Scale, hidden};
 use super::super::cases::kind::Kind;
 use super::super::cases::walls::WallNumbers;
@@ -113,6 +115,7 @@ pub fn of_group(set: &str, number: u64, group: &'static str, before: usize) -> C
         hold_out_tests: 1,
         target_rad,
         held_out_amplitude,
+        contacts: Contacts::SharpEdges,
     }
 }
 

@@ -110,7 +110,11 @@ impl Row {
         let Some(deviation) = number(answer, "/effects/0/deviation") else { return };
         let parameter = text(answer, "/effects/0/parameter");
         let kind = &self.hidden[0];
-        let Some(effect) = effects.iter().find(|effect| effect.kind.as_ref() == Some(kind)) else { return };
+        // One kind may stand at both joints.
+        let name = text(answer, "/effects/0/name");
+        let is_it = |effect: &&FoundEffect| effect.kind.as_ref() == Some(kind);
+        let same = effects.iter().filter(is_it).find(|effect| effect.name.as_ref() == Some(&name));
+        let Some(effect) = same.or_else(|| effects.iter().find(is_it)) else { return };
         let found = effect.parameters.get(&parameter);
         self.parameter_error = found.map(|found| (found - value).abs() / deviation);
         let interval = effect.interval.get(&parameter);
@@ -144,6 +148,29 @@ impl Row {
     /// Whether a law outside the catalogue was hidden.
     pub fn hides_other_law(&self) -> bool {
         self.kind.starts_with("outside")
+    }
+
+    /// Whether an effect is among those that are hidden.
+    pub fn hides(&self, effect: &str) -> bool {
+        self.hidden.iter().any(|hidden| hidden == effect)
+    }
+
+    /// Whether an effect is among those named.
+    pub fn names(&self, effect: &str) -> bool {
+        self.verdict == "named" && self.named.iter().any(|named| named == effect)
+    }
+
+    /// Whether an effect is among those named, or in the class.
+    pub fn tells(&self, effect: &str) -> bool {
+        let in_class = || self.named.iter().chain(&self.equivalent).any(|named| named == effect);
+        self.names(effect) || (self.verdict == "class" && in_class())
+    }
+
+    /// Share of the squared windowed error above noise that is taken away in the tests held out; `None` where there is none.
+    pub fn taken(&self) -> Option<f64> {
+        let excess = |error: f64| error * error - 1.0;
+        let before = self.before.map(excess).filter(|before| *before > 0.0)?;
+        Some(1.0 - excess(self.after?) / before)
     }
 
     /// Whether something was claimed to be there, by name, as a class or as a formula.

@@ -8,6 +8,9 @@ use super::row::Row;
 /// Up to this an effect is to be named nearly always, rad.
 const LOW_NOISE_RAD: f64 = 1.001e-4;
 
+/// Formulations of the simulators that make cases.
+const FORMULATIONS: [&str; 4] = ["own", "compliant", "corners", "springs"];
+
 /// What a word of the table means.
 pub const NOTE: &str = "visible: at least twice the smallest size that the diagnosis says it could detect; \
                         of nominal size or more where it does not say";
@@ -23,6 +26,12 @@ pub fn table(rows: &[Row]) -> String {
     for noise in NOISES_RAD {
         let at = nothing.iter().filter(|row| row.noise_rad == noise);
         add(&format!("– at {noise:.0e} rad"), "≤ 5 %", Counted::of(at, |row| row.claims()).told());
+    }
+    for formulation in FORMULATIONS {
+        let of = nothing.iter().filter(|row| row.simulator == formulation).collect::<Vec<_>>();
+        if !of.is_empty() {
+            add(&format!("– {formulation}"), "≤ 5 %", Counted::of(&of, |row| row.claims()).told());
+        }
     }
     let one: Vec<&Row> = rows.iter().filter(|row| row.hides_effect() && row.hidden.len() == 1).collect();
     let visible = |row: &&&Row| row.visible() && row.prior.starts_with("k_d to 2 %");
@@ -61,6 +70,7 @@ pub fn table(rows: &[Row]) -> String {
     let both = pairs.iter().filter(|row| row.all_visible());
     add("– both visible", "", Counted::of(both, |row| row.exact()).told());
     add("– wrong name", "", Counted::of(&pairs, |row| row.wrong()).told());
+    lines_of_beds(rows, &mut add);
     let named: Vec<&Row> = rows.iter().filter(|row| row.right()).collect();
     let of = |value: fn(&Row) -> Option<f64>| median(named.iter().filter_map(|row| value(row)));
     let told = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
@@ -75,6 +85,47 @@ pub fn table(rows: &[Row]) -> String {
     );
     printed(&lines)
 }
+
+/// Windowed error held out from which joints that give are visible, over the noise.
+const VISIBLE_BEDS: f64 = 2.0;
+/// Share of the squared error above noise that they are to take away in tests held out.
+const TAKEN: f64 = 0.8;
+
+/// Figures of walls whose joints give; none where there are no such walls.
+fn lines_of_beds(rows: &[Row], add: &mut impl FnMut(&str, &str, String)) {
+    let on_beds = rows.iter().filter(|row| row.hides(BEDS)).collect::<Vec<_>>();
+    if on_beds.is_empty() {
+        return;
+    }
+    let visible = on_beds.iter().filter(|row| row.before.is_some_and(|error| error > VISIBLE_BEDS));
+    let named = |row: &&&Row| row.tells(BEDS);
+    add(
+        "joints that give, visible: named or in the class, whatever is beside them",
+        "≥ 90 %",
+        Counted::of(visible, named).told(),
+    );
+    let named = on_beds.iter().filter(named).collect::<Vec<_>>();
+    let most = |row: &&&&Row| row.taken().is_some_and(|share| share >= TAKEN);
+    add("– named: at least 80 % of the gap taken away held out", "", Counted::of(&named, most).told());
+    let errors = on_beds.iter().filter_map(|row| row.parameter_error).collect::<Vec<_>>();
+    let error = median(errors.iter().copied());
+    let told = error.map_or("no cases".into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));
+    add("– stiffness, median error", "≤ 10 %", told);
+    let covered = Counted::of(on_beds.iter().filter_map(|row| row.covered), |covered| *covered);
+    add("– 90 % interval holds it", "85 to 95 %", covered.told());
+    let beside = on_beds.iter().filter(|row| row.hidden.len() == 2).collect::<Vec<_>>();
+    add(
+        "an effect on joints that give: both named",
+        "≥ 85 %",
+        Counted::of(&beside, |row| row.exact()).told(),
+    );
+    add("– wrong name", "", Counted::of(&beside, |row| row.wrong()).told());
+    let alone = on_beds.iter().filter(|row| row.hidden.len() == 1).collect::<Vec<_>>();
+    add("joints that give alone: wrong name", "", Counted::of(&alone, |row| row.wrong()).told());
+}
+
+/// Joints that give, among effects.
+const BEDS: &str = "compliant_joint";
 
 /// Figure, target and what was reached as a table in Markdown.
 pub fn printed(lines: &[[String; 3]]) -> String {

@@ -77,7 +77,7 @@ impl Row {
         };
         let [simulator, law] = match &twin.case {
             None => ["init", "contact"],
-            Some(case) => [case.simulator.name(), case.actual.law],
+            Some(case) => [case.formulation(), case.actual.law],
         }
         .map(str::to_owned);
         Ok(Some(Self {

@@ -16,7 +16,7 @@ use crate::diagnose::certainty::{confused, ensemble, intervals, intervals_beside
 use crate::diagnose::fit::{WindowFit, windowed_error};
 use crate::diagnose::hypothesis::{Addition, Physics};
 use crate::diagnose::trials::{FRICTION, FittedHypothesis, against, giving_friction, joint_error, kinds};
-use crate::diagnose::verdict::{Verdict, names, power};
+use crate::diagnose::verdict::{Verdict, model_error_rad, names, power};
 use crate::experiment::TestData;
 use crate::experiment::{Purpose, Test};
 use mrbd_kernel::model::{Role, Wall};
@@ -50,6 +50,11 @@ impl Findings<'_> {
             wall: wall_fits(&found.after),
             tests: self.test_errors(physics),
             remainder: found.remainder.clone(),
+            explained: found
+                .remainder
+                .as_ref()
+                .map(|r| FitHeldOut { fit: r.taken_fit, held_out: r.taken_held_out }),
+            model_error_rad: found.least_leaving().and_then(|least| model_error_rad(&data, least)),
             other_law: found.other_law.clone(),
             windowed_error: staged(stages.map(joint_error).map(finite)),
             against: staged(stages.map(|tried| against(&data, tried))),

@@ -45,6 +45,13 @@ pub struct Summary {
     /// What a named effect takes away and leaves, where it leaves more than noise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub remainder: Option<Remainder>,
+    /// Shares of the squared windowed error above noise that a name with a remainder takes away.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub explained: Option<FitHeldOut<f64>>,
+    /// Error that no hypothesis takes away, rad: root mean square over windows, without that of the noise. Beside names with a
+    /// remainder, and where nothing follows the tests.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub model_error_rad: Option<f64>,
     /// What speaks for another law than the best of the catalogue, where that closes the gap.
     pub other_law: Option<OtherLaw>,
     /// Windowed error over all tests, in standard deviations of the noise.

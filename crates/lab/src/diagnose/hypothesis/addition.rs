@@ -50,6 +50,20 @@ impl Addition {
         }
     }
 
+    /// The joint it acts at, where it may act at either.
+    pub fn joint(&self) -> Option<Joint> {
+        match self {
+            Addition::Effect(variant) => variant.joint(),
+            _ => None,
+        }
+    }
+
+    /// Whether both may be added to one wall: two kinds, or one kind at two joints.
+    pub fn stands_beside(&self, other: &Self) -> bool {
+        let at_two_joints = || matches!((self.joint(), other.joint()), (Some(one), Some(two)) if one != two);
+        self.kind() != other.kind() || at_two_joints()
+    }
+
     /// Its role in the mechanics of the wall; `None` for what is no answer.
     pub fn role(&self) -> Option<Role> {
         self.kind().map(|kind| kind.entry().role)

@@ -7,7 +7,7 @@
 //! answer, and its intervals mean something.
 
 use super::imitation::seconds;
-use super::search::{promise, refit, shared_states, try_coarsely, try_hypothesis, try_second};
+use super::search::{promise, refit, shared_states, try_hypothesis, try_second};
 use super::{FittedHypothesis, Trials, against, kinds, untouched};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
@@ -67,19 +67,6 @@ impl<P: Progress> Trials<'_, P> {
         FirstFits { before, recalibrated, singles }
     }
 
-    /// Single effects fitted coarsely, best first: enough for what lies far above the noise.
-    pub fn coarse_singles(&self, from: &FittedHypothesis) -> Vec<FittedHypothesis> {
-        let additions = candidates(self.experiment.wall.parameters());
-        self.progress.begin("single effects on sharp edges", additions.len());
-        let one = |addition: &Addition| {
-            let h = self.hypothesis(&self.experiment.nuisances, &[*addition]);
-            let tried = try_coarsely(&self.data, h, &[from]);
-            self.progress.advance(1);
-            tried
-        };
-        self.ordered(additions.par_iter().filter_map(one).collect())
-    }
-
     /// Single effects, best first, and the wall without effects, each fitted again from what the other found.
     fn singles(
         &self,
@@ -106,7 +93,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Where single effects start: from the wall as given, and where one of its numbers was not known, with that fitted.
-    fn starts<'t>(
+    pub(super) fn starts<'t>(
         &self,
         before: &'t FittedHypothesis,
         recalibrated: &'t FittedHypothesis,
@@ -191,12 +178,12 @@ fn bases<'t>(answers: &[&'t FittedHypothesis], name: bool) -> Vec<&'t FittedHypo
     bases
 }
 
-/// Of each base its pairs with all others of another kind, each pair once.
+/// Of each base its pairs with all others of another kind, or of its own at another joint, each pair once.
 fn sets(bases: &[&FittedHypothesis], answers: &[&FittedHypothesis]) -> Vec<Vec<[Addition; 2]>> {
     let addition = |t: &&FittedHypothesis| t.hypothesis.additions[0];
     let bases = bases.iter().map(addition).collect::<Vec<_>>();
     let of = |(i, one): (usize, &Addition)| {
-        let new = |two: &Addition| two.kind() != one.kind() && !bases[..i].contains(two);
+        let new = |two: &Addition| one.stands_beside(two) && !bases[..i].contains(two);
         answers.iter().map(addition).filter(new).map(|two| [*one, two]).collect()
     };
     bases.iter().enumerate().map(of).collect()

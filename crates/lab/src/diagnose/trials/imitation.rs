@@ -65,8 +65,7 @@ pub fn seconds(
     hypothesis: impl Fn(&[Addition]) -> Hypothesis,
 ) -> Option<Vec<Imitation>> {
     let own = &best.hypothesis.additions;
-    let kinds = own.iter().map(Addition::kind).collect::<Vec<_>>();
-    let others = candidates.iter().filter(|c| !kinds.contains(&c.kind()));
+    let others = candidates.iter().filter(|c| own.iter().all(|own| own.stands_beside(c)));
     let (h, sums) = with_others(data, best, others, hypothesis)?;
     let beside = |[index, number]: &[usize; 2]| {
         let (left, steps) = sums.left(best.fit.values.len(), &[], &[*number])?;
@@ -106,11 +105,11 @@ fn single_numbers(h: &Hypothesis) -> Vec<[usize; 2]> {
     (0..h.additions.len()).filter_map(number).collect()
 }
 
-/// What additions make of it; `None` for two of a kind, for values outside their bounds, and where they leave no trace.
+/// What additions make of it; `None` for two of a kind at one place, for values outside their bounds, and where they leave no trace.
 fn imitation(h: &Hypothesis, sums: &Sums, undone: &[(usize, f64)], set: &[[usize; 2]]) -> Option<Imitation> {
     let additions = set.iter().map(|[index, _]| h.additions[*index]).collect::<Vec<_>>();
     let numbers = set.iter().map(|[_, number]| *number).collect::<Vec<_>>();
-    if additions.len() == 2 && additions[0].kind() == additions[1].kind() {
+    if additions.len() == 2 && !additions[0].stands_beside(&additions[1]) {
         return None;
     }
     let (left, steps) = sums.left(h.nuisances, undone, &numbers)?;

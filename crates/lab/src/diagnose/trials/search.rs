@@ -142,7 +142,7 @@ fn glances(data: &Data, h: &Hypothesis, from: &FittedHypothesis, starts: &[Vec<f
 
 /// A fit with the tests held out beside it, of which the states alone are fitted. They start from those of another
 /// hypothesis, which may be far from the truth. Where the fit is thorough they start from the measured ones too.
-fn judged(
+pub fn judged(
     data: &Data,
     hypothesis: Hypothesis,
     fit: Fit,

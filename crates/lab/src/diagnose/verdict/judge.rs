@@ -1,16 +1,17 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
+use super::on_beds::BedsBeside;
 use super::worth_naming::{could_show, leaves_noise, place, worth_two};
 use super::{OtherLaw, Remainder, Verdict};
-use super::{name_of_number, names};
+use super::{name_of_number, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::discovery::{Discovered, OpenGap};
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
 use crate::diagnose::trials::{
-    Data, FirstFits, FittedHypothesis, Trials, against, best_answer, closes, does_something, is_noise,
-    joint_error, kinds,
+    Data, FirstFits, FittedHypothesis, Trials, WallFits, against, best_answer, closes, does_something,
+    is_noise, joint_error, kinds,
 };
 use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
@@ -58,6 +59,19 @@ impl Found {
         all
     }
 
+    /// The hypothesis that leaves least, where what it leaves is more than noise: that of a name with a remainder, or of all that
+    /// was tried in vain.
+    pub fn least_leaving(&self) -> Option<&FittedHypothesis> {
+        let error = |tried: &FittedHypothesis| joint_error(tried).unwrap_or(f64::INFINITY);
+        match self.verdict {
+            Verdict::PlaceOnly | Verdict::Unknown => {
+                let all = self.tried.iter().chain([&self.recalibrated]);
+                all.min_by(|a, b| error(a).total_cmp(&error(b)))
+            }
+            _ => self.remainder.as_ref().map(|_| &self.after),
+        }
+    }
+
     /// The hypothesis whose wall is written: that of the answer, or the wall as given where there is none.
     pub fn kept(&self) -> &FittedHypothesis {
         match self.verdict {
@@ -84,7 +98,9 @@ struct Answer {
 pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
     let FirstFits { before, recalibrated, singles } = first_fits;
     match joint_error(&before) {
-        Some(error) if !singles.is_empty() => Gap { trials, before, recalibrated, error }.judge(singles),
+        Some(error) if !singles.is_empty() => {
+            Gap { trials, wall: WallFits { before, recalibrated }, error }.judge(singles)
+        }
         // Too little moves for anything to show.
         _ => Found {
             verdict: Verdict::NoPower,
@@ -104,26 +120,26 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
 /// A gap between model and measurement, or none.
 struct Gap<'t, P> {
     trials: &'t Trials<'t, P>,
-    before: FittedHypothesis,
-    recalibrated: FittedHypothesis,
+    /// The wall without effects.
+    wall: WallFits,
     /// Windowed error of the wall as given.
     error: f64,
 }
 
 impl<P: Progress> Gap<'_, P> {
     fn judge(self, singles: Vec<FittedHypothesis>) -> Found {
-        let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.recalibrated, best));
+        let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.wall.recalibrated, best));
         if gain < WORTH_A_NAME {
-            if is_noise(&self.before) {
-                let verdict = if could_show(&self.trials.data, &self.recalibrated, &singles) {
+            if is_noise(&self.wall.before) {
+                let verdict = if could_show(&self.trials.data, &self.wall.recalibrated, &singles) {
                     Verdict::None
                 } else {
                     Verdict::NoPower
                 };
-                let after = self.before.clone();
+                let after = self.wall.before.clone();
                 return self.found(Answer { verdict, after, equivalent: Vec::new() }, singles);
             }
-            if is_noise(&self.recalibrated) || closes(&self.recalibrated, self.error) {
+            if is_noise(&self.wall.recalibrated) || closes(&self.wall.recalibrated, self.error) {
                 return self.within_the_wall(singles);
             }
         }
@@ -133,14 +149,22 @@ impl<P: Progress> Gap<'_, P> {
     /// One effect or two by name, or the place of what is missing.
     fn with_effects(self, singles: Vec<FittedHypothesis>, gain: f64) -> Found {
         let singles = self.trials.with_imitations(self.trials.with_far_refined(singles), self.error);
-        let one = self.named(&singles, &self.recalibrated);
+        let one = self.named(&singles, &self.wall.recalibrated);
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
-        let far = joint_error(&self.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
+        let far = joint_error(&self.wall.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
         if one.is_none() && !far && gain <= WORTH_PAIRS {
             return self.placed(None, singles);
         }
+        let beds = if one.is_none() { BedsBeside::an_effect(self.trials, &singles) } else { None };
+        let follow = beds.as_ref().and_then(|beds| beds.following(self.trials, &self.wall, &singles));
+        if let Some(found) = follow {
+            return found;
+        }
         let (answer, tried) = self.with_pairs(one, singles);
-        let Some(answer) = answer else { return self.placed(None, tried) };
+        let Some(answer) = answer else {
+            let found = beds.and_then(|beds| beds.leaving_little(self.trials, &self.wall, &tried));
+            return found.unwrap_or_else(|| self.placed(None, tried));
+        };
         let answer = Answer { after: self.trials.refined(answer.after), ..answer };
         let other_law = OtherLaw::beside(&self.trials.data, &answer.after);
         if other_law.speaks() {
@@ -181,13 +205,13 @@ impl<P: Progress> Gap<'_, P> {
     ) -> (Option<Answer>, Vec<FittedHypothesis>) {
         let trials = self.trials;
         let best_single =
-            |tried: &[FittedHypothesis]| best_answer(tried).unwrap_or(&self.recalibrated).clone();
-        let pairs = trials.pairs(&tried, &best_single(&tried), &self.before, self.error, one.is_some());
+            |tried: &[FittedHypothesis]| best_answer(tried).unwrap_or(&self.wall.recalibrated).clone();
+        let pairs = trials.pairs(&tried, &best_single(&tried), &self.wall.before, self.error, one.is_some());
         let mut one = one;
         // Where one effect of the best pair does nothing, its fit is a better one of the other effect alone.
         if let Some(pair) = pairs.first().filter(|pair| !does_something(pair)) {
             tried = trials.ordered(tried.into_iter().map(|t| trials.better_part(t, pair)).collect());
-            one = self.named(&tried, &self.recalibrated);
+            one = self.named(&tried, &self.wall.recalibrated);
         }
         let single = best_single(&tried);
         let two = self.named(&pairs, &single).filter(|two| worth_two(&trials.data, &single, &two.after));
@@ -219,17 +243,8 @@ impl<P: Progress> Gap<'_, P> {
         let limit = against(&self.trials.data, best) + EQUIVALENT;
         let as_good = |t: &&&FittedHypothesis| against(&self.trials.data, t) < limit && kinds(t) != own;
         let others = closing.iter().filter(as_good);
-        let others =
-            others.filter(|t| !t.hypothesis.additions.contains(&Addition::Placebo)).collect::<Vec<_>>();
-        let mut equivalent = Vec::new();
-        if !others.is_empty() {
-            for name in names(best).into_iter().chain(others.iter().flat_map(|t| names(t))) {
-                if !equivalent.contains(&name) {
-                    equivalent.push(name);
-                }
-            }
-        }
-        equivalent
+        let mut others = others.filter(|t| !t.hypothesis.additions.contains(&Addition::Placebo)).peekable();
+        if others.peek().is_none() { Vec::new() } else { names_of_all(best, others.copied()) }
     }
 
     /// A gap that the wall's own numbers close: an answer, unless what moved had not been known and effects do as well.
@@ -241,13 +256,13 @@ impl<P: Progress> Gap<'_, P> {
                 return self.found(answer, instead);
             }
         }
-        let after = self.recalibrated.clone();
+        let after = self.wall.recalibrated.clone();
         self.found(Answer { verdict: Verdict::Recalibrated, after, equivalent: Vec::new() }, singles)
     }
 
     /// Uncertain numbers of the wall that were not known and moved.
     fn moved_unknown(&self) -> Vec<Nuisance> {
-        let FittedHypothesis { hypothesis, fit, .. } = &self.recalibrated;
+        let FittedHypothesis { hypothesis, fit, .. } = &self.wall.recalibrated;
         let moved = |nuisance: &&Nuisance| {
             let key = match nuisance {
                 Nuisance::Number(number, _) => number.key.to_owned(),
@@ -272,13 +287,13 @@ impl<P: Progress> Gap<'_, P> {
         let other_law = |a: &Addition| a.role().is_some_and(|role| role != Role::Memory);
         let sets = candidates(wall.parameters()).into_iter().filter(other_law).map(|a| vec![a]);
         let what = "effects in place of unknown numbers of the wall";
-        self.trials.try_all(what, &nuisances, &[&self.before], &sets.collect::<Vec<_>>())
+        self.trials.try_all(what, &nuisances, &[&self.wall.before], &sets.collect::<Vec<_>>())
     }
 
     /// The class of an effect that does as well as numbers of the wall that were not known, and of these.
     fn as_good_as_the_wall(&self, instead: &[FittedHypothesis], unknown: &[Nuisance]) -> Option<Answer> {
-        let limit = against(&self.trials.data, &self.recalibrated) + EQUIVALENT;
-        let answer = self.named(instead, &self.before)?;
+        let limit = against(&self.trials.data, &self.wall.recalibrated) + EQUIVALENT;
+        let answer = self.named(instead, &self.wall.before)?;
         if against(&self.trials.data, &answer.after) >= limit {
             return None;
         }
@@ -308,7 +323,7 @@ impl<P: Progress> Gap<'_, P> {
 
     /// Laws outside the catalogue.
     fn discovered(&self, tried: &[FittedHypothesis]) -> Option<Discovered> {
-        let (trials, recalibrated) = (self.trials, &self.recalibrated);
+        let (trials, recalibrated) = (self.trials, &self.wall.recalibrated);
         let nearest = tried.iter().chain([recalibrated]);
         let nearest = nearest.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)));
         let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error };
@@ -330,13 +345,13 @@ impl<P: Progress> Gap<'_, P> {
     fn only_placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
         let measured = || {
-            let physics = self.before.hypothesis.physics(&self.before.fit.values)?;
+            let physics = self.wall.before.hypothesis.physics(&self.wall.before.fit.values)?;
             acts_at_top(&force_points(self.trials.data.fit.tests, &physics)).then_some("top")
         };
-        let place = measured().or_else(|| place(&self.trials.data, &self.recalibrated, &tried));
+        let place = measured().or_else(|| place(&self.trials.data, &self.wall.recalibrated, &tried));
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
         let tried = self.trials.ordered(tried);
-        let after = self.recalibrated.clone();
+        let after = self.wall.recalibrated.clone();
         let answer = Answer { verdict, after, equivalent: Vec::new() };
         Found { place, other_law, ..self.found(answer, tried) }
     }
@@ -347,7 +362,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     fn found(self, Answer { verdict, after, equivalent }: Answer, tried: Vec<FittedHypothesis>) -> Found {
-        let Self { before, recalibrated, .. } = self;
+        let WallFits { before, recalibrated } = self.wall;
         Found {
             verdict,
             before,

@@ -19,7 +19,7 @@ use super::trials::{FittedHypothesis, kind_of};
 pub use judge::{Found, judge};
 pub use on_beds::on_beds;
 pub use other_law::{OtherLaw, Trend};
-pub use remainder::{NextRival, Remainder};
+pub use remainder::{NextRival, Remainder, model_error_rad};
 use serde::{Deserialize, Serialize};
 pub use worth_naming::power;
 
@@ -76,6 +76,20 @@ pub fn names(tried: &FittedHypothesis) -> Vec<String> {
             .map_or_else(|| addition.name(), |kind| kind.name().to_owned()),
     };
     h.additions.iter().enumerate().map(name).collect()
+}
+
+/// Names of the best and of others that cannot be told from it, each once.
+fn names_of_all<'t>(
+    best: &FittedHypothesis,
+    others: impl IntoIterator<Item = &'t FittedHypothesis>,
+) -> Vec<String> {
+    let mut all = Vec::new();
+    for name in names(best).into_iter().chain(others.into_iter().flat_map(names)) {
+        if !all.contains(&name) {
+            all.push(name);
+        }
+    }
+    all
 }
 
 /// Last word of the key of a number of the wall, without its unit.

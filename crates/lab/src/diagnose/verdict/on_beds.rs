@@ -1,46 +1,188 @@
-//! Joints that give: a name where windows ask for them, and nothing else follows.
+//! Joints that give: a name where windows ask for them, alone or with an effect beside them.
 //!
 //! Everything else is tried on sharp edges, where a wall on beds is far off whatever is added. So beds come first: where
 //! they hold, the others are fitted as rivals, and no more is tried.
 
 use super::judge::Found;
-use super::{Remainder, Verdict};
+use super::worth_naming::worth_two;
+use super::{Remainder, Verdict, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::trials::{
-    FittedHypothesis, Trials, WallFits, against, closes, does_something, joint_error,
+    FittedHypothesis, Trials, WallFits, against, all_windows, closes, does_something, excess, is_noise,
+    joint_error,
 };
-use crate::limits::{EQUIVALENT, REMAINDER_TAKEN, WORTH_A_NAME};
+use crate::limits::{
+    BED_OWN_ERROR, BEDS_GAP, BESIDE_BEDS_FROM, EQUIVALENT, REMAINDER_RIVAL, REMAINDER_TAKEN, WORTH_A_NAME,
+};
+use mrbd_kernel::model::Role;
 
-/// The verdict where joints that give are the answer; `None` where they are not.
+/// The verdict where joints that give are the answer, or part of it; `None` where they are not.
 pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found> {
     let WallFits { before, recalibrated } = wall;
-    let beds = trials.beds(recalibrated);
-    let best = beds.first().filter(|best| does_something(best))?;
-    let alone = Remainder::new(&trials.data, recalibrated, best, &[])?;
-    if alone.taken_held_out < REMAINDER_TAKEN {
+    let beds = trials.beds(wall);
+    let alone = beds.first().filter(|best| does_something(best))?;
+    let OnBeds { best, near, pairs } = with_effect(trials, wall, &beds)?;
+    if Remainder::new(&trials.data, recalibrated, &best, &[])?.taken_held_out < REMAINDER_TAKEN {
         return None;
     }
-    let rivals = trials.coarse_singles(before);
-    let follows = follows(trials, wall, best, &rivals);
-    let remainder = Remainder::of_name(&trials.data, recalibrated, best, &rivals).filter(|_| !follows);
-    if !follows && remainder.is_none() {
-        return None;
-    }
-    Some(Found {
-        verdict: Verdict::Named,
-        before: before.clone(),
-        recalibrated: recalibrated.clone(),
-        after: best.clone(),
-        equivalent: Vec::new(),
-        place: None,
-        remainder,
-        other_law: None,
-        discovered: None,
-        tried: trials.ordered([beds, rivals].concat()),
-    })
+    let rivals = trials.rivals_of_beds(before);
+    let standing = Standing::of(trials, wall, &best, &rivals)?;
+    Some(standing.found(trials, wall, best, &near, [beds, pairs, rivals].concat()))
 }
 
-/// Whether a bed follows the tests to their noise, and no rival does nearly as well.
+/// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
+pub struct BedsBeside {
+    effect: FittedHypothesis,
+    best: FittedHypothesis,
+    near: Vec<FittedHypothesis>,
+}
+
+impl BedsBeside {
+    /// Beside the single effect that follows best, where it leaves much and beds take that away.
+    pub fn an_effect<P: Progress>(trials: &Trials<P>, singles: &[FittedHypothesis]) -> Option<Self> {
+        let effects = singles.iter().filter(|t| is_effect(t));
+        let effect = effects.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()))?.clone();
+        let beds = trials.beds_beside(&effect);
+        let (best, others) = beds.split_first()?;
+        let is_other =
+            |other: &&FittedHypothesis| names(other) != names(best) && comes_near(trials, best, other);
+        let near = others.iter().filter(is_other).cloned().collect();
+        Some(Self { effect, best: best.clone(), near })
+    }
+
+    /// The verdict where they follow to the noise.
+    pub fn following<P: Progress>(
+        &self,
+        trials: &Trials<P>,
+        wall: &WallFits,
+        tried: &[FittedHypothesis],
+    ) -> Option<Found> {
+        self.leaving_little(trials, wall, tried).filter(|found| found.remainder.is_none())
+    }
+
+    /// The verdict where what they leave is noise, or little that nothing tried comes near.
+    pub fn leaving_little<P: Progress>(
+        &self,
+        trials: &Trials<P>,
+        wall: &WallFits,
+        tried: &[FittedHypothesis],
+    ) -> Option<Found> {
+        let Self { effect, best, near } = self;
+        let standing = Standing::of(trials, wall, best, tried)?;
+        let all = || [std::slice::from_ref(best), near, tried].concat();
+        is_worth_it(trials, wall, effect, best)
+            .then(|| standing.found(trials, wall, best.clone(), near, all()))
+    }
+}
+
+/// Whether a single addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.
+fn is_effect(single: &FittedHypothesis) -> bool {
+    single.hypothesis.additions[0].role().is_some_and(|role| role != Role::Impact)
+}
+
+/// Why joints that give, alone or with an effect, may be named.
+struct Standing {
+    /// What they leave, where that is more than noise.
+    remainder: Option<Remainder>,
+}
+
+impl Standing {
+    /// They follow to the noise, or what they leave is little, and no rival comes near; `None` if neither.
+    fn of<P: Progress>(
+        trials: &Trials<P>,
+        wall: &WallFits,
+        best: &FittedHypothesis,
+        rivals: &[FittedHypothesis],
+    ) -> Option<Self> {
+        if follows(trials, wall, best, rivals) {
+            return Some(Self { remainder: None });
+        }
+        let remainder = Remainder::of_name(&trials.data, &wall.recalibrated, best, rivals)?;
+        Some(Self { remainder: Some(remainder) })
+    }
+
+    fn found<P: Progress>(
+        self,
+        trials: &Trials<P>,
+        wall: &WallFits,
+        best: FittedHypothesis,
+        near: &[FittedHypothesis],
+        tried: Vec<FittedHypothesis>,
+    ) -> Found {
+        Found {
+            verdict: if near.is_empty() { Verdict::Named } else { Verdict::Class },
+            equivalent: if near.is_empty() { Vec::new() } else { names_of_all(&best, near) },
+            before: wall.before.clone(),
+            recalibrated: wall.recalibrated.clone(),
+            after: best,
+            place: None,
+            remainder: self.remainder,
+            other_law: None,
+            discovered: None,
+            tried: trials.ordered(tried),
+        }
+    }
+}
+
+/// What follows best where joints give.
+struct OnBeds {
+    /// Joints that give alone, or with an effect.
+    best: FittedHypothesis,
+    /// With other effects that come near the best.
+    near: Vec<FittedHypothesis>,
+    /// Everything tried beside joints that give.
+    pairs: Vec<FittedHypothesis>,
+}
+
+/// Joints that give with an effect beside them where one is worth it, else alone. `None` where joints that give take away too
+/// little for anything beside them to show.
+fn with_effect<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    beds: &[FittedHypothesis],
+) -> Option<OnBeds> {
+    let alone = beds.first()?;
+    let taken = Remainder::new(&trials.data, &wall.recalibrated, alone, &[])?;
+    if taken.taken_held_out < BESIDE_BEDS_FROM {
+        return None;
+    }
+    let pairs = if is_noise(alone) { Vec::new() } else { trials.beside_beds(beds) };
+    let Some((two, others)) = pairs.split_first().filter(|(two, _)| is_worth_it(trials, wall, alone, two))
+    else {
+        return Some(OnBeds { best: alone.clone(), near: Vec::new(), pairs });
+    };
+    let is_as_good =
+        |other: &&FittedHypothesis| comes_near(trials, two, other) && is_worth_it(trials, wall, alone, other);
+    let near = others.iter().filter(is_as_good).cloned().collect();
+    Some(OnBeds { best: two.clone(), near, pairs })
+}
+
+/// Whether an effect beside joints that give is named with them: it follows to the noise and gains what a second effect must,
+/// or it takes away most of what they leave, in small swings and in large ones, where that is more than another way to model
+/// a bed leaves.
+fn is_worth_it<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    alone: &FittedHypothesis,
+    two: &FittedHypothesis,
+) -> bool {
+    let [gap, left] = [&wall.recalibrated, alone].map(|tried| excess(&all_windows(tried)));
+    let is_more = left > BED_OWN_ERROR * gap && joint_error(alone).is_some_and(|error| error > BEDS_GAP);
+    let takes_most = || Remainder::new(&trials.data, alone, two, &[]).is_some_and(|r| r.holds());
+    let to_noise = || follows(trials, wall, two, &[]) && worth_two(&trials.data, alone, two);
+    does_something(two) && ((is_more && takes_most()) || to_noise())
+}
+
+/// Whether the tests cannot tell another effect from the best: by likelihood where that leaves noise, else by what each leaves.
+fn comes_near<P: Progress>(trials: &Trials<P>, best: &FittedHypothesis, other: &FittedHypothesis) -> bool {
+    if is_noise(best) {
+        return against(&trials.data, other) - against(&trials.data, best) < EQUIVALENT;
+    }
+    let [best, other] = [best, other].map(|tried| excess(&all_windows(tried)));
+    other < REMAINDER_RIVAL * best
+}
+
+/// Whether a hypothesis follows the tests to their noise, and no rival does nearly as well.
 fn follows<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,

@@ -10,7 +10,7 @@ use crate::diagnose::fit::WindowFit;
 use crate::diagnose::trials::{Data, FittedHypothesis, does_something, excess, kinds};
 use crate::experiment::Window;
 use crate::limits::{
-    REMAINDER_BY_SWING, REMAINDER_GAP, REMAINDER_RIVAL, REMAINDER_TAKEN, STIFFEST_NAMED_PA_PER_M,
+    LEFT_OUT, REMAINDER_BY_SWING, REMAINDER_GAP, REMAINDER_RIVAL, REMAINDER_TAKEN, STIFFEST_NAMED_PA_PER_M,
 };
 use mrbd_kernel::model::Role;
 
@@ -66,7 +66,7 @@ impl Remainder {
         let [taken_small_swings, taken_large_swings] = by_swing(data, without, named)?;
         let own = kinds(named);
         let others = rivals.iter().filter(|t| kinds(t) != own && kinds(t).is_some());
-        let of = |t: &FittedHypothesis| Some((taken(without, t)?[1], t.hypothesis.additions[0].name()));
+        let of = |t: &FittedHypothesis| Some((taken(without, t)?[1], t.hypothesis.name()));
         let next = others.filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
         let next_rival = next.map(|(taken_held_out, name)| NextRival { name, taken_held_out });
         let left_held_out = named.errors()[1]?;
@@ -82,7 +82,7 @@ impl Remainder {
 
     /// Whether it is a name: most of the gap goes in tests fitted and held out, in small swings and in large ones, and
     /// the next rival leaves several times as much.
-    fn holds(&self) -> bool {
+    pub fn holds(&self) -> bool {
         let rival_leaves = self.next_rival.as_ref().map_or(1.0, |next| 1.0 - next.taken_held_out);
         self.taken_fit.min(self.taken_held_out) >= REMAINDER_TAKEN
             && self.taken_small_swings.min(self.taken_large_swings) >= REMAINDER_BY_SWING
@@ -90,12 +90,12 @@ impl Remainder {
     }
 }
 
-/// Whether every bed of a hypothesis is so soft that no other way to model a contact stands for it.
+/// Whether a hypothesis has a bed, and every bed of it is so soft that no other way to model a contact stands for it.
 fn is_soft(named: &FittedHypothesis) -> bool {
     let h = &named.hypothesis;
-    let beds = h.additions.iter().all(|a| a.role() == Some(Role::Bed));
+    let gives = h.additions.iter().any(|a| a.role() == Some(Role::Bed));
     let stiffness = h.unknowns.iter().zip(&named.fit.values).filter(|(u, _)| u.is_softness());
-    beds && stiffness.map(|(u, value)| u.number(*value)).all(|k| k < STIFFEST_NAMED_PA_PER_M)
+    gives && stiffness.map(|(u, value)| u.number(*value)).all(|k| k < STIFFEST_NAMED_PA_PER_M)
 }
 
 /// Shares of the squared error above noise taken away in the tests to fit and in those held out.
@@ -129,6 +129,24 @@ fn by_swing(data: &Data, without: &FittedHypothesis, with: &FittedHypothesis) ->
         share_taken(&without, &with)
     };
     Some([share(&all[..half])?, share(&all[half..])?])
+}
+
+/// Error of a model over windows without that of the noise, rad; `None` where it is no more than noise.
+///
+/// Without the windows followed worst, as the windowed error.
+pub fn model_error_rad(data: &Data, tried: &FittedHypothesis) -> Option<f64> {
+    let noise_rad_2 = |window: &Window| {
+        let [one, two] = data.fit.tests[window.test].noise_rad;
+        0.5 * (one * one + two * two)
+    };
+    let windows = data.fit.windows.iter().chain(data.held_out.windows);
+    let fits = tried.fit.windows.iter().chain(&tried.held_out.windows);
+    let mut all =
+        windows.zip(fits).map(|(w, fit)| (fit.reduced() - 1.0) * noise_rad_2(w)).collect::<Vec<_>>();
+    all.sort_by(f64::total_cmp);
+    let kept = all.len() - (LEFT_OUT * all.len() as f64).floor() as usize;
+    let mean = all[..kept].iter().sum::<f64>() / kept as f64;
+    (mean > 0.0).then(|| mean.sqrt())
 }
 
 #[cfg(test)]

@@ -1,0 +1,153 @@
+//! Effects of the catalogue on a wall whose joints give, and beds that are not alike.
+//!
+//! Another way to model a joint is followed to several noises of good sensors at best. So where an effect is looked for beside
+//! joints that give, what these leave stands in the place of noise ([`widened`]). Few windows tell which effects are worth a
+//! fit to all of them.
+
+use super::few::Few;
+use super::{in_rounds, own_error, widened};
+use crate::Progress;
+use crate::diagnose::fit::{Fit, Problem};
+use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
+use crate::diagnose::trials::imitation::seconds;
+use crate::diagnose::trials::search::{judged_from_measured, states_of, with_values};
+use crate::diagnose::trials::{Data, FittedHypothesis, Trials, joint_error};
+use crate::limits::{BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL};
+use mrbd_kernel::model::Role;
+use rayon::prelude::*;
+
+impl<P: Progress> Trials<'_, P> {
+    /// Joints that give with an effect of one number beside them, or each with a bed of its own, what follows the tests best
+    /// first: beside the first of `beds` those that a linear look promises most of, and the best of them beside the other beds.
+    pub fn beside_beds(&self, beds: &[FittedHypothesis]) -> Vec<FittedHypothesis> {
+        let Some((first, others)) = beds.split_first() else { return Vec::new() };
+        let mut found = self.effects_beside(first);
+        let Some(best) = found.first().cloned() else { return found };
+        let with_effect = best.hypothesis.additions[1..].iter().all(|a| a.role() != Some(Role::Bed));
+        let others = others.iter().filter(|_| with_effect).collect::<Vec<_>>();
+        found.extend(others.par_iter().filter_map(|bed| self.on_other_bed(bed, &best)).collect::<Vec<_>>());
+        by_error(&mut found);
+        if let Some(best) = found.first_mut()
+            && let Some(finished) = self.finished_beside_own_error(best)
+        {
+            *best = finished;
+        }
+        found
+    }
+
+    /// Joints that give beside an effect that takes away much alone.
+    pub fn beds_beside(&self, effect: &FittedHypothesis) -> Vec<FittedHypothesis> {
+        self.beds_under(&[effect], effect)
+    }
+
+    /// The best of what few windows promise, and what comes near it there, fitted to all; none where that is little.
+    fn effects_beside(&self, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
+        let few = Few::new(self.data.fit, BESIDE_BEDS_WINDOWS, own_error(bed));
+        let mut promised = self.promised(&few, bed);
+        promised.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+        let left = |tried: &FittedHypothesis| few.excess(&tried.fit);
+        let Some(least) = promised.first().map(left) else { return Vec::new() };
+        if least > (1.0 - BESIDE_BEDS_ASKED_FOR) * few.excess(&few.of(bed).fit) {
+            return Vec::new();
+        }
+        // One may follow within the noise: then another must come near that.
+        promised.retain(|tried| left(tried) < REMAINDER_RIVAL * least.max(1.0));
+        self.progress.begin("effects beside joints that give", promised.len());
+        let fit = |tried: &FittedHypothesis| {
+            let fitted = self.in_all_windows_beside(bed, tried);
+            self.progress.advance(1);
+            fitted
+        };
+        let mut found = promised.par_iter().filter_map(fit).collect::<Vec<_>>();
+        by_error(&mut found);
+        found
+    }
+
+    /// Fits to all windows what was fitted to few, with what `bed` leaves in the place of noise.
+    fn in_all_windows_beside(
+        &self,
+        bed: &FittedHypothesis,
+        tried: &FittedHypothesis,
+    ) -> Option<FittedHypothesis> {
+        let tests = widened(self.data.fit.tests, own_error(bed));
+        let wide = Problem { tests: &tests, ..self.data.fit };
+        let h = &tried.hypothesis;
+        let start = wide.states(h, &tried.fit.values, &states_of(&bed.fit), 2, false)?;
+        let Fit { values, covariance, .. } = in_rounds(&wide, h, start)?;
+        let fitted = with_values(&self.data, h.clone(), bed, &values)?;
+        Some(FittedHypothesis { fit: Fit { covariance, ..fitted.fit }, ..fitted })
+    }
+
+    /// Effects that a linear look promises most of, and beds that are not alike, fitted to few windows.
+    fn promised(&self, few: &Few, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
+        let first = few.of(bed);
+        let data = Data { fit: few.problem(), held_out: few.nothing() };
+        // Coefficients of impact do nothing on a bed.
+        let is_effect = |a: &Addition| a.role().is_some_and(|role| role != Role::Impact);
+        let effects = candidates(self.experiment.wall.parameters()).into_iter().filter(is_effect);
+        let hypothesis = |additions: &[Addition]| self.hypothesis(&self.experiment.nuisances, additions);
+        let looked_at = seconds(&data, &first, &effects.collect::<Vec<_>>(), hypothesis);
+        let promised = looked_at.into_iter().flatten().take(BESIDE_BEDS);
+        let mut starts = promised
+            .map(|second| {
+                let h = hypothesis(&second.additions);
+                let mut values = h.values_from(&bed.hypothesis, &bed.fit.values);
+                values[h.nuisances..].copy_from_slice(&second.values);
+                (h, values)
+            })
+            .collect::<Vec<_>>();
+        starts.extend(self.apart(bed));
+        let fit = |(h, values): (Hypothesis, Vec<f64>)| {
+            let start = data.fit.states(&h, &values, &states_of(&first.fit), 2, false)?;
+            let fit = in_rounds(&data.fit, &h, start)?;
+            judged_from_measured(&data, h, fit)
+        };
+        starts.into_par_iter().filter_map(fit).collect()
+    }
+
+    /// Both joints with a bed each, from where one bed is: alike where both gave, else stiff at the other joint.
+    fn apart(&self, bed: &FittedHypothesis) -> Option<(Hypothesis, Vec<f64>)> {
+        let own = bed.hypothesis.additions.first()?;
+        let at_one_joint = beds().into_iter().filter(|bed| bed.joint().is_some()).collect::<Vec<_>>();
+        let h = self.hypothesis(&self.experiment.nuisances, &at_one_joint);
+        let mut values = h.values_from(&bed.hypothesis, &bed.fit.values);
+        let of_bed = &bed.fit.values[bed.hypothesis.nuisances..];
+        for (index, here) in at_one_joint.iter().enumerate() {
+            let gave = own.joint().is_none() || own.joint() == here.joint();
+            let numbers = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
+            for (i, value) in numbers.zip(of_bed) {
+                let stiffer = !gave && h.unknowns[i].is_softness();
+                values[i] = h.unknowns[i].within(if stiffer { AT_THE_OTHER * value } else { *value });
+            }
+        }
+        Some((h, values))
+    }
+
+    /// The effect of one hypothesis on a bed at other joints, fitted from the wall as it is known: its numbers may have stood
+    /// for the effect while that was missing.
+    fn on_other_bed(
+        &self,
+        bed: &FittedHypothesis,
+        with_effect: &FittedHypothesis,
+    ) -> Option<FittedHypothesis> {
+        let additions = bed.hypothesis.additions.iter().chain(&with_effect.hypothesis.additions[1..]);
+        let additions = additions.copied().collect::<Vec<_>>();
+        let h = self.hypothesis(&self.experiment.nuisances, &additions);
+        let (of_bed, of_effect) =
+            (&bed.fit.values[bed.hypothesis.nuisances..], with_effect.fit.values.last()?);
+        let known = h.start()[..h.nuisances].to_vec();
+        let values = known.iter().chain(of_bed).chain([of_effect]).copied().collect::<Vec<_>>();
+        let start = self.data.fit.states(&h, &values, &self.data.fit.measured_states(), 2, false)?;
+        let fit = in_rounds(&self.data.fit, &h, start)?;
+        judged_from_measured(&self.data, h, fit)
+    }
+}
+
+/// Softness of the joint that was sharp, over that of the other, from which its own bed is fitted.
+const AT_THE_OTHER: f64 = 0.1;
+
+/// What follows the windows best first.
+fn by_error(tried: &mut [FittedHypothesis]) {
+    let error = |t: &FittedHypothesis| joint_error(t).unwrap_or(f64::INFINITY);
+    tried.sort_by(|a, b| error(a).total_cmp(&error(b)));
+}

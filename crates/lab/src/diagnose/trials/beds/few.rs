@@ -1,0 +1,77 @@
+//! Few of the windows to fit, spread over all of them: enough to tell what is worth a fit to all.
+
+use super::{excess, widened};
+use crate::diagnose::fit::{Fit, Problem, WindowFit};
+use crate::diagnose::trials::FittedHypothesis;
+use crate::experiment::{TestData, Window};
+
+/// Few windows of tests whose noise is so many times as large.
+pub struct Few {
+    tests: Vec<TestData>,
+    windows: Vec<Window>,
+    asked: Vec<usize>,
+    factor: f64,
+}
+
+impl Few {
+    /// At most `most` windows of a problem, under a noise that is `factor` times as large.
+    pub fn new(problem: Problem, most: usize, factor: f64) -> Self {
+        let asked = spread_over(problem.windows.len(), most);
+        let windows = asked.iter().map(|k| problem.windows[*k].clone()).collect();
+        Self { tests: widened(problem.tests, factor), windows, asked, factor }
+    }
+
+    /// These windows.
+    pub fn problem(&self) -> Problem<'_> {
+        Problem { tests: &self.tests, windows: &self.windows }
+    }
+
+    /// No windows of these tests.
+    pub fn nothing(&self) -> Problem<'_> {
+        Problem { tests: &self.tests, windows: &[] }
+    }
+
+    /// What a hypothesis leaves in these windows.
+    pub fn left(&self, fit: &Fit) -> Vec<WindowFit> {
+        let noise_2 = self.factor * self.factor;
+        let of = |k: &usize| {
+            let window = &fit.windows[*k];
+            WindowFit { squares: window.squares / noise_2, ..window.clone() }
+        };
+        self.asked.iter().map(of).collect()
+    }
+
+    /// Squared error of a fit to these windows above that of the tests' own noise.
+    pub fn excess(&self, fit: &Fit) -> f64 {
+        let own = |window: &WindowFit| WindowFit {
+            squares: self.factor * self.factor * window.squares,
+            ..window.clone()
+        };
+        excess(&fit.windows.iter().map(own).collect::<Vec<_>>())
+    }
+
+    /// A hypothesis as it is in these windows, none held out.
+    pub fn of(&self, tried: &FittedHypothesis) -> FittedHypothesis {
+        let fit = Fit { windows: self.left(&tried.fit), ..tried.fit.clone() };
+        let held_out = Fit { windows: Vec::new(), ..tried.held_out.clone() };
+        FittedHypothesis { hypothesis: tried.hypothesis.clone(), fit, held_out }
+    }
+}
+
+/// At most `most` of `count` places, spread evenly.
+fn spread_over(count: usize, most: usize) -> Vec<usize> {
+    let chosen = count.min(most);
+    (0..chosen).map(|i| i * count / chosen).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_few_windows_are_spread_over_all() {
+        assert_eq!(spread_over(9, 3), [0, 3, 6]);
+        assert_eq!(spread_over(2, 3), [0, 1]);
+        assert!(spread_over(0, 3).is_empty());
+    }
+}

@@ -1,0 +1,132 @@
+//! Joints that give, looked for where windows ask for them.
+//!
+//! A wall on beds takes long to simulate, so it is tried in steps, each of which may be the last. Windows are short, and
+//! begin from measured states: there is no chaos in them, and few of them tell the stiffness by decades.
+//!
+//! | step | windows | what moves |
+//! | --- | --- | --- |
+//! | probe | few | stiffness by decades, at the ground, at the crack and at both |
+//! | begin | few | stiffness and damping |
+//! | fit | all | these and the wall's own numbers |
+//!
+//! What stands on a bed is the wall as given, with its numbers fitted, or with an effect that is not enough alone.
+//!
+//! What no law follows to its noise is fitted under the widest loss: it feels every window in the measure of what the
+//! model leaves, as if that were the noise.
+
+mod beside;
+mod few;
+mod probe;
+mod rivals;
+
+use rayon::prelude::*;
+
+use super::search::{judged_from_measured, states_of};
+use super::{FittedHypothesis, Trials, WallFits, joint_error};
+use crate::Progress;
+use crate::diagnose::fit::{Fit, Problem, WindowFit, windowed_error};
+use crate::diagnose::hypothesis::Hypothesis;
+use crate::experiment::TestData;
+use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST};
+use probe::Probe;
+
+/// Squared error of windows above that of noise.
+pub fn excess(windows: &[WindowFit]) -> f64 {
+    windowed_error(windows).map_or(f64::INFINITY, |error| error * error - 1.0)
+}
+
+/// Error that a hypothesis leaves in all windows, in standard deviations of the noise; at least the noise itself.
+pub fn own_error(tried: &FittedHypothesis) -> f64 {
+    joint_error(tried).unwrap_or(1.0).max(1.0)
+}
+
+/// Tests whose noise is so many times as large: with a model's own error in its place.
+pub fn widened(tests: &[TestData], factor: f64) -> Vec<TestData> {
+    let wider = |test: &TestData| TestData { noise_rad: test.noise_rad.map(|n| factor * n), ..test.clone() };
+    tests.iter().map(wider).collect()
+}
+
+/// Times that a fit of beds is begun again under the loss that it has come to.
+const ROUNDS: usize = 3;
+/// Share of the error that is worth another.
+const WORTH_A_ROUND: f64 = 0.02;
+
+impl<P: Progress> Trials<'_, P> {
+    /// Joints that give, the best first; none where the windows do not ask for them, or the wall has beds of its own.
+    ///
+    /// What stands on a bed is the wall as given, or with its numbers fitted where some were not known.
+    pub fn beds(&self, WallFits { before, recalibrated }: &WallFits) -> Vec<FittedHypothesis> {
+        self.beds_under(&self.starts(before, recalibrated), recalibrated)
+    }
+
+    /// Joints that give under one of some walls, with its additions; the windows must ask for them beside what is `without`.
+    pub(super) fn beds_under(
+        &self,
+        walls: &[&FittedHypothesis],
+        without: &FittedHypothesis,
+    ) -> Vec<FittedHypothesis> {
+        let far = joint_error(without).is_some_and(|error| error > BEDS_GAP);
+        if !far || self.experiment.wall.gives() {
+            return Vec::new();
+        }
+        let probes = walls.iter().filter_map(|wall| Probe::new(self, wall, without));
+        let Some(probe) = probes.min_by(|a, b| a.least().total_cmp(&b.least())) else { return Vec::new() };
+        let mut begun = probe.begun();
+        let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
+        // A bed may follow within the noise: then another must come near that.
+        begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
+        self.progress.begin("joints that give", begun.len());
+        let fit = |(h, begun): &(Hypothesis, Fit)| {
+            let fitted = self.bed(h, begun);
+            self.progress.advance(1);
+            fitted
+        };
+        let mut fitted = begun.par_iter().filter_map(fit).collect::<Vec<_>>();
+        fitted.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+        if let Some(best) = fitted.first_mut()
+            && let Some(finished) = self.finished_beside_own_error(best)
+        {
+            *best = finished;
+        }
+        fitted
+    }
+
+    /// A hypothesis fitted to the end with the model's own error, what it leaves in all windows, in the place of noise.
+    ///
+    /// So what was known of the wall counts as much as it should, and a deviation is that of a model with such errors.
+    fn finished_beside_own_error(&self, coarse: &FittedHypothesis) -> Option<FittedHypothesis> {
+        let h = &coarse.hypothesis;
+        let tests = widened(self.data.fit.tests, own_error(coarse));
+        let wide = Problem { tests: &tests, ..self.data.fit };
+        let start = wide.states(h, &coarse.fit.values, &states_of(&coarse.fit), 1, false)?;
+        let found = wide.fit_finely(h, start)?;
+        let fit = self.data.fit.states(h, &found.values, &states_of(&found), 1, false)?;
+        let fit = Fit { covariance: found.covariance, ..fit };
+        judged_from_measured(&self.data, h.clone(), fit)
+    }
+
+    /// A bed fitted to all windows with the wall's own numbers, from where it was begun.
+    fn bed(&self, begun_as: &Hypothesis, begun: &Fit) -> Option<FittedHypothesis> {
+        let h = self.hypothesis(&self.experiment.nuisances, &begun_as.additions);
+        let values = h.values_from(begun_as, &begun.values);
+        let start = self.data.fit.states(&h, &values, &self.data.fit.measured_states(), 2, false)?;
+        let fit = in_rounds(&self.data.fit, &h, start)?;
+        judged_from_measured(&self.data, h, fit)
+    }
+}
+
+/// Fits numbers and states under the widest loss, again while that follows the windows better.
+fn in_rounds(problem: &Problem, h: &Hypothesis, start: Fit) -> Option<Fit> {
+    let mut best = start;
+    for _ in 0..ROUNDS {
+        let next = problem.fit_coarsely(h, best.clone())?;
+        let [before, after] = [&best, &next].map(|fit| excess(&fit.windows));
+        if after < before || best.covariance.is_none() {
+            best = next;
+        }
+        if after > (1.0 - WORTH_A_ROUND) * before {
+            break;
+        }
+    }
+    Some(best)
+}

@@ -1,0 +1,92 @@
+//! Beds looked at in few windows: whether these ask for one, and where its fit begins.
+
+use super::few::Few;
+use super::{excess, in_rounds};
+use crate::Progress;
+use crate::diagnose::fit::Fit;
+use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
+use crate::diagnose::trials::{FittedHypothesis, Trials};
+use crate::limits::{BED_DAMPING, BED_DECADES, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_WINDOWS};
+use rayon::prelude::*;
+
+/// A bed looked at in few windows.
+struct Probed {
+    bed: Addition,
+    stiffness_pa_per_m: f64,
+    damping_s: f64,
+    /// Squared error above noise.
+    excess: f64,
+}
+
+/// Few of the windows to fit, spread over all of them, and the wall that may stand on a bed: as it was given, with its numbers
+/// fitted, or with an effect.
+pub struct Probe<'t, P> {
+    trials: &'t Trials<'t, P>,
+    few: Few,
+    wall: &'t FittedHypothesis,
+    beds: Vec<Probed>,
+}
+
+impl<'t, P: Progress> Probe<'t, P> {
+    /// Beds by decades under a wall, where the best of them takes away a share of what is left `without`.
+    pub fn new(
+        trials: &'t Trials<'t, P>,
+        wall: &'t FittedHypothesis,
+        without: &FittedHypothesis,
+    ) -> Option<Self> {
+        let few = Few::new(trials.data.fit, BEDS_WINDOWS, 1.0);
+        let left = few.left(&without.fit);
+        let mut probe = Self { trials, few, wall, beds: Vec::new() };
+        probe.beds = probe.probed(&BED_DECADES);
+        (probe.least() < (1.0 - BEDS_ASKED_FOR) * excess(&left)).then_some(probe)
+    }
+
+    /// Least squared error above noise that a bed leaves.
+    pub fn least(&self) -> f64 {
+        self.beds.iter().map(|p| p.excess).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Of each bed the best stiffness, fitted to the few windows with its damping and with what is uncertain of the wall.
+    pub fn begun(mut self) -> Vec<(Hypothesis, Fit)> {
+        self.beds.extend(self.probed(&BED_HALF_DECADES));
+        let best = |bed: &Addition| {
+            let own = self.beds.iter().filter(|p| p.bed == *bed);
+            own.min_by(|a, b| a.excess.total_cmp(&b.excess))
+        };
+        let chosen = beds().iter().filter_map(best).collect::<Vec<_>>();
+        let fit = |p: &&Probed| {
+            let (h, start) = self.states(p.bed, p.stiffness_pa_per_m, p.damping_s)?;
+            let fit = in_rounds(&self.few.problem(), &h, start)?;
+            Some((h, fit))
+        };
+        let mut begun = chosen.par_iter().filter_map(fit).collect::<Vec<_>>();
+        begun.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
+        begun
+    }
+
+    fn probed(&self, stiffness_pa_per_m: &[f64]) -> Vec<Probed> {
+        let asked = beds().into_iter().flat_map(|bed| stiffness_pa_per_m.iter().map(move |k| (bed, *k)));
+        let one = |(bed, stiffness_pa_per_m): (Addition, f64)| {
+            let (_, fit) = self.states(bed, stiffness_pa_per_m, BED_DAMPING)?;
+            let excess = excess(&fit.windows);
+            Some(Probed { bed, stiffness_pa_per_m, damping_s: BED_DAMPING, excess })
+        };
+        asked.collect::<Vec<_>>().into_par_iter().filter_map(one).collect()
+    }
+
+    /// The wall on a bed, from states near the measured ones; `None` if it would fall off.
+    fn states(&self, bed: Addition, stiffness_pa_per_m: f64, damping_s: f64) -> Option<(Hypothesis, Fit)> {
+        let FittedHypothesis { hypothesis: wall, fit, .. } = self.wall;
+        let nuisances = if wall.nuisances > 0 { &self.trials.experiment.nuisances[..] } else { &[] };
+        let additions = std::iter::once(bed).chain(wall.additions.iter().copied()).collect::<Vec<_>>();
+        let h = self.trials.hypothesis(nuisances, &additions);
+        let mut values = h.values_from(wall, &fit.values);
+        for (value, unknown) in values.iter_mut().zip(&h.unknowns).filter(|(_, u)| u.belongs_to(0)) {
+            let number = if unknown.measure == Measure::Softness { stiffness_pa_per_m } else { damping_s };
+            *value = unknown.within(unknown.measure.value_of(number));
+        }
+        let problem = self.few.problem();
+        let fit = problem.states(&h, &values, &problem.measured_states(), 1, false)?;
+        Some((h, fit))
+    }
+}
