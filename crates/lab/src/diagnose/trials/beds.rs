@@ -22,6 +22,7 @@ use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
 use crate::experiment::{TestData, Window};
 use crate::limits::{
     BED_DAMPING, BED_DECADES, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_GAP, BEDS_NEAR_BEST, BEDS_WINDOWS,
+    HELD_DAMPING,
 };
 
 /// Squared error of windows above that of noise.
@@ -119,6 +120,11 @@ impl<P: Progress> Trials<'_, P> {
 }
 
 impl<P: Progress> Probe<'_, P> {
+    /// Damping times with which beds are looked at.
+    fn dampings(&self) -> &'static [f64] {
+        if self.trials.is_held() { &[BED_DAMPING, HELD_DAMPING] } else { &[BED_DAMPING] }
+    }
+
     fn problem(&self) -> Problem<'_> {
         Problem { tests: self.trials.data.fit.tests, windows: &self.windows }
     }
@@ -126,7 +132,9 @@ impl<P: Progress> Probe<'_, P> {
     /// Beds by decades, where the best of them takes away a share of what is left without.
     fn asks(&self, without: f64) -> Option<Vec<Probed>> {
         let beds = beds();
-        let asked = beds.iter().flat_map(|bed| BED_DECADES.map(|k| (*bed, k, BED_DAMPING)));
+        let asked = beds
+            .iter()
+            .flat_map(|bed| self.dampings().iter().flat_map(move |z| BED_DECADES.map(|k| (*bed, k, *z))));
         let probed = self.probed(asked.collect());
         let least = probed.iter().map(|p| p.excess).fold(f64::INFINITY, f64::min);
         (least < (1.0 - BEDS_ASKED_FOR) * without).then_some(probed)
@@ -135,7 +143,9 @@ impl<P: Progress> Probe<'_, P> {
     /// Of each bed the best stiffness, fitted to the few windows with its damping.
     fn begun(&self, mut probed: Vec<Probed>) -> Vec<(Addition, Fit)> {
         let beds = beds();
-        let asked = beds.iter().flat_map(|bed| BED_HALF_DECADES.map(|k| (*bed, k, BED_DAMPING)));
+        let asked = beds.iter().flat_map(|bed| {
+            self.dampings().iter().flat_map(move |z| BED_HALF_DECADES.map(|k| (*bed, k, *z)))
+        });
         probed.extend(self.probed(asked.collect()));
         let best = |bed: &Addition| {
             probed.iter().filter(|p| p.bed == *bed).min_by(|a, b| a.excess.total_cmp(&b.excess))
@@ -169,7 +179,7 @@ impl<P: Progress> Probe<'_, P> {
 }
 
 /// Fits numbers and states under the widest loss, again while that follows the windows better.
-fn in_rounds(problem: &Problem, h: &Hypothesis, start: Fit) -> Option<Fit> {
+pub(super) fn in_rounds(problem: &Problem, h: &Hypothesis, start: Fit) -> Option<Fit> {
     let mut best = start;
     for _ in 0..ROUNDS {
         let next = problem.fit_coarsely(h, best.clone())?;
