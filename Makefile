@@ -46,7 +46,7 @@ measured: ## a wall that was measured: joints that give fitted, and what its rel
 	cargo run --release --locked --quiet --bin mrbd -- report outputs/measured_a
 
 measured-rivals: ## the same with three lines, a bed that crushes and worn edges in the place of a bed
-	@for law in lines crushing worn; do for fit in a b; do \
+	@for law in lines crushing worn; do for fit in a b after_a after_b; do \
 		cargo run --release --locked --quiet --bin mrbd -- calibrate inputs/measured/griffith_2004/rivals/$${law}_$$fit.toml \
 			--out outputs/measured_$${law}_$$fit --resume || exit 1; done; done
 

@@ -34,7 +34,7 @@ fn run(wall: &WallParameters, shaking: &Shaking, tolerance: f64) -> (Response, H
 fn drags(effect: &Effect) -> bool {
     match effect.entry().role {
         Role::Friction | Role::Memory => true,
-        Role::Mass | Role::Damper | Role::Spring | Role::Corners | Role::Bed => false,
+        Role::Mass | Role::Damper | Role::Spring | Role::Corners | Role::Bed | Role::JointLaw => false,
         Role::Impact | Role::GroundMotion | Role::Sensor => false,
     }
 }

@@ -85,7 +85,8 @@ fn analytic_a_window_with_memory_goes_on_as_the_whole_run() {
         }
         let state = State { theta: first.position(0.0), omega: first.velocity(0.0) };
         let plastic_displacement_m = plastic_m;
-        let start = Start { time_s: *start_s, state, contact: Some(*contact), plastic_displacement_m };
+        let (time_s, contact) = (*start_s, Some(*contact));
+        let start = Start { time_s, state, contact, plastic_displacement_m, ..Start::default() };
         let mut ends = Stretches::default();
         let response = simulator.run_from(&start, last_s + 0.5 * last.h(), &mut ends);
         let (_, _, found) = ends.0[ends.0.len() - 1];

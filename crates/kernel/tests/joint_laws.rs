@@ -239,9 +239,12 @@ fn analytic_limits_are_the_laws_they_narrow_to() {
 
 #[test]
 fn analytic_quarter_periods_are_the_quadrature_of_the_energy() {
-    for (effect, theta_0) in
-        [(lines_at("ground", 0.0), 0.03), (lines_at("ground", 0.0), 0.008), (rounded_at("ground"), 0.01), (crushing_at("ground", 0.0), 0.003)]
-    {
+    for (effect, theta_0) in [
+        (lines_at("ground", 0.0), 0.03),
+        (lines_at("ground", 0.0), 0.008),
+        (rounded_at("ground"), 0.01),
+        (crushing_at("ground", 0.0), 0.003),
+    ] {
         let bedded = wall(block(vec![effect], theta_0));
         let law = bedded.joint_laws()[0].expect("a law");
         let rocking = RockingWall::new(&bedded);

@@ -3,7 +3,7 @@
 use fearless_simd::Level;
 
 use super::MechanicsError;
-use super::bed::{Branch, JointLaw, JointShape};
+use super::bed::{Branch, JointLaw};
 use super::contact::{Contact, Joint, Pivot, Touching};
 use super::formula::{FormulaLaws, Slopes};
 use super::geometry::{Arms, Pair, Rotations, TurnedArms};
@@ -51,9 +51,9 @@ pub struct RockingWall {
     /// The same wall on sharp edges, where joints give: whose impacts stiff beds have.
     pub(super) edges: Option<Box<RockingWall>>,
     /// Laws of the joints in place of sharp edges, with what they remember ...
-    joint_laws: [Option<JointLaw>; 2],
+    pub(super) joint_laws: [Option<JointLaw>; 2],
     /// ... and the branches they are in.
-    branches: [Branch; 2],
+    pub(super) branches: [Branch; 2],
     /// Relative velocity below which a joint that would open stays closed, rad/s.
     pub(super) capture_rad_s: f64,
     /// C_1 … C_8 with the factors of effects.
@@ -227,63 +227,6 @@ impl RockingWall {
     #[inline]
     pub(crate) fn joint_law(&self, joint: Joint) -> Option<&JointLaw> {
         self.joint_laws[joint as usize].as_ref()
-    }
-
-    /// In which branch of its law a joint is.
-    #[inline]
-    pub(crate) fn branch(&self, joint: Joint) -> Branch {
-        self.branches[joint as usize]
-    }
-
-    /// Puts a joint into a branch of its law, which may remember more than before.
-    pub(crate) fn set_branch(&mut self, joint: Joint, law: JointLaw, branch: Branch) {
-        let remembers = self.joint_laws[joint as usize] != Some(law);
-        (self.joint_laws[joint as usize], self.branches[joint as usize]) = (Some(law), branch);
-        for (contact, motion) in Contact::ALL.into_iter().zip(&mut self.motions) {
-            let shape =
-                JointShape::new(Some(&law), self.wall.width_m[joint as usize], contact.at(joint), branch);
-            motion.reshape(joint, shape);
-        }
-        let Some(edges) = &mut self.edges else { return };
-        if remembers {
-            **edges = Self::new(&self.wall.with_sharp_edges(&self.joint_laws));
-        }
-        for joint in [Joint::Ground, Joint::Crack] {
-            if let Some(law) = self.joint_laws[joint as usize].filter(|law| !law.gives()) {
-                edges.set_branch(joint, law, self.branches[joint as usize]);
-            }
-        }
-    }
-
-    /// Enters the branches of the joints' laws at a state, and what they remember: the rotations there and the largest
-    /// before, rad.
-    pub(crate) fn enter_branches(&mut self, state: &State, crushed_rad: [[f64; 2]; 2]) {
-        for joint in self.joints() {
-            let Some(law) = self.joint_laws[joint as usize] else { continue };
-            if law.kink_rad(Pivot::Right).is_none() {
-                continue;
-            }
-            let [right, left] = crushed_rad[joint as usize];
-            let before = law.turned_by(Pivot::Right, right).turned_by(Pivot::Left, left);
-            let phi = opening(joint, state.theta);
-            let side = Pivot::of_angle(phi);
-            let law = before.turned_by(side, phi);
-            let beyond = law.kink_rad(side).is_some_and(|kink| match law.crushes() {
-                // It goes on to crush where it is further than ever, and on its way there.
-                true => law != before && phi.abs() >= kink && side.sign() * opening(joint, state.omega) > 0.0,
-                false => phi.abs() > kink,
-            });
-            self.set_branch(joint, law, if beyond { Branch::Beyond } else { Branch::Before });
-        }
-    }
-
-    /// The largest rotations of each joint to the right and to the left that its law remembers, those now among them, rad.
-    pub(crate) fn crushed_rad(&self, theta: Pair) -> [[f64; 2]; 2] {
-        [Joint::Ground, Joint::Crack].map(|joint| {
-            let phi = opening(joint, theta);
-            let law = self.joint_law(joint).map(|law| law.turned_by(Pivot::of_angle(phi), phi));
-            law.map_or([0.0; 2], |law| law.crushed_rad())
-        })
     }
 
     /// The contact state of a wall with these rotations, joints on beds by the width of their contact.

@@ -18,6 +18,7 @@
 //! | [`CrushingJoint`] | the middle of the elastic contact, on what was not crushed | the weight's and the springs', less what crushes |
 //! | [`RoundedEdges`] | where the arc touches; closed up to the end of the flat | the weight's |
 
+mod branches;
 mod crossing;
 mod crushing;
 mod joint_law;
