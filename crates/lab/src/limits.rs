@@ -235,6 +235,8 @@ limits! {
     BED_HALF_DECADES: [f64; 4] = [3e7, 3e8, 3e9, 3e10], "Pa/m";
     /// Damping time with which beds are looked at.
     BED_DAMPING: f64 = 1e-3, "s";
+    /// The same beside it where the top is held: nothing else takes energy from such a strip.
+    HELD_DAMPING: f64 = 1e-2, "s";
     /// Share of the squared error above noise that the best of these must take away for beds to be fitted.
     BEDS_ASKED_FOR: f64 = 0.3, "share";
     /// Share of the squared error above noise that they must take away, in the tests held out, for effects beside them to be

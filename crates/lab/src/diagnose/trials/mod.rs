@@ -6,6 +6,7 @@
 //! | `fitted_hypothesis` | what came of it: whether it follows the tests within noise, closes a gap, does something |
 //! | `effects` | the wall as given, its own numbers, effects one by one and in pairs, an answer fitted again |
 //! | `beds` | joints that give |
+//! | `joint_laws` | other laws of joints beside a bed, for strips whose top is held |
 //! | `imitation` | hypotheses that could imitate the best |
 //! | `own` | laws of the user's own |
 //! | `friction` | friction that gives a little first |
@@ -16,6 +17,7 @@ mod effects;
 mod fitted_hypothesis;
 mod friction;
 mod imitation;
+mod joint_laws;
 mod own;
 mod patterns;
 mod search;

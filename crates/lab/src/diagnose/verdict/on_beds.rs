@@ -27,7 +27,28 @@ pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found
     }
     let rivals = trials.rivals_of_beds(before);
     let standing = Standing::of(trials, wall, &best, &rivals)?;
-    Some(standing.found(trials, wall, best, &near, [beds, pairs, rivals].concat()))
+    let laws = trials.joint_laws(&best);
+    let equals = equals_of_held(trials, &beds, &laws);
+    let found = standing.found(trials, wall, best, &near, [beds, pairs, laws, rivals].concat());
+    Some(if equals.is_empty() {
+        found
+    } else {
+        Found { verdict: Verdict::Class, equivalent: equals, ..found }
+    })
+}
+
+/// What a strip whose top is held cannot tell from its best bed: beds at other joints and other laws that leave no more than a
+/// rival may; empty where nothing comes near, or no top is held.
+fn equals_of_held<P: Progress>(
+    trials: &Trials<P>,
+    beds: &[FittedHypothesis],
+    laws: &[FittedHypothesis],
+) -> Vec<String> {
+    let Some((best, others)) = beds.split_first().filter(|_| trials.is_held()) else { return Vec::new() };
+    let left = |tried: &FittedHypothesis| excess(&all_windows(tried)).max(1.0);
+    let near = others.iter().chain(laws).filter(|other| left(other) < REMAINDER_RIVAL * left(best));
+    let near = near.map(|other| other.hypothesis.name()).collect::<Vec<_>>();
+    if near.is_empty() { near } else { [vec![best.hypothesis.name()], near].concat() }
 }
 
 /// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
@@ -146,7 +167,9 @@ fn with_effect<P: Progress>(
     if taken.taken_held_out < BESIDE_BEDS_FROM {
         return None;
     }
-    let pairs = if is_noise(alone) { Vec::new() } else { trials.beside_beds(beds) };
+    // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
+    let none_beside = is_noise(alone) || trials.is_held();
+    let pairs = if none_beside { Vec::new() } else { trials.beside_beds(beds) };
     let Some((two, others)) = pairs.split_first().filter(|(two, _)| is_worth_it(trials, wall, alone, two))
     else {
         return Some(OnBeds { best: alone.clone(), near: Vec::new(), pairs });

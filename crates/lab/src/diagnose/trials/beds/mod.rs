@@ -116,7 +116,7 @@ impl<P: Progress> Trials<'_, P> {
 }
 
 /// Fits numbers and states under the widest loss, again while that follows the windows better.
-fn in_rounds(problem: &Problem, h: &Hypothesis, start: Fit) -> Option<Fit> {
+pub(super) fn in_rounds(problem: &Problem, h: &Hypothesis, start: Fit) -> Option<Fit> {
     let mut best = start;
     for _ in 0..ROUNDS {
         let next = problem.fit_coarsely(h, best.clone())?;

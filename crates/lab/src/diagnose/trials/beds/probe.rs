@@ -6,7 +6,7 @@ use crate::Progress;
 use crate::diagnose::fit::Fit;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
 use crate::diagnose::trials::{FittedHypothesis, Trials};
-use crate::limits::{BED_DAMPING, BED_DECADES, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_WINDOWS};
+use crate::limits::{BED_DAMPING, BED_DECADES, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_WINDOWS, HELD_DAMPING};
 use rayon::prelude::*;
 
 /// A bed looked at in few windows.
@@ -64,12 +64,19 @@ impl<'t, P: Progress> Probe<'t, P> {
         begun
     }
 
+    /// Damping times with which beds are looked at.
+    fn dampings(&self) -> &'static [f64] {
+        if self.trials.is_held() { &[BED_DAMPING, HELD_DAMPING] } else { &[BED_DAMPING] }
+    }
+
     fn probed(&self, stiffness_pa_per_m: &[f64]) -> Vec<Probed> {
-        let asked = beds().into_iter().flat_map(|bed| stiffness_pa_per_m.iter().map(move |k| (bed, *k)));
-        let one = |(bed, stiffness_pa_per_m): (Addition, f64)| {
-            let (_, fit) = self.states(bed, stiffness_pa_per_m, BED_DAMPING)?;
+        let numbers = self.dampings().iter().flat_map(|zeta| stiffness_pa_per_m.iter().map(|k| (*k, *zeta)));
+        let numbers = numbers.collect::<Vec<_>>();
+        let asked = beds().into_iter().flat_map(|bed| numbers.iter().map(move |of| (bed, *of)));
+        let one = |(bed, (stiffness_pa_per_m, damping_s)): (Addition, (f64, f64))| {
+            let (_, fit) = self.states(bed, stiffness_pa_per_m, damping_s)?;
             let excess = excess(&fit.windows);
-            Some(Probed { bed, stiffness_pa_per_m, damping_s: BED_DAMPING, excess })
+            Some(Probed { bed, stiffness_pa_per_m, damping_s, excess })
         };
         asked.collect::<Vec<_>>().into_par_iter().filter_map(one).collect()
     }
