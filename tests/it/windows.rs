@@ -1,6 +1,6 @@
 //! Windows of a run: started from a state of the whole run they go on as it does, from any state they do not fail.
 
-use mrbd_kernel::model::{Contact, G_M_S2, ImpactLaw, Pair, State, WallParameters};
+use mrbd_kernel::model::{Contact, G_M_S2, ImpactLaw, Pair, State, TopMemory, WallParameters};
 use mrbd_kernel::simulate::{Accuracy, History, Observer, Outcome, Shaking, Simulator, Start};
 use mrbd_kernel::solver::Quintic;
 use rand::RngExt;
