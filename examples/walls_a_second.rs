@@ -7,6 +7,7 @@
 use std::error::Error;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::model::{Effect, Wall, WallParameters};
 use mrbd_kernel::simulate::{Accuracy, Response, Shaking, Simulator, simulate, simulate_side_by_side};
 
@@ -16,29 +17,47 @@ mod walls;
 /// Façades of each configuration, fewer on beds, whose runs take ten times as many evaluations.
 const DRAWS: [u64; 2] = [32, 12];
 
-/// An effect of the catalogue and its parameters; `None`: the model of the paper alone.
-type Law = Option<(&'static str, &'static [f64])>;
+/// What acts on a wall beyond the model of the paper.
+enum Law {
+    Nothing,
+    /// An effect of the catalogue and its parameters.
+    Effect(&'static str, &'static [f64]),
+    /// A formula and its parameter: name, value and unit.
+    Formula(Place, &'static str, (&'static str, f64, &'static str)),
+}
 
 /// What acts on the walls, and how many are drawn of them.
-const KINDS: [(&str, Law, u64); 7] = [
-    ("sharp edges", None, DRAWS[0]),
-    ("damper at the top", Some(("viscous_damping", &[3000.0])), DRAWS[0]),
-    ("damper in the crack", Some(("joint_damping.crack", &[200.0])), DRAWS[0]),
-    ("cubic spring", Some(("cubic_stiffness", &[1e7])), DRAWS[0]),
-    ("friction at the top", Some(("coulomb_friction", &[800.0])), DRAWS[0]),
-    ("bed under the wall", Some(("compliant_joint.ground", &[2e9, 4e-4])), DRAWS[1]),
-    ("beds in both joints", Some(("compliant_joint.both", &[2e9, 4e-4])), DRAWS[1]),
+const KINDS: [(&str, Law, u64); 9] = [
+    ("sharp edges", Law::Nothing, DRAWS[0]),
+    ("damper at the top", Law::Effect("viscous_damping", &[3000.0]), DRAWS[0]),
+    ("damper in the crack", Law::Effect("joint_damping.crack", &[200.0]), DRAWS[0]),
+    ("cubic spring", Law::Effect("cubic_stiffness", &[1e7]), DRAWS[0]),
+    ("friction at the top", Law::Effect("coulomb_friction", &[800.0]), DRAWS[0]),
+    ("formula at the top", Law::Formula(Place::Top, "-c*v", ("c", 3000.0, "N*s/m")), DRAWS[0]),
+    ("formula in the crack", Law::Formula(Place::Crack, "-c*w", ("c", 200.0, "N*m*s")), DRAWS[0]),
+    ("bed under the wall", Law::Effect("compliant_joint.ground", &[2e9, 4e-4]), DRAWS[1]),
+    ("beds in both joints", Law::Effect("compliant_joint.both", &[2e9, 4e-4]), DRAWS[1]),
 ];
+
+impl Law {
+    fn on(&self, wall: &Wall) -> Result<Wall, Box<dyn Error>> {
+        let mut parameters: WallParameters = wall.parameters().clone();
+        match self {
+            Law::Nothing => {}
+            Law::Effect(name, values) => parameters.effects.push(Effect::with_parameters(name, values)?),
+            Law::Formula(place, text, (name, value, unit)) => {
+                let own = [Parameter::new(name, *value, unit)];
+                parameters.formulas.push(Formula::parse(text, *place, &own)?);
+            }
+        }
+        Ok(Wall::new(parameters)?)
+    }
+}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let shakings: Vec<Shaking> = walls::records().iter().take(2).map(walls::shaking).collect();
-    for (kind, effect, draws) in KINDS {
-        let effect = effect.map(|(name, values)| Effect::with_parameters(name, values)).transpose()?;
-        let with = |wall: Wall| {
-            let effects = effect.into_iter().collect();
-            Wall::new(WallParameters { effects, ..wall.parameters().clone() })
-        };
-        let walls = walls::facades(draws).into_iter().map(with).collect::<Result<Vec<_>, _>>()?;
+    for (kind, law, draws) in KINDS {
+        let walls = walls::facades(draws).iter().map(|wall| law.on(wall)).collect::<Result<Vec<_>, _>>()?;
         tell(kind, "beside", || beside(&walls, &shakings))?;
         tell(kind, "alone", || alone(&walls, &shakings))?;
     }

@@ -1,7 +1,7 @@
 //! Which vector instructions are worth compiling for.
 //!
 //! On x86-64 there are two: AVX2, which comes with products and sums rounded once, and the least that every processor
-//! has. What lies between lacks such products, which are then most of the time; AVX-512 would do the same four lanes.
+//! has. What lies between lacks such products, which are then most of the time; AVX-512 would have eight lanes, which do not pay.
 //! All give the same bits, and each takes the compiler its time.
 
 use fearless_simd::Level;
