@@ -20,7 +20,9 @@ use mrbd_kernel::model::Role;
 pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found> {
     let WallFits { before, recalibrated } = wall;
     let beds = trials.beds(wall);
-    let alone = beds.first().filter(|best| does_something(best))?;
+    if !beds.first().is_some_and(does_something) {
+        return None;
+    }
     let OnBeds { best, near, pairs } = with_effect(trials, wall, &beds)?;
     if Remainder::new(&trials.data, recalibrated, &best, &[])?.taken_held_out < REMAINDER_TAKEN {
         return None;
