@@ -113,7 +113,7 @@ fn analytic_three_lines_are_the_closed_form() {
 fn analytic_worn_edges_are_the_closed_form() {
     let joint = rounded();
     let (n, b, a, r) = (joint.load_n, joint.width_m, 0.04, 3.0);
-    let end = (a / r as f64).asin();
+    let end = f64::asin(a / r);
     assert_eq!(joint.end_rad(), Some(end));
     for phi in [1e-4, 0.005, 0.0133] {
         assert!(same(joint.moment_n_m(phi), n * (b / 2.0 - a + r * f64::sin(phi)), 4.0), "moment at {phi}");
@@ -154,10 +154,13 @@ fn analytic_a_bed_that_crushes_integrated_spring_by_spring_gives_the_closed_form
     }
 }
 
+/// A number of a joint by its rotation, rad.
+type Law<'a> = &'a dyn Fn(f64) -> f64;
+
 #[test]
 fn analytic_moments_are_the_slopes_of_weight_and_springs_and_of_what_is_lost() {
     let (lines, bed, edges) = (lines(), crushing(), rounded());
-    let laws: [(&str, &dyn Fn(f64) -> f64, &dyn Fn(f64) -> f64); 3] = [
+    let laws: [(&str, Law, Law); 3] = [
         ("lines", &|phi| lines.load_n * lines.rise_m(phi), &|phi| lines.moment_n_m(phi)),
         ("crushing", &|phi| bed.load_n * bed.rise_m(phi) + bed.stored_j(phi), &|phi| {
             bed.moment_n_m(phi) - bed.lost_n_m(phi)

@@ -88,7 +88,7 @@ fn verified_nothing_is_named_of_releases_in_which_nothing_hides() {
 }
 
 #[test]
-fn verified_a_measured_release_can_be_diagnosed() {
+fn regress_measured_releases_make_a_class_of_joints_that_give() {
     for name in ["diagnose_a.toml", "diagnose_b.toml"] {
         let experiment = Experiment::load(&shipped().join(name)).expect("an experiment that is shipped");
         let found = windows(&experiment.tests);
@@ -98,15 +98,21 @@ fn verified_a_measured_release_can_be_diagnosed() {
         // Stated: 0.4 mm at 0.75 m.
         assert!((experiment.tests[0].noise_rad[0] / (4e-4 / 0.75) - 1.0).abs() < 1e-9);
         let summary = diagnose(&experiment, &()).expect("a diagnosis").summary;
-        let told = |rival: &mrbd_lab::diagnose::answer::Rival| {
-            let numbers =
-                rival.parameters.iter().map(|p| format!("{} {:.3e}", p.key, p.value)).collect::<Vec<_>>();
-            println!("  {:?} {:?} {}", rival.windowed_error, rival.name, numbers.join(", "));
-        };
-        println!("{name}: {:?}, {:?}, place {:?}", summary.verdict, summary.equivalent, summary.place);
-        println!("  {:?} {:?}", summary.windowed_error, summary.remainder);
-        summary.effects.iter().for_each(|effect| println!("  {effect:?}"));
-        summary.rivals.iter().take(16).for_each(told);
+        println!("{name}: {:?}, {:?}", summary.verdict, summary.equivalent);
+        assert_eq!(summary.verdict, Verdict::Class, "{name}");
+        for equal in [
+            "compliant_joint.ground",
+            "compliant_joint.crack",
+            "compliant_joint.both",
+            "trilinear_joint.both",
+        ] {
+            assert!(summary.equivalent.iter().any(|own| own == equal), "{name}: {equal}");
+        }
+        // The guide has 92 and 93 %, and 2.2 and 2.5 of the error stated: other rounding moves a fit by some hundredths.
+        let taken = summary.remainder.expect("more than noise is left").taken_held_out;
+        assert!((0.90..0.95).contains(&taken), "{name}: {taken}");
+        let after = summary.windowed_error.after.expect("windows");
+        assert!((2.0..2.7).contains(&after), "{name}: {after}");
     }
 }
 

@@ -58,18 +58,18 @@ impl RockingWall {
 }
 
 impl RockingWall {
-    /// A joint begins to crush: its edge goes inwards from now on, so that the point about which the body turns moves at
-    /// once. Gives the velocities after it.
-    pub(crate) fn begin_to_crush(
+    /// A joint begins to crush, or ends to: its edge goes inwards from now on, or no more. So the point about which the body
+    /// turns moves at once. Gives the velocities after it.
+    pub(crate) fn turn_crushing(
         &mut self,
         contact: Contact,
         joint: Joint,
-        law: JointLaw,
+        (law, branch): (JointLaw, Branch),
         state: &State,
     ) -> Pair {
         let rotations = Rotations::new(state.theta);
         let before = self.motion(contact).mass_matrix(rotations);
-        self.set_branch(joint, law, Branch::Beyond);
+        self.set_branch(joint, law, branch);
         let motion = self.motion(contact);
         passed([&before, &motion.mass_matrix(rotations)], motion.freedom.along(joint), state.omega)
     }

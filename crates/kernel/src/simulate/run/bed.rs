@@ -49,16 +49,21 @@ impl<O: Observer> Run<O> {
         let Some(law) = self.wall.joint_law(joint).copied() else { return };
         match kind {
             BedChangeKind::Stops(side) => {
-                // What is left of the rate is the error of a step.
-                match joint {
-                    Joint::Ground => self.now.velocity[0] = 0.0,
-                    Joint::Crack => self.now.velocity[1] = self.now.velocity[0],
+                if side.sign() * opening(joint, self.now.velocity) > 0.0 {
+                    // What is left of the rate is the error of a step.
+                    match joint {
+                        Joint::Ground => self.now.velocity[0] = 0.0,
+                        Joint::Crack => self.now.velocity[1] = self.now.velocity[0],
+                    }
                 }
+                // An impact at the other joint may have turned it back at a rate.
                 let law = law.turned_by(side, opening(joint, self.now.position));
-                self.wall.set_branch(joint, law, Branch::Before);
+                self.now.velocity =
+                    self.wall.turn_crushing(self.contact, joint, (law, Branch::Before), &self.state());
             }
             BedChangeKind::Passes(_) if law.crushes() => {
-                self.now.velocity = self.wall.begin_to_crush(self.contact, joint, law, &self.state());
+                self.now.velocity =
+                    self.wall.turn_crushing(self.contact, joint, (law, Branch::Beyond), &self.state());
             }
             BedChangeKind::Passes(_) => self.wall.set_branch(joint, law, Branch::Beyond),
             _ => self.wall.set_branch(joint, law, Branch::Before),
