@@ -57,7 +57,7 @@ fn analytic_twin_of_a_floor_that_weakens_is_told_by_how_far_it_has_been_and_its_
     let found = diagnosed(&experiment, &out);
     assert_eq!(found["verdict"], "formula", "{found:#}");
     let effect = &found["effects"][0];
-    assert_eq!(effect["formula"], "k*x*x_max/(g+x_max)");
+    assert_eq!(effect["formula"], "k*x*x_max/(g+x_max)", "{found:#}");
     let number = |name: &str| effect["parameters"][name].as_f64().expect("a number");
     // Where the top went, some 0.03 m: the force is known far better than k and g apart.
     let force = |k: f64, g: f64, m: f64| k * m / (g + m);
@@ -78,10 +78,10 @@ fn analytic_twin_of_a_force_without_a_formula_is_told_as_a_curve_that_runs() {
     let own = [
         Parameter::new("f", 500.0, "N"),
         Parameter::new("a", 0.012, "m"),
-        Parameter::new("w", 0.006, "m"),
+        Parameter::new("b", 0.006, "m"),
         Parameter::new("c", 600.0, "N*s/m"),
     ];
-    let law = Formula::parse("-f*(x/a)*exp(-((abs(x)-a)/w)**2) - c*v", Place::Top, &own).expect("a formula");
+    let law = Formula::parse("-f*(x/a)*exp(-((abs(x)-a)/b)**2) - c*v", Place::Top, &own).expect("a formula");
     let hidden = WallParameters { formulas: vec![law], ..described.clone() };
     let experiment = write_twins(folder.path(), &described, [&hidden; 3], [1.8, 2.6, 2.2], |theta| theta);
     let out = folder.path().join("out");

@@ -15,11 +15,11 @@ use super::atom::{Atom, Form, Site};
 pub const GROUPS: [(&str, f64); 8] = [
     ("nothing", 6.0),
     ("a name", 6.0),
-    ("one atom", 19.0),
+    ("one atom", 20.0),
     ("two atoms", 6.0),
     ("joint", 5.0),
     ("outside the grammar", 4.0),
-    ("memory", 3.0),
+    ("memory", 2.0),
     ("a hidden body", 1.0),
 ];
 

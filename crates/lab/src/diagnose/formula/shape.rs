@@ -133,7 +133,7 @@ const ONE_WAY: &[ShapeNumber] = &[exponent(&[0.5, 1.0, 1.5, 2.0, 3.0])];
 const ONE_SIDED_OPENING: &[ShapeNumber] =
     &[ShapeNumber { letter: "p", meaning: Meaning::Exponent, grid: &[0.3, 0.5, 1.0, 1.5, 2.0, 3.0] }];
 
-const SCALES: &[ShapeNumber] = &[threshold("g", &[0.25, 0.5, 1.0, 2.0, 4.0, 8.0])];
+const SCALES: &[ShapeNumber] = &[threshold("g", &[0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0])];
 const SECANT: &[ShapeNumber] = &[threshold("g", WIDTHS)];
 const SLACK: &[ShapeNumber] = &[ShapeNumber {
     letter: "a",
