@@ -319,11 +319,6 @@ limits! {
     REMAINDER_BY_SWING: f64 = 0.5, "share";
     /// What the next effect of another kind must leave in the tests held out, over what the named one leaves, squared.
     REMAINDER_RIVAL: f64 = 3.0, "";
-    /// Fewest windows without an impact, among those fitted and among those held out, that are judged alone where windows with
-    /// one are missed.
-    LEAST_SMOOTH: usize = 10, "";
-    /// Share of the squared error above noise that a name may leave then in all windows, fitted and held out.
-    LEFT_AT_IMPACTS: f64 = 0.2, "share";
     /// Relative standard deviation of the numbers of a bed by another way to model it.
     ///
     /// Chosen: beds of an independent simulator are found 3 % too soft at both joints, and 0.5 % too stiff at one.

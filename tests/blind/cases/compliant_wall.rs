@@ -1,6 +1,6 @@
 //! The true wall of a case for the simulator with compliant corners.
 
-use super::super::compliant::wall::{Bed, LooseMass};
+use super::super::compliant::wall::{Bed, LooseMass, SPRINGS};
 use super::super::compliant::{CompliantWall, TopLaw};
 use super::super::laws::atom::Site;
 use super::draw::{Case, Contacts};
@@ -16,6 +16,9 @@ pub fn true_wall(case: &Case) -> CompliantWall {
         Contacts::Springs { stiffness_pa_per_m, damping_s } => {
             let stiffness_n_per_m2 = stiffness_pa_per_m * case.actual.length_m;
             wall.beds = [Some(Bed { stiffness_n_per_m2, damping_s }); 2];
+            // Stiff rows stand on their outermost springs: these lie where the edges are.
+            let wider = SPRINGS as f64 / (SPRINGS as f64 - 1.0);
+            wall.corner_x_m = wall.corner_x_m.map(|corners| corners.map(|x| wider * x));
         }
     }
     case.hidden.iter().for_each(|effect| add(&mut wall, effect, &case.actual));

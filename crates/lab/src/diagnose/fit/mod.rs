@@ -101,13 +101,6 @@ impl Problem<'_> {
         Some(in_chunks(&self.states_of(fit), chords))
     }
 
-    /// Which windows of a fit hold no impact; `None` if there is no such wall.
-    pub fn without_impacts(&self, h: &Hypothesis, values: &[f64], fit: &Fit) -> Option<Vec<bool>> {
-        let replay = Replay::new(self.tests, &h.physics(values)?);
-        let at = At::all(&replay, owned(&self.states_of(fit)));
-        Some(at.iter().map(|at| at.changes.iter().all(|occurs| !occurs)).collect())
-    }
-
     /// The windows with the states of a fit.
     pub(super) fn states_of<'f>(&'f self, fit: &'f Fit) -> Vec<InState<'f>> {
         self.windows.iter().zip(fit.windows.iter().map(|state| &state.x[..])).collect()

@@ -87,11 +87,11 @@ impl Found {
 }
 
 /// A hypothesis that may be the answer.
-pub(super) struct Answer {
-    pub verdict: Verdict,
-    pub after: FittedHypothesis,
+struct Answer {
+    verdict: Verdict,
+    after: FittedHypothesis,
     /// Names of what cannot be told from it.
-    pub equivalent: Vec<String>,
+    equivalent: Vec<String>,
 }
 
 /// The verdict on what effects did to the windows one by one.
@@ -118,12 +118,12 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
 }
 
 /// A gap between model and measurement, or none.
-pub(super) struct Gap<'t, P> {
-    pub trials: &'t Trials<'t, P>,
+struct Gap<'t, P> {
+    trials: &'t Trials<'t, P>,
     /// The wall without effects.
-    pub wall: WallFits,
+    wall: WallFits,
     /// Windowed error of the wall as given.
-    pub error: f64,
+    error: f64,
 }
 
 impl<P: Progress> Gap<'_, P> {
@@ -153,8 +153,7 @@ impl<P: Progress> Gap<'_, P> {
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
         let far = joint_error(&self.wall.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
         if one.is_none() && !far && gain <= WORTH_PAIRS {
-            let found = self.but_for_impacts(&singles);
-            return found.unwrap_or_else(|| self.placed(None, singles));
+            return self.placed(None, singles);
         }
         let beds = if one.is_none() { BedsBeside::an_effect(self.trials, &singles) } else { None };
         let follow = beds.as_ref().and_then(|beds| beds.following(self.trials, &self.wall, &singles));
@@ -164,7 +163,6 @@ impl<P: Progress> Gap<'_, P> {
         let (answer, tried) = self.with_pairs(one, singles);
         let Some(answer) = answer else {
             let found = beds.and_then(|beds| beds.leaving_little(self.trials, &self.wall, &tried));
-            let found = found.or_else(|| self.but_for_impacts(&tried));
             return found.unwrap_or_else(|| self.placed(None, tried));
         };
         let answer = Answer { after: self.trials.refined(answer.after), ..answer };
@@ -223,7 +221,7 @@ impl<P: Progress> Gap<'_, P> {
 
     /// The best hypothesis that closes the gap, is an answer, and is worth its name beside a simpler one; with what cannot
     /// be told from it.
-    pub(super) fn named(&self, tried: &[FittedHypothesis], simpler: &FittedHypothesis) -> Option<Answer> {
+    fn named(&self, tried: &[FittedHypothesis], simpler: &FittedHypothesis) -> Option<Answer> {
         let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
         let best = best_answer(closing.iter().copied())?;
         if self.gain(simpler, best) < WORTH_A_NAME {
@@ -359,15 +357,11 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// What one hypothesis gains over another.
-    pub(super) fn gain(&self, over: &FittedHypothesis, of: &FittedHypothesis) -> f64 {
+    fn gain(&self, over: &FittedHypothesis, of: &FittedHypothesis) -> f64 {
         against(&self.trials.data, over) - against(&self.trials.data, of)
     }
 
-    pub(super) fn found(
-        self,
-        Answer { verdict, after, equivalent }: Answer,
-        tried: Vec<FittedHypothesis>,
-    ) -> Found {
+    fn found(self, Answer { verdict, after, equivalent }: Answer, tried: Vec<FittedHypothesis>) -> Found {
         let WallFits { before, recalibrated } = self.wall;
         Found {
             verdict,

@@ -6,10 +6,8 @@
 //! | `worth_naming` | whether tests could show an effect, whether a second one shows, and where a force is missing |
 //! | `remainder` | a name that leaves more than noise |
 //! | `on_beds` | joints that give, where windows ask for them |
-//! | `at_impacts` | what is left at impacts alone |
 //! | `other_law` | whether a law outside the catalogue is behind a name |
 
-mod at_impacts;
 mod judge;
 mod on_beds;
 mod other_law;
