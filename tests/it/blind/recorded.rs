@@ -17,7 +17,7 @@ fn regress_recorded_cases_are_what_is_drawn_under_their_numbers() {
         let case = cases::draw::draw(&row.set, row.number);
         let told = case.hidden.iter().map(Hidden::told).collect::<Vec<_>>();
         let all = |key: &str| told.iter().map(|hidden| hidden[key].clone()).collect::<Vec<_>>();
-        let [kind, simulator, prior] = [&case.kind.name(), case.simulator.name(), case.prior.name()];
+        let [kind, simulator, prior] = [&case.kind.name(), case.formulation(), case.prior.name()];
         assert_eq!([&row.kind, &row.simulator, &row.prior], [kind, simulator, prior], "{row:?}");
         assert_eq!([row.noise_rad, row.size], [case.noise_rad, case.size], "{row:?}");
         assert_eq!(row.hidden, all("kind"), "{row:?}");
@@ -56,7 +56,7 @@ const SETS_OF_LAWS: [&str; 1] = ["laws1"];
 fn regress_recorded_laws_are_what_is_drawn_under_their_numbers() {
     for row in SETS_OF_LAWS.iter().flat_map(|set| recorded_laws(set)) {
         let case = laws::draw::draw(&row.set, row.number);
-        let [group, simulator, prior] = [&case.kind.name(), case.simulator.name(), case.prior.name()];
+        let [group, simulator, prior] = [&case.kind.name(), case.formulation(), case.prior.name()];
         assert_eq!([&row.group, &row.simulator, &row.prior], [group, simulator, prior], "{row:?}");
         assert_eq!([row.noise_rad, row.size], [case.noise_rad, case.size], "{row:?}");
         let told = case.hidden.iter().map(|hidden| laws::row::hidden(&hidden.told())).collect::<Vec<_>>();
@@ -107,7 +107,7 @@ fn is_drawn(set: &str, row: &twins::row::Row) {
         assert_eq!(row.simulator, "init");
         return;
     };
-    assert_eq!([&row.simulator, &row.law], [case.simulator.name(), case.actual.law]);
+    assert_eq!([&row.simulator, &row.law], [case.formulation(), case.actual.law]);
     assert_eq!((row.noise_rad, row.tests), (case.noise_rad, case.fit_tests));
     for number in row.numbers.iter().filter(|number| number.name.starts_with("C_")) {
         let l: usize = number.name[2..].parse().expect("a coefficient");
