@@ -32,63 +32,11 @@ fn analytic_twin_of_a_quadratic_drag_is_told_as_its_formula_and_its_wall_runs() 
     let held_out = &found["tests"][2]["windowed_error"];
     let [before, after] = ["before", "after"].map(|k| held_out[k].as_f64().expect("a number"));
     assert!(before > 1.5 && after < 1.15, "held out: {before} before, {after} after");
-    runs(&out, &folder.path().join("record_0.csv"));
-}
-
-/// The wall that a diagnosis wrote runs under a record of the twins.
-fn runs(out: &std::path::Path, record: &std::path::Path) {
     let wall = out.join("wall.updated.toml");
+    let record = folder.path().join("record_0.csv");
     let run = Command::new(env!("CARGO_BIN_EXE_mrbd"))
         .args(["simulate".as_ref(), wall.as_os_str(), "--record".as_ref(), record.as_os_str()])
         .output()
         .expect("mrbd runs");
     assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
-}
-
-#[test]
-fn analytic_twin_of_a_floor_that_weakens_is_told_by_how_far_it_has_been_and_its_wall_runs() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let described = table_wall(ImpactLaw::Contact);
-    let own = [Parameter::new("k", 25e3, "N/m"), Parameter::new("g", 0.03, "m")];
-    let law = Formula::parse("k*x*x_max/(g+x_max)", Place::Top, &own).expect("a formula");
-    let weakens = WallParameters { formulas: vec![law], ..described.clone() };
-    let experiment = write_twins(folder.path(), &described, [&weakens; 3], [1.8, 2.6, 2.2], |theta| theta);
-    let out = folder.path().join("out");
-    let found = diagnosed(&experiment, &out);
-    assert_eq!(found["verdict"], "formula", "{found:#}");
-    let effect = &found["effects"][0];
-    assert_eq!(effect["formula"], "k*x*x_max/(g+x_max)", "{found:#}");
-    let number = |name: &str| effect["parameters"][name].as_f64().expect("a number");
-    // Where the top went, some 0.03 m: the force is known far better than k and g apart.
-    let force = |k: f64, g: f64, m: f64| k * m / (g + m);
-    for m in [0.01, 0.02, 0.03] {
-        let off = force(number("k"), number("g"), m) / force(25e3, 0.03, m) - 1.0;
-        assert!(off.abs() < 0.05, "{off} at {m} m: {effect:#}");
-    }
-    let after = found["tests"][2]["windowed_error"]["after"].as_f64().expect("a number");
-    assert!(after < 1.15, "held out: {after}");
-    runs(&out, &folder.path().join("record_0.csv"));
-}
-
-#[test]
-fn analytic_twin_of_a_force_without_a_formula_is_told_as_a_curve_that_runs() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let described = table_wall(ImpactLaw::Contact);
-    // A detent on either side: no sum of two powers, thresholds and saturations.
-    let own = [
-        Parameter::new("f", 500.0, "N"),
-        Parameter::new("a", 0.012, "m"),
-        Parameter::new("b", 0.006, "m"),
-        Parameter::new("c", 600.0, "N*s/m"),
-    ];
-    let law = Formula::parse("-f*(x/a)*exp(-((abs(x)-a)/b)**2) - c*v", Place::Top, &own).expect("a formula");
-    let hidden = WallParameters { formulas: vec![law], ..described.clone() };
-    let experiment = write_twins(folder.path(), &described, [&hidden; 3], [1.8, 2.6, 2.2], |theta| theta);
-    let out = folder.path().join("out");
-    let found = diagnosed(&experiment, &out);
-    assert_eq!(found["verdict"], "curve", "{found:#}");
-    let held_out = &found["tests"][2]["windowed_error"];
-    let [before, after] = ["before", "after"].map(|k| held_out[k].as_f64().expect("a number"));
-    assert!(after < 0.5 * before, "held out: {before} before, {after} after");
-    runs(&out, &folder.path().join("record_0.csv"));
 }

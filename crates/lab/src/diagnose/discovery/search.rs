@@ -428,6 +428,18 @@ mod tests {
     }
 
     #[test]
+    fn analytic_a_saturation_that_goes_back_straight_is_found_by_how_far_it_has_been() {
+        let law = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-f*x/(g+x_max)\"\n\
+                   [effects.parameters]\nf = { value = 600.0, unit = \"N\" }\ng = { value = 0.02, unit = \"m\" }\n";
+        let points = points_of(&tests_of(&wall_with(law), NOISE_RAD));
+        let found = search(&points).expect("laws");
+        let [best, next] = [&found.singles[0], &found.singles[1]];
+        assert_eq!((best.law.first.site, best.law.first.shape), (Site::Top, Shape::Secant), "{best:?}");
+        assert!(best.evidence > next.evidence + EQUIVALENT, "{best:?} and {next:?}");
+        assert!((best.law.first.size / 600.0 - 1.0).abs() < 0.15, "{best:?}");
+    }
+
+    #[test]
     fn analytic_where_nothing_is_hidden_no_law_is_worth_its_price() {
         let (atom, evidence, _) = best("");
         assert!(evidence < 0.0, "{atom:?} {evidence}");
