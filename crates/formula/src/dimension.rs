@@ -90,6 +90,11 @@ impl Found {
     }
 }
 
+/// What people write for the acceleration of the top, and why no formula has it.
+const ACCELERATION: &str = "a";
+const NO_ACCELERATION: &str =
+    "; what goes with the acceleration is a mass, which takes part in impacts too: carriage_mass";
+
 /// What is known of the names of a formula.
 pub struct Names<'a> {
     /// Dimensions of variables and parameters.
@@ -142,7 +147,10 @@ impl Check<'_> {
     fn named(&self, name: &str) -> Result<Found, (String, String)> {
         match self.names.dimensions.get(name) {
             Some(dimension) => Ok(Found::One(*dimension)),
-            None => Err((format!("an unknown name `{name}`"), self.names.known.clone())),
+            None => {
+                let hint = if name == ACCELERATION { NO_ACCELERATION } else { "" };
+                Err((format!("an unknown name `{name}`"), format!("{}{hint}", self.names.known)))
+            }
         }
     }
 

@@ -162,6 +162,7 @@ fn rejects_what_is_no_formula() {
         ("abs(F, F)", &["2 numbers for `abs`", "one"]),
         ("F*1e999", &["`1e999`", "finite"]),
         ("-q*x", &["character 2", "unknown name `q`", "x, v, x_max"]),
+        ("-F*a", &["character 4", "unknown name `a`", "carriage_mass"]),
         ("import os", &["character 8", "`os`"]),
         ("__import__(os)", &["a function `__import__`"]),
         ("x", &["`x` in m", "N"]),

@@ -3,7 +3,7 @@
 //! | module | idea |
 //! | --- | --- |
 //! | [`mod@file`] | the experiment file: wall, what was known of it, tests |
-//! | [`channel_table`], `channels` | transducers at heights, and the rotations that they tell |
+//! | [`channel_table`], `channels`, `bodies` | transducers at heights, and the rotations that they tell |
 //! | [`measured`] | measured rotations as laboratories have them |
 //! | [`alignment`] | clocks of record and measurement brought together |
 //! | [`mod@test`] | one test: how the wall was shaken, what was measured, and a simulation held against it |
@@ -16,6 +16,7 @@
 //! | `segments` | a test that starts anew from the measured motion, for a search by Eq. 8 |
 
 pub mod alignment;
+mod bodies;
 pub mod channel_table;
 mod channels;
 pub mod file;
