@@ -51,7 +51,7 @@ const fn told(law: &'static str, effects: &'static [(&'static str, &'static [f64
 }
 
 #[test]
-fn measured_releases_under_the_rivals_of_a_bed() {
+fn regress_measured_releases_under_the_rivals_of_a_bed() {
     // What `make measured-rivals` finds, as docs/measured-walls.md has it: errors of a, of b.
     let whole = [
         told("lines of a", &[(LINES, &[0.6536, 0.02423, 0.2703, 0.01044])], [0.034, 0.075]),
