@@ -135,7 +135,7 @@ const SPREAD_SHARE: Pair = [1.35, 0.2];
 
 /// The same from the samples within a time, however they are spaced.
 fn state_by_time(test: &TestData, k: usize) -> Option<MeasuredState> {
-    let channels = if test.manner.top_held { 1 } else { 2 };
+    let channels = test.manner.channels();
     let read = |j: usize| (test.time_s[j], test.from_rest_rad(j));
     let near = around(&test.time_s, k, test.gap_s).map(read);
     let (time_s, theta_rad): (Vec<f64>, Vec<Pair>) =
