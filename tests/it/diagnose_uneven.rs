@@ -51,7 +51,7 @@ fn verified_an_effect_is_named_from_displacements_unevenly_sampled() {
     assert_eq!(found["verdict"], "named", "{found:#}");
     assert_eq!(found["effects"][0]["name"], "viscous_damping");
     let damper = found["effects"][0]["parameters"]["coefficient_n_s_per_m"].as_f64().expect("a number");
-    // Half of the samples of the even twin, which finds it to 2 %.
+    // Two samples of three of the even twin, which finds it to 2 %.
     assert!((damper / 1500.0 - 1.0).abs() < 0.05, "{damper}");
     // Noise is found within its scatter: 3e-5 rad of the lower body.
     let noise = found["tests"][0]["noise_rad"][0].as_f64().expect("a number");

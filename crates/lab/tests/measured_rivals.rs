@@ -35,12 +35,13 @@ struct Told {
     left: [f64; 2],
 }
 
-/// What differs by more than half a percent of the thickness, for other rounding of the numbers.
+/// What differs by more than 0.1 % of the thickness: the guide has the errors to half of that, and as much for the rounding
+/// of the numbers.
 fn differing(experiment: &Experiment, told: &[Told]) -> Vec<String> {
     let differs = |told: &Told| {
         let found = errors(experiment, told.effects);
         println!("{}: {found:.4?}, told {:?}", told.law, told.left);
-        let same = (0..2).all(|i| (found[i] - told.left[i]).abs() < 0.005);
+        let same = (0..2).all(|i| (found[i] - told.left[i]).abs() < 0.001);
         (!same).then(|| format!("{}: {found:.4?}, told {:?}", told.law, told.left))
     };
     told.iter().filter_map(differs).collect()
@@ -51,7 +52,7 @@ const fn told(law: &'static str, effects: &'static [(&'static str, &'static [f64
 }
 
 #[test]
-fn measured_releases_under_the_rivals_of_a_bed() {
+fn regress_measured_releases_under_the_rivals_of_a_bed() {
     // What `make measured-rivals` finds, as docs/measured-walls.md has it: errors of a, of b.
     let whole = [
         told("lines of a", &[(LINES, &[0.6536, 0.02423, 0.2703, 0.01044])], [0.034, 0.075]),
@@ -66,8 +67,8 @@ fn measured_releases_under_the_rivals_of_a_bed() {
         told("lines of b", &[(LINES, &[0.4691, 0.005537, 0.1158, 0.008172])], [0.023, 0.008]),
         told("crushing of a", &[(CRUSHING, &[3.523e7, 1.749e6, 0.009412])], [0.023, 0.028]),
         told("crushing of b", &[(CRUSHING, &[3.969e7, 1.393e6, 0.009103])], [0.028, 0.021]),
-        told("worn of a", &[(WORN, &[0.03154, 0.2360]), (DAMPER, &[15.87])], [0.025, 0.037]),
-        told("worn of b", &[(WORN, &[0.03128, 0.2505]), (DAMPER, &[17.09])], [0.040, 0.022]),
+        told("worn of a", &[(WORN, &[0.03154, 0.2360]), (DAMPER, &[15.87])], [0.025, 0.036]),
+        told("worn of b", &[(WORN, &[0.03128, 0.2505]), (DAMPER, &[17.09])], [0.040, 0.021]),
     ];
     let mut differ = differing(&experiment("experiment_a.toml"), &whole);
     differ.extend(differing(&experiment("after_a.toml"), &after));

@@ -46,6 +46,6 @@ pub fn draw(set: &str, number: u64) -> Case {
     }
     let damping_s = even(DAMPING_S, &mut rng);
     let drawn_corners = corners(even(CORNERS_N_PER_M, &mut rng), damping_s);
-    let contacts = Contacts::Corners(if number % 2 == 0 { OFTEN } else { drawn_corners });
+    let contacts = Contacts::Corners(if number.is_multiple_of(2) { OFTEN } else { drawn_corners });
     Case { simulator: Simulator::Compliant, contacts, described, actual, hidden: hidden_here, ..drawn }
 }

@@ -163,19 +163,17 @@ fn sticking(bodies: &Bodies, from: [i8; 2], touched: [bool; 2], state: &State) -
 
 #[cfg(test)]
 mod tests {
-    use super::super::Coordinates;
-    use super::*;
-
-    /// The signs after an impact of a wall that goes on at this rate, its crack at another.
-    fn signs(ground_rad_s: f64, crack_rad_s: f64) -> [i8; 2] {
-        let mut state = State { q: Coordinates::zeros(), v: Coordinates::zeros() };
-        (state.q[2], state.q[5]) = (-2.5e-5, -2.52e-5);
-        (state.v[2], state.v[5]) = (ground_rad_s, ground_rad_s + crack_rad_s);
-        signs_after(&state)
-    }
-
     #[test]
     fn analytic_a_crack_that_trembles_after_an_impact_is_closed() {
+        use super::super::Coordinates;
+        use super::{State, signs_after};
+        // The signs after an impact of a wall that goes on at this rate, its crack at another.
+        let signs = |ground_rad_s: f64, crack_rad_s: f64| {
+            let mut state = State { q: Coordinates::zeros(), v: Coordinates::zeros() };
+            (state.q[2], state.q[5]) = (-2.5e-5, -2.52e-5);
+            (state.v[2], state.v[5]) = (ground_rad_s, ground_rad_s + crack_rad_s);
+            signs_after(&state)
+        };
         // As met in a façade on a stiff floor, fast and slow.
         assert_eq!(signs(-0.125, 0.00113), [-1, 0]);
         assert_eq!(signs(-0.005, 0.0005), [-1, 0]);

@@ -119,7 +119,8 @@ pub fn of_group(set: &str, number: u64, group: &'static str, before: usize) -> C
     }
 }
 
-/// Whether only the second simulator can have the law: the library has no hidden bodies, and refuses an exponential that grows beyond any force where a wall has long fallen.
+/// Whether only the second simulator can have the law. The library has no hidden bodies, and refuses an exponential that
+/// grows beyond any force where a wall has long fallen.
 fn is_foreign(group: &str, before: usize) -> bool {
     match group {
         "a hidden body" => true,

@@ -30,7 +30,8 @@ pub fn excited(case: &Case, tests: &[Test]) -> Value {
     json!({ "fit": points(fit), "held_out": points(held_out) })
 }
 
-/// Displacement, velocity and largest displacement so far at a place: at the top those of small rotations, which are enough to tell where a test went.
+/// Displacement, velocity and largest displacement so far at a place. At the top they are those of small rotations, enough to
+/// tell where a test went.
 fn motion(case: &Case, test: &Test, site: Site) -> Vec<[f64; 3]> {
     let heights = [case.actual.crack_height_m, case.actual.height_m - case.actual.crack_height_m];
     let at = |theta: &[f64; 2]| match site {

@@ -1,8 +1,9 @@
 //! Ground motions one after another: each starts where the one before left the wall.
 //!
-//! Carried over are rotations, velocities, the contact state, what a yielding spring has yielded and what a bed has
-//! crushed. The model has no other memory. Corners are fixed widths, a floor keeps its stiffness, joints do not slide.
-//! So a wall without either that has come to rest is as new, and the next motion finds it so.
+//! Carried over are rotations, velocities, the contact state, what a yielding spring has yielded, what a bed has crushed
+//! and, for formulas, how far the top has been. The model has no other memory. Corners are fixed widths, a floor keeps
+//! its stiffness, joints do not slide. So a wall without these that has come to rest is as new, and the next motion
+//! finds it so.
 //!
 //! Time begins anew with every part. Rest between two parts is the free motion after the first of them. An
 //! effect that lags the record lags each part by itself.

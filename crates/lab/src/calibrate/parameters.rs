@@ -313,7 +313,7 @@ impl Resolver<'_> {
             let known = by_name || self.resolve(key).is_some();
             // Absent from the file but with a default, such as an eccentricity of zero, is known exactly.
             if !known {
-                let allowed = "a number that stands in the wall file, restitution or corner_widths";
+                let allowed = "a number that stands in the wall file, restitution, C_1 to C_8, corner_widths or sensor_gain";
                 let allowed = self.suggested(allowed, key);
                 return Err(InputError::key(self.path, format!("prior.{key}"), "no such key", allowed));
             }

@@ -2,7 +2,8 @@
 //!
 //! | module | idea |
 //! | --- | --- |
-//! | [`mod@file`] | the experiment file: wall, what was known of it, tests |
+//! | [`mod@file`] | the experiment file: wall, what was known of it, how to calibrate |
+//! | `test_table` | a test of it: how the wall was shaken, what was measured, what counts |
 //! | [`channel_table`], `channels`, `bodies` | transducers at heights, and the rotations that they tell |
 //! | [`measured`] | measured rotations as laboratories have them |
 //! | [`alignment`] | clocks of record and measurement brought together |
@@ -29,6 +30,7 @@ pub mod rotations;
 mod segments;
 pub mod test;
 pub mod test_data;
+mod test_table;
 pub mod windows;
 
 pub use alignment::Alignment;

@@ -108,8 +108,11 @@ pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     let ground_closed = is_zero(&lower, noise[0]);
     let crack_closed = is_zero(&crack, crack_noise);
     let (lower_fit, upper_fit) = (local(&lower), local(&upper));
-    let lower_open = is_clear(&lower, noise[0]) && is_smooth(&lower_fit, noise[0]);
-    let crack_open = is_clear(&crack, crack_noise) && is_smooth(&upper_fit, noise[1]);
+    let opens = |y: &[f64; COUNT], own: f64, fit: &Local, noise: f64| {
+        is_clear(y, y[HALF], own) && is_smooth(fit.residual, COUNT, noise)
+    };
+    let lower_open = opens(&lower, noise[0], &lower_fit, noise[0]);
+    let crack_open = opens(&crack, crack_noise, &upper_fit, noise[1]);
     let freedom = match (ground_closed, crack_closed) {
         (true, true) if is_zero(&upper, noise[1]) => Freedom::Rest,
         (true, false) if crack_open => Freedom::Upper,
@@ -132,7 +135,7 @@ const SPREAD_SHARE: Pair = [1.35, 0.2];
 
 /// The same from the samples within a time, however they are spaced.
 fn state_by_time(test: &TestData, k: usize) -> Option<MeasuredState> {
-    let channels = if test.manner.top_held { 1 } else { 2 };
+    let channels = test.manner.channels();
     let read = |j: usize| (test.time_s[j], test.from_rest_rad(j));
     let near = around(&test.time_s, k, test.gap_s).map(read);
     let (time_s, theta_rad): (Vec<f64>, Vec<Pair>) =
@@ -142,11 +145,12 @@ fn state_by_time(test: &TestData, k: usize) -> Option<MeasuredState> {
     let fit = |values: &[f64]| about(&time_s, values, test.time_s[k]);
     let noise = test.noise_rad;
     let lower_fit = fit(&lower)?;
-    let opens =
-        |y: &[f64], own: f64, fit: &About, noise: f64| is_clear_by_time(y, own) && left_by_noise(fit, noise);
+    let opens = |y: &[f64], own: f64, fit: &About, noise: f64| {
+        is_clear(y, y.iter().sum(), own) && is_smooth(fit.residual, fit.count, noise)
+    };
     let lower_open = opens(&lower, noise[0], &lower_fit, noise[0]);
     if test.manner.top_held {
-        let freedom = match noise_about_zero(&lower, noise[0]) {
+        let freedom = match is_zero(&lower, noise[0]) {
             true => Freedom::Rest,
             false if lower_open => Freedom::Held,
             false => return None,
@@ -156,9 +160,9 @@ fn state_by_time(test: &TestData, k: usize) -> Option<MeasuredState> {
     let upper_fit = fit(&upper)?;
     let crack_noise = noise[0].hypot(noise[1]);
     let crack_open = opens(&crack, crack_noise, &upper_fit, noise[1]);
-    let closed = [noise_about_zero(&lower, noise[0]), noise_about_zero(&crack, crack_noise)];
+    let closed = [is_zero(&lower, noise[0]), is_zero(&crack, crack_noise)];
     let freedom = match closed {
-        [true, true] if noise_about_zero(&upper, noise[1]) => Freedom::Rest,
+        [true, true] if is_zero(&upper, noise[1]) => Freedom::Rest,
         [true, false] if crack_open => Freedom::Upper,
         [false, true] if lower_open => Freedom::Monolithic,
         [false, false] if lower_open && crack_open => Freedom::Both,
@@ -185,29 +189,6 @@ fn is_even(time_s: &[f64], step_s: f64) -> bool {
     time_s.windows(2).all(|pair| ((pair[1] - pair[0]) / step_s - 1.0).abs() < UNEVEN)
 }
 
-/// As [`is_zero`], of any number of samples.
-fn noise_about_zero(y: &[f64], noise: f64) -> bool {
-    let n = y.len() as f64;
-    let squares = y.iter().map(|v| v * v).sum::<f64>() / (noise * noise);
-    let mean = y.iter().sum::<f64>() / n;
-    y.len() >= LEAST
-        && squares < n + BEYOND_NOISE * (2.0 * n).sqrt()
-        && mean.abs() < BEYOND_NOISE * noise / n.sqrt()
-}
-
-/// As [`is_smooth`].
-fn left_by_noise(fit: &About, noise: f64) -> bool {
-    let n = fit.count as f64;
-    fit.residual / (noise * noise) < n - CUBIC + BEYOND_NOISE * (2.0 * n).sqrt()
-}
-
-/// As [`is_clear`].
-fn is_clear_by_time(y: &[f64], noise: f64) -> bool {
-    let sign = y.iter().sum::<f64>().signum();
-    let n = AVERAGED as f64;
-    y.windows(AVERAGED).all(|some| some.iter().sum::<f64>() / n * sign > OPEN_CLEAR * noise / n.sqrt())
-}
-
 /// The state of a held strip: its upper body leans so that the top stays where it is.
 ///
 /// The contact is that of the rotations on the joints of this wall. Newton's method; the top moves by J_x = ∂x_C/∂θ.
@@ -226,23 +207,25 @@ pub fn held_state(wall: &RockingWall, lower: &State) -> State {
 /// Steps of Newton's method: from the mirrored rotation the error is squared every time.
 const HELD_STEPS: usize = 6;
 
-/// Noise about zero: neither the sum of squares nor the mean stands out.
-fn is_zero(y: &[f64; COUNT], noise: f64) -> bool {
-    let n = COUNT as f64;
+/// Noise about zero, of enough samples: neither the sum of squares nor the mean stands out.
+fn is_zero(y: &[f64], noise: f64) -> bool {
+    let n = y.len() as f64;
     let squares = y.iter().map(|v| v * v).sum::<f64>() / (noise * noise);
     let mean = y.iter().sum::<f64>() / n;
-    squares < n + BEYOND_NOISE * (2.0 * n).sqrt() && mean.abs() < BEYOND_NOISE * noise / n.sqrt()
+    y.len() >= LEAST
+        && squares < n + BEYOND_NOISE * (2.0 * n).sqrt()
+        && mean.abs() < BEYOND_NOISE * noise / n.sqrt()
 }
 
-/// No impact inside: a cubic leaves noise.
-fn is_smooth(fit: &Local, noise: f64) -> bool {
-    let n = COUNT as f64;
-    fit.residual / (noise * noise) < n - CUBIC + BEYOND_NOISE * (2.0 * n).sqrt()
+/// No impact inside: of so many samples a cubic leaves noise.
+fn is_smooth(residual: f64, count: usize, noise: f64) -> bool {
+    let n = count as f64;
+    residual / (noise * noise) < n - CUBIC + BEYOND_NOISE * (2.0 * n).sqrt()
 }
 
-/// Of one sign all along, averages of a few samples clear of zero.
-fn is_clear(y: &[f64; COUNT], noise: f64) -> bool {
-    let sign = y[HALF].signum();
+/// Of one sign all along, that of `towards`: averages of a few samples clear of zero.
+fn is_clear(y: &[f64], towards: f64, noise: f64) -> bool {
+    let sign = towards.signum();
     let n = AVERAGED as f64;
     y.windows(AVERAGED).all(|some| some.iter().sum::<f64>() / n * sign > OPEN_CLEAR * noise / n.sqrt())
 }

@@ -24,6 +24,13 @@ pub struct Manner {
     pub release: Option<Start>,
 }
 
+impl Manner {
+    /// How many rotations are measured: θ_1 alone where the top is held.
+    pub fn channels(self) -> usize {
+        if self.top_held { 1 } else { 2 }
+    }
+}
+
 /// One test: measured rotations of both bodies and the shaking that caused them.
 #[derive(Debug, Clone)]
 pub struct TestData {

@@ -127,7 +127,7 @@ fn moves(test: &TestData, k: usize) -> bool {
 fn window(index: usize, test: &TestData, samples: Range<usize>, start: &MeasuredState) -> Option<Window> {
     let in_motion = samples.clone().filter(|&k| moves(test, k)).count() > 2;
     let readings = test.theta_rad[samples.clone()].iter().flatten().filter(|t| t.is_finite()).count();
-    let channels = if test.manner.top_held { 1 } else { 2 };
+    let channels = test.manner.channels();
     if readings < channels * LEAST_WINDOW_SAMPLES || (start.freedom == Freedom::Rest && !in_motion) {
         return None;
     }

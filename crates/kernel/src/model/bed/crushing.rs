@@ -15,8 +15,8 @@ use super::roll::{LEAST_PARTIAL, Roll, turned};
 ///
 /// | where | moment about the middle |
 /// | --- | --- |
-/// | as the elastic bed | abs(φ) ≤ φ_s |
-/// | the toe crushes | N (b/2 - A/2 - A q²/6) sign φ |
+/// | abs(φ) ≤ φ_s | as the elastic bed |
+/// | beyond, where the toe crushes | N (b/2 - A/2 - A q²/6) sign φ |
 ///
 /// The second is the balance of pressures that rise along the slope and stay at 0.85 f from there to the toe. φ without
 /// bound gives N (b - A)/2: the sharp edge of a corner that is crushed to A.

@@ -47,7 +47,10 @@ impl Refused {
 pub(in crate::model) fn law_at(p: &WallParameters, joint: usize) -> usize {
     let joint = if joint == 0 { Joint::Ground } else { Joint::Crack };
     let acts_at = |effect: &_| is_joint_law(effect) && effect.variant().joints().contains(&joint);
-    p.effects.iter().position(acts_at).unwrap_or(0)
+    let Some(place) = p.effects.iter().position(acts_at) else {
+        unreachable!("a joint has its law from an effect")
+    };
+    place
 }
 
 impl Carries {

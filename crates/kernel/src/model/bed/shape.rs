@@ -113,7 +113,7 @@ impl JointShape {
     #[inline(never)]
     fn roll_of_rival(&self, phi: f64) -> Roll {
         match self {
-            Self::Edge { .. } | Self::Bed { .. } => Roll::default(),
+            Self::Edge { .. } | Self::Bed { .. } => unreachable!("edges and beds roll by themselves"),
             Self::Lines { rolling, side: 0.0, .. } => rolling.on_first(phi),
             Self::Lines { rolling, side, branch } => {
                 let open = side * phi;

@@ -260,7 +260,7 @@ impl Findings<'_> {
                 for (window, x) in self.windows_of(tried).filter(|(w, _)| w.test == index) {
                     let residual = replay.residual(window, x);
                     for (i, k) in window.samples.clone().enumerate() {
-                        let channels = if test.manner.top_held { 1 } else { 2 };
+                        let channels = test.manner.channels();
                         let measured = test.theta_rad[k][..channels].iter().all(|t| t.is_finite());
                         samples[k].residual[which] = measured.then(|| [residual[2 * i], residual[2 * i + 1]]);
                     }

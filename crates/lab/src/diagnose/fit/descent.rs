@@ -1,6 +1,7 @@
 //! Steps of a hypothesis' numbers, with the states of the windows eliminated.
 
-use super::linear::{Linear, Linearised, Sides};
+use super::linear::{Linear, Sides};
+use super::linearised::Linearised;
 use super::window_fit::{At, InState, LITTLE, NewtonStep, in_chunks, owned, step_of, take_steps};
 use super::{Fit, Loss, Problem, Replay, WindowFit};
 use crate::diagnose::hypothesis::{Hypothesis, Unknown};

@@ -8,12 +8,14 @@
 //! | [`Problem`] | a hypothesis fitted to windows: coarsely, to the end, or by the states alone |
 //! | `descent` | steps of the numbers |
 //! | `linear` | how every window changes with them and with the state at its start |
+//! | `linearised` | the same of all windows, and what of it is still known after a step |
 //! | `window_fit` | the state at the start of a window |
 //! | `replay` | a window simulated from a state |
 //! | `loss` | what a window costs, and how well windows are followed |
 
 mod descent;
 mod linear;
+mod linearised;
 mod loss;
 mod replay;
 mod window_fit;
@@ -22,8 +24,8 @@ use super::hypothesis::Hypothesis;
 use crate::experiment::{TestData, Window};
 use crate::limits::MOST_MISSED;
 use descent::{COARSE, FINE, LAST, cost};
-use linear::Linearised;
 pub use linear::WindowSlopes;
+use linearised::Linearised;
 pub use loss::{Loss, more_poor_held_out_sd, nats, poor_share, windowed_error};
 use nalgebra::DMatrix;
 pub use replay::{Replay, TopPast, largest_so_far_m, shaken};

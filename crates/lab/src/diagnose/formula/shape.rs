@@ -1,7 +1,8 @@
 //! Shapes of single laws: how a force or moment follows displacement and velocity, but for its size.
 //!
-//! All are written in shares of the largest displacement q and velocity u that the tests reach. Of size 1 each resists:
-//! the force on the wall is minus its value. Some remember how far the top has been: m is the largest |q| so far.
+//! All are written in shares of the largest displacement q and velocity u that the tests reach. The force on the wall is
+//! minus the value: of size 1 each resists, but for a weakening, which takes off what the floor resists. Some remember how
+//! far the top has been: m is the largest |q| so far.
 
 /// A side of the wall's rest, or a direction of its motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

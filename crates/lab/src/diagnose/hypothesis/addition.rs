@@ -212,7 +212,7 @@ const RIVAL_NUMBERS: [&str; 5] = [
 /// Every addition to a wall that is tried alone: the catalogue, the lumped carriage, numbers outside what was known of
 /// them, and a placebo.
 pub fn candidates(wall: &WallParameters) -> Vec<Addition> {
-    // Beds are tried apart: walls on them take long to simulate. Their rivals are not tried.
+    // Beds are tried apart: walls on them take long to simulate. Their rivals are tried where a top is held.
     let sought =
         EffectKind::ALL.iter().filter(|kind| !matches!(kind.entry().role, Role::Bed | Role::JointLaw));
     let mut all = sought.flat_map(|kind| kind.variants()).map(Addition::Effect).collect::<Vec<_>>();

@@ -105,7 +105,8 @@ fn single_numbers(h: &Hypothesis) -> Vec<[usize; 2]> {
     (0..h.additions.len()).filter_map(number).collect()
 }
 
-/// What additions make of it; `None` for two of a kind at one place, for values outside their bounds, and where they leave no trace.
+/// What additions make of it; `None` for two of a kind at one place, for values outside their bounds, and where they leave
+/// no trace.
 fn imitation(h: &Hypothesis, sums: &Sums, undone: &[(usize, f64)], set: &[[usize; 2]]) -> Option<Imitation> {
     let additions = set.iter().map(|[index, _]| h.additions[*index]).collect::<Vec<_>>();
     let numbers = set.iter().map(|[_, number]| *number).collect::<Vec<_>>();

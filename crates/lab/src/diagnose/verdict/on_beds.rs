@@ -182,9 +182,10 @@ fn with_effect<P: Progress>(
     Some(OnBeds { best: two.clone(), near, pairs })
 }
 
-/// Whether an effect beside joints that give is named with them: it follows to the noise and gains what a second effect must,
-/// or it takes away most of what they leave, in small swings and in large ones, where that is more than another way to model
-/// a bed leaves.
+/// Whether an effect beside joints that give is named with them.
+///
+/// It follows to the noise and gains what a second effect must. Or they leave more than another way to model a bed does, and
+/// it takes most of that away, in small swings and in large ones.
 fn is_worth_it<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
