@@ -1,6 +1,6 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
-use super::on_beds::BedsBeside;
+use super::on_beds::{BedsBeside, on_beds_last};
 use super::worth_naming::{could_show, leaves_noise, place, worth_two};
 use super::{OtherLaw, Remainder, Verdict};
 use super::{name_of_number, names, names_of_all};
@@ -163,6 +163,7 @@ impl<P: Progress> Gap<'_, P> {
         let (answer, tried) = self.with_pairs(one, singles);
         let Some(answer) = answer else {
             let found = beds.and_then(|beds| beds.leaving_little(self.trials, &self.wall, &tried));
+            let found = found.or_else(|| on_beds_last(self.trials, &self.wall, &tried));
             return found.unwrap_or_else(|| self.placed(None, tried));
         };
         let answer = Answer { after: self.trials.refined(answer.after), ..answer };

@@ -53,6 +53,20 @@ fn equals_of_held<P: Progress>(
     if near.is_empty() { near } else { [vec![best.hypothesis.name()], near].concat() }
 }
 
+/// Joints that give where the gap was too narrow for them to come first, and nothing that was tried closes it: a name if they
+/// follow the tests to their noise.
+pub fn on_beds_last<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    tried: &[FittedHypothesis],
+) -> Option<Found> {
+    let beds = trials.beds_in_narrow_gap(wall);
+    let best = beds.first().filter(|best| does_something(best))?.clone();
+    let all = || [beds.clone(), tried.to_vec()].concat();
+    follows(trials, wall, &best, tried)
+        .then(|| Standing { remainder: None }.found(trials, wall, best.clone(), &[], all()))
+}
+
 /// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
 pub struct BedsBeside {
     effect: FittedHypothesis,

@@ -37,7 +37,7 @@ impl<P: Progress> Trials<'_, P> {
 
     /// Joints that give beside an effect that takes away much alone.
     pub fn beds_beside(&self, effect: &FittedHypothesis) -> Vec<FittedHypothesis> {
-        self.beds_under(&[effect], effect)
+        if self.leaves_wide_gap(effect) { self.beds_under(&[effect], Some(effect)) } else { Vec::new() }
     }
 
     /// The best of what few windows promise, and what comes near it there, fitted to all; none where that is little.

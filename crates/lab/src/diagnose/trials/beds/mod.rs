@@ -55,18 +55,36 @@ impl<P: Progress> Trials<'_, P> {
     /// Joints that give, the best first; none where the windows do not ask for them, or the wall has beds of its own.
     ///
     /// What stands on a bed is the wall as given, or with its numbers fitted where some were not known.
-    pub fn beds(&self, WallFits { before, recalibrated }: &WallFits) -> Vec<FittedHypothesis> {
-        self.beds_under(&self.starts(before, recalibrated), recalibrated)
+    pub fn beds(&self, wall: &WallFits) -> Vec<FittedHypothesis> {
+        let WallFits { before, recalibrated } = wall;
+        let wide = self.leaves_wide_gap(recalibrated);
+        if wide {
+            self.beds_under(&self.starts(before, recalibrated), Some(recalibrated))
+        } else {
+            Vec::new()
+        }
     }
 
-    /// Joints that give under one of some walls, with its additions; the windows must ask for them beside what is `without`.
+    /// The same where the gap is narrower than that, for when nothing else closes it. The wall's own numbers may stand for part
+    /// of a bed there, so that none shows before both are fitted.
+    pub fn beds_in_narrow_gap(&self, WallFits { before, recalibrated }: &WallFits) -> Vec<FittedHypothesis> {
+        let wide = self.leaves_wide_gap(recalibrated);
+        if wide { Vec::new() } else { self.beds_under(&self.starts(before, recalibrated), None) }
+    }
+
+    /// Whether a hypothesis is so far off that joints that give are thought of first.
+    pub(super) fn leaves_wide_gap(&self, without: &FittedHypothesis) -> bool {
+        joint_error(without).is_some_and(|error| error > BEDS_GAP)
+    }
+
+    /// Joints that give under one of some walls, with its additions; the windows must ask for them beside what is `without`,
+    /// if there is such.
     pub(super) fn beds_under(
         &self,
         walls: &[&FittedHypothesis],
-        without: &FittedHypothesis,
+        without: Option<&FittedHypothesis>,
     ) -> Vec<FittedHypothesis> {
-        let far = joint_error(without).is_some_and(|error| error > BEDS_GAP);
-        if !far || self.experiment.wall.gives() {
+        if self.experiment.wall.gives() {
             return Vec::new();
         }
         let probes = walls.iter().filter_map(|wall| Probe::new(self, wall, without));

@@ -28,17 +28,19 @@ pub struct Probe<'t, P> {
 }
 
 impl<'t, P: Progress> Probe<'t, P> {
-    /// Beds by decades under a wall, where the best of them takes away a share of what is left `without`.
+    /// Beds by decades under a wall, where the best of them takes away a share of what is left `without`; `None`: where they are
+    /// fitted anyhow.
     pub fn new(
         trials: &'t Trials<'t, P>,
         wall: &'t FittedHypothesis,
-        without: &FittedHypothesis,
+        without: Option<&FittedHypothesis>,
     ) -> Option<Self> {
         let few = Few::new(trials.data.fit, BEDS_WINDOWS, 1.0);
-        let left = few.left(&without.fit);
+        let left = without.map(|without| few.left(&without.fit));
         let mut probe = Self { trials, few, wall, beds: Vec::new() };
         probe.beds = probe.probed(&BED_DECADES);
-        (probe.least() < (1.0 - BEDS_ASKED_FOR) * excess(&left)).then_some(probe)
+        let most = left.map_or(f64::INFINITY, |left| (1.0 - BEDS_ASKED_FOR) * excess(&left));
+        (probe.least() < most).then_some(probe)
     }
 
     /// Least squared error above noise that a bed leaves.
