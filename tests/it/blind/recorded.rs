@@ -1,20 +1,29 @@
 //! Cases that were answered before: they are what is drawn under their numbers, and the documentation has their tables.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::cases::{self, hidden::Hidden};
 use super::{laws, score, twins};
 
-/// Cases that were scored before: `make blind SET=fresh11` goes on from there.
-fn recorded() -> Vec<score::Row> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
-    score::recorded::load(&path, "fresh11").expect("the recorded cases")
+/// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden.
+const SETS: [(&str, fn(&str, u64) -> cases::draw::Case); 3] =
+    [("fresh11", cases::draw::draw), ("beds3", cases::beds::draw), ("nulls3", cases::nulls::draw)];
+
+/// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.
+fn recorded(set: &str) -> Vec<score::Row> {
+    score::recorded::load(&recorded_path(set), set).expect("the recorded cases")
+}
+
+fn recorded_path(set: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"))
 }
 
 #[test]
 fn regress_recorded_cases_are_what_is_drawn_under_their_numbers() {
-    for row in recorded() {
-        let case = cases::draw::draw(&row.set, row.number);
+    for (row, draw) in
+        SETS.iter().flat_map(|(set, draw)| recorded(set).into_iter().map(move |row| (row, draw)))
+    {
+        let case = draw(&row.set, row.number);
         let told = case.hidden.iter().map(Hidden::told).collect::<Vec<_>>();
         let all = |key: &str| told.iter().map(|hidden| hidden[key].clone()).collect::<Vec<_>>();
         let [kind, simulator, prior] = [&case.kind.name(), case.formulation(), case.prior.name()];
@@ -27,20 +36,24 @@ fn regress_recorded_cases_are_what_is_drawn_under_their_numbers() {
 
 #[test]
 fn regress_recorded_cases_are_written_again_as_they_were() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/blind/recorded/fresh11.jsonl");
-    let folder = tempfile::tempdir().expect("a folder");
-    let again = folder.path().join("cases.jsonl");
-    score::recorded::save(&again, &recorded()).expect("written");
-    let [own, again] = [&path, &again].map(|path| std::fs::read_to_string(path).expect("cases"));
-    assert!(own == again, "recorded cases change when they are read and written");
+    for (set, _) in SETS {
+        let folder = tempfile::tempdir().expect("a folder");
+        let again = folder.path().join("cases.jsonl");
+        score::recorded::save(&again, &recorded(set)).expect("written");
+        let [own, again] =
+            [&recorded_path(set), &again].map(|path| std::fs::read_to_string(path).expect("cases"));
+        assert!(own == again, "recorded cases of {set} change when they are read and written");
+    }
 }
 
 #[test]
-fn regress_the_documentation_has_the_table_of_the_recorded_cases() {
+fn regress_the_documentation_has_the_tables_of_the_recorded_cases() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/diagnosis.md");
     let text = std::fs::read_to_string(path).expect("the documentation");
-    let table = score::targets::table(&recorded());
-    assert!(text.contains(&table), "docs/diagnosis.md lacks the table of tests/blind/recorded:\n\n{table}");
+    for (set, _) in SETS {
+        let table = score::targets::table(&recorded(set));
+        assert!(text.contains(&table), "docs/diagnosis.md lacks the table of {set}:\n\n{table}");
+    }
 }
 
 /// Cases of laws that were scored before, by set: `make blind LAWS=1 SET=laws1` goes on from there.
@@ -50,7 +63,7 @@ fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
 }
 
 /// Recorded sets of laws, in the order in which they were answered.
-const SETS_OF_LAWS: [&str; 1] = ["laws1"];
+const SETS_OF_LAWS: [&str; 2] = ["laws1", "laws2"];
 
 #[test]
 fn regress_recorded_laws_are_what_is_drawn_under_their_numbers() {
