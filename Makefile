@@ -14,6 +14,7 @@ include make/examples.mk
 include make/openquake.mk
 include make/against.mk
 include make/peers.mk
+include make/formulas.mk
 include make/python.mk
 include make/slurm.mk
 
