@@ -5,8 +5,11 @@ use std::path::{Path, PathBuf};
 use super::cases::{self, hidden::Hidden};
 use super::{laws, score, twins};
 
+/// A case by its set and number.
+type Draw = fn(&str, u64) -> cases::draw::Case;
+
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden.
-const SETS: [(&str, fn(&str, u64) -> cases::draw::Case); 3] =
+const SETS: [(&str, Draw); 3] =
     [("fresh11", cases::draw::draw), ("beds3", cases::beds::draw), ("nulls3", cases::nulls::draw)];
 
 /// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.
