@@ -2,14 +2,14 @@
 
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{
-    Contact, CrushingJoint, Effect, G_M_S2, ImpactLaw, JointLaw, Pivot, Restitution, RockingWall,
-    RoundedEdges, State, TrilinearJoint, Wall, WallParameters,
+    Contact, CrushingJoint, Effect, G_M_S2, JointLaw, Pivot, RockingWall, RoundedEdges, State,
+    TrilinearJoint, Wall,
 };
 use mrbd_kernel::simulate::{
-    Accuracy, History, Response, Shaking, Simulator, Start, simulate, simulate_observed, simulate_sequence,
+    History, Shaking, Simulator, Start, simulate, simulate_observed, simulate_sequence,
 };
 
-const TIGHT: Accuracy = Accuracy { tolerance: 1e-10 };
+use super::{TIGHT, block, released, table_wall, wall};
 
 /// The strip of the paper's Table 1 without anything on its top: its width, m, and weight, N.
 const WIDTH_M: f64 = 0.291;
@@ -33,35 +33,6 @@ fn rounded_at(joint: &str) -> Effect {
 
 fn rivals(joint: &str) -> [Effect; 3] {
     [lines_at(joint, 0.0), crushing_at(joint, 0.0), rounded_at(joint)]
-}
-
-fn block(effects: Vec<Effect>, theta: f64) -> WallParameters {
-    let strip = WallParameters::strip(WIDTH_M, 3.984, 1800.0);
-    WallParameters { length_m: 1.5, mass_kg: 3614.0, initial_rotation_rad: [theta; 2], effects, ..strip }
-}
-
-/// The wall of the paper's Table 1 on its full thickness, its impacts plastic.
-fn table_wall(effects: Vec<Effect>, initial_rotation_rad: [f64; 2]) -> WallParameters {
-    WallParameters {
-        crack_height_m: Some(2.191),
-        diaphragm_mass_kg: 179.0,
-        carriage_mass_kg: 663.0,
-        stiffness_n_per_m: 37e3,
-        initial_rotation_rad,
-        restitution: Restitution { law: ImpactLaw::Contact, ..Restitution::default() },
-        ..block(effects, 0.0)
-    }
-}
-
-fn wall(parameters: WallParameters) -> Wall {
-    Wall::new(parameters).expect("a wall that can exist")
-}
-
-fn released(parameters: WallParameters, tail_s: f64) -> (Response, History) {
-    let mut history = History::new(0.005);
-    let free = Shaking { tail_s, ..Shaking::default() };
-    let response = simulate_observed(&wall(parameters), &free, TIGHT, &mut history);
-    (response, history)
 }
 
 fn lines() -> TrilinearJoint {
