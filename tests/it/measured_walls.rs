@@ -1,11 +1,14 @@
 //! Walls that were really measured: what joints that give leave of the error.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use mrbd_kernel::model::{Effect, Wall, WallParameters};
 use mrbd_kernel::simulate::Accuracy;
 use mrbd_lab::calibrate::Experiment;
 use mrbd_lab::experiment_file::ExperimentFile;
+
+use crate::shared;
 
 fn experiment(name: &str) -> Experiment {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("inputs/measured/griffith_2004").join(name);
@@ -94,4 +97,40 @@ fn rejects_a_release_where_nothing_was_measured() {
     assert!(late.contains("release_s = 7") && late.contains("four samples"), "{late}");
     let loose = load(&|text| text.replace("top_held = true", "")).expect_err("one rotation only");
     assert!(loose.contains("top_held"), "{loose}");
+}
+
+/// Mean and standard deviation of samples.
+fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
+    use statrs::statistics::Statistics;
+    (values.mean(), values.std_dev())
+}
+
+/// Trials, mean and standard deviation of the first impact over Housner's, by height over thickness.
+fn first_impacts(trials: &BTreeMap<u32, Vec<f64>>) -> Vec<String> {
+    let row = |(slenderness, ratios): (&u32, &Vec<f64>)| {
+        let (mean, deviation) = mean_and_deviation(ratios);
+        format!("{slenderness},{},{mean:.4},{deviation:.4}", ratios.len())
+    };
+    trials.iter().map(row).collect()
+}
+
+#[test]
+fn published_first_impacts_of_limestone_are_those_of_the_trials() {
+    let Some(data) = shared::folder("real/limestone_2026") else { return };
+    let shipped = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("inputs/measured/limestone_2026");
+    let text = |name: &str| std::fs::read_to_string(shipped.join(name)).expect("a file that is shipped");
+    let mut trials = BTreeMap::<u32, Vec<f64>>::new();
+    for row in csv::Reader::from_path(data.join("first_impact.csv")).expect("the trials").deserialize() {
+        let row: BTreeMap<String, f64> = row.expect("a row of numbers");
+        let slenderness = row["height_over_thickness"].round() as u32;
+        trials.entry(slenderness).or_default().push(row["first_impact_angular_ratio"] / row["housner_ratio"]);
+    }
+    let table = text("first_impact_by_slenderness.csv");
+    assert_eq!(table.lines().skip(1).collect::<Vec<_>>(), first_impacts(&trials));
+    let mut all = trials.into_values().flatten().collect::<Vec<_>>();
+    all.sort_by(f64::total_cmp);
+    let ((mean, deviation), middle) = (mean_and_deviation(&all), all.len() / 2);
+    let median = 0.5 * (all[middle] + all[(all.len() - 1) / 2]);
+    let row = format!("| {} | {mean:.3} | {deviation:.3} | {median:.3} |", all.len());
+    assert!(text("README.md").contains(&row), "{row}");
 }

@@ -2,7 +2,7 @@
 
 use mrbd_kernel::model::{G_M_S2, Wall};
 
-use crate::joint::{Joint, beds_pa_per_m};
+use crate::joint::Joint;
 
 /// Which edges the joints of a wall have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,14 +92,11 @@ impl Chain {
         let height_m = [h_1, p.height_m - h_1];
         let mass_kg = height_m.map(|h_i| p.mass_kg * h_i / p.height_m);
         let widths_m = if edges == Edges::Full { [p.thickness_m; 2] } else { wall.width_m() };
-        let none = ([None; 2], [None; 2]);
-        let (beds, laws) =
-            if edges == Edges::AsTheyAre { (beds_pa_per_m(wall), wall.joint_laws()) } else { none };
+        let laws = if edges == Edges::AsTheyAre { wall.joint_laws() } else { [None; 2] };
         let above_kg = [p.mass_kg + p.diaphragm_mass_kg, mass_kg[1] + p.diaphragm_mass_kg];
-        let joint = |i: usize| match (beds[i], laws[i]) {
-            (Some(bed), _) => Joint::on_bed(widths_m[i], above_kg[i] * G_M_S2, bed, p.length_m),
-            (None, Some(law)) => Joint::by_law(widths_m[i], above_kg[i] * G_M_S2, law),
-            (None, None) => Joint::sharp(widths_m[i], above_kg[i] * G_M_S2),
+        let joint = |i: usize| match laws[i] {
+            Some(law) => Joint::by_law(widths_m[i], above_kg[i] * G_M_S2, law),
+            None => Joint::sharp(widths_m[i], above_kg[i] * G_M_S2),
         };
         Self {
             height_m,

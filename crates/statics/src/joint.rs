@@ -1,9 +1,6 @@
 //! A joint under a steady load: the moment that it carries at a rotation.
 
-use mrbd_kernel::model::{Effect, JointLaw, Wall};
-
-/// Kind of the effect that lays a bed of springs into a joint, and the key of its stiffness.
-const BED: (&str, &str) = ("compliant_joint", "stiffness_pa_per_m");
+use mrbd_kernel::model::JointLaw;
 
 /// A joint of width b along a strip of length L that carries N.
 ///
@@ -109,31 +106,10 @@ impl Joint {
     }
 }
 
-/// Stiffness of the beds at the ground and at the crack, Pa/m, from the effects of a wall; `None` for sharp edges.
-pub fn beds_pa_per_m(wall: &Wall) -> [Option<f64>; 2] {
-    let mut beds = [None; 2];
-    for effect in &wall.parameters().effects {
-        let Some((joint, stiffness)) = bed(effect) else { continue };
-        for (place, bed) in ["ground", "crack"].iter().zip(&mut beds) {
-            if joint == *place || joint == "both" {
-                *bed = Some(stiffness);
-            }
-        }
-    }
-    beds
-}
-
-/// The joint and the stiffness of an effect that is a bed.
-fn bed(effect: &Effect) -> Option<(&'static str, f64)> {
-    let entry = effect.entry();
-    let key = entry.parameters.iter().position(|parameter| parameter.key == BED.1)?;
-    (entry.name == BED.0).then_some((effect.variant().choice?, effect.parameters()[key]))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mrbd_kernel::model::{G_M_S2, WallParameters};
+    use mrbd_kernel::model::{Effect, G_M_S2, Wall, WallParameters};
 
     /// b 0.3 m, N 20 kN, k 1e9 Pa/m along 1.5 m.
     fn bed() -> Joint {

@@ -41,7 +41,7 @@ mod restraint;
 
 pub use chain::{Chain, Edges, Moved, Moves, Side};
 pub use crack::{LeastCrack, least_crack_height};
-pub use joint::{Joint, beds_pa_per_m};
+pub use joint::Joint;
 pub use mechanism::{Mechanism, VirtualWork};
 pub use push::{Curve, Load, Point, Push};
 pub use restraint::{Restraint, Springs};

@@ -7,7 +7,7 @@ pub use measured::{Measured, MeasuredPoint};
 use serde::{Deserialize, Serialize};
 
 use mrbd_kernel::model::{Effect, Role, Wall};
-use mrbd_statics::{Chain, Curve, Edges, Joint, Load, Point, Push, Restraint, Side, beds_pa_per_m};
+use mrbd_statics::{Chain, Curve, Edges, Joint, Load, Point, Push, Restraint, Side};
 
 /// What a manifest says such results are.
 pub const KIND: &str = "push";
@@ -93,6 +93,7 @@ impl Question {
     pub fn answer(&self, wall: &Wall, name: &str) -> Pushed {
         let restraint = if self.held { Restraint::Held } else { Restraint::of(wall, self.side) };
         let chain = self.chain(wall);
+        let own_beds = wall.beds().map(|bed| Some(bed?.stiffness_pa_per_m));
         let follows_crack = match self.load {
             Load::Crack => true,
             Load::Top => false,
@@ -115,7 +116,7 @@ impl Question {
             .to_owned(),
             thickness_m: wall.parameters().thickness_m,
             weight_n: chain.weight_n(),
-            beds_pa_per_m: self.bed_pa_per_m.map_or(beds_pa_per_m(wall), |bed| [Some(bed); 2]),
+            beds_pa_per_m: self.bed_pa_per_m.map_or(own_beds, |bed| [Some(bed); 2]),
             joint_laws: if self.bed_pa_per_m.is_some() { [None, None] } else { rivals(wall) },
             curve: curve(chain),
             rigid: curve(Chain::of(wall, Edges::Full, self.side)),
@@ -134,13 +135,14 @@ impl Question {
     }
 }
 
-/// Kinds of the effects that are rivals of beds, by joint.
+/// Kinds of the effects that are rivals of beds, by joint. A rival may be a bed all the same: one that never crushes.
 fn rivals(wall: &Wall) -> [Option<String>; 2] {
     let mut kinds = [None, None];
     let is_rival = |effect: &&Effect| effect.entry().role == Role::JointLaw && !effect.is_neutral();
     for effect in wall.parameters().effects.iter().filter(is_rival) {
-        for joint in effect.variant().joints() {
-            kinds[*joint as usize] = Some(effect.kind().name().to_owned());
+        let joints = effect.variant().joints().iter().map(|joint| *joint as usize);
+        for joint in joints.filter(|joint| wall.beds()[*joint].is_none()) {
+            kinds[joint] = Some(effect.kind().name().to_owned());
         }
     }
     kinds

@@ -7,6 +7,8 @@
 //! | [`channel_table`], `channels`, `bodies` | transducers at heights, and the rotations that they tell |
 //! | [`measured`] | measured rotations as laboratories have them |
 //! | [`alignment`] | clocks of record and measurement brought together |
+//! | `shaking` | the ground motion of a test |
+//! | `release` | a release by hand: from when on it counts, and the state there |
 //! | [`mod@test`] | one test: how the wall was shaken, what was measured, and a simulation held against it |
 //! | [`misfit`] | the weighted mean error over a whole run: the paper's Eq. 8 |
 //! | [`rotations`] | rotations of a run at the times of a measurement |
@@ -26,8 +28,10 @@ pub mod measured;
 pub mod misfit;
 pub mod noise;
 pub mod pattern;
+mod release;
 pub mod rotations;
 mod segments;
+mod shaking;
 pub mod test;
 pub mod test_data;
 mod test_table;

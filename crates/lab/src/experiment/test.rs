@@ -6,15 +6,15 @@ use super::alignment::{Alignment, aligned};
 use super::file::{ExperimentFile, Purpose, TestTable};
 use super::measured::Measured;
 use super::misfit::{Comparison, Errors, Target};
+use super::release::{counted_s, released};
 use super::rotations::AtTimes;
 use super::segments::{Segment, segments};
+use super::shaking::{read_shaking, until};
 use mrbd_files::error::{InputError, Result};
-use mrbd_kernel::model::{Pair, State, Wall};
+use mrbd_kernel::model::{State, Wall};
 use mrbd_kernel::simulate::{
     Accuracy, History, Observer, Outcome, Response, Shaking, Simulator, Start, simulate_watched_side_by_side,
 };
-use mrbd_records::{Accelerogram, ReadOptions, read};
-use nalgebra::{DMatrix, DVector};
 
 /// One test of an experiment.
 #[derive(Debug, Clone)]
@@ -304,98 +304,3 @@ impl Simulated {
 
 /// Rows of a history between which rotations are straight, s: of a swing of some tenths, to 1e-4 of it.
 const RMS_STEP_S: f64 = 1e-3;
-
-/// What counts of a test: nothing from before a release.
-pub(super) fn counted_s(table: &TestTable) -> Vec<[f64; 2]> {
-    match (table.release_s, &table.windows_s[..]) {
-        (None, windows) => windows.to_vec(),
-        (Some(from_s), []) => vec![[from_s, f64::MAX]],
-        (Some(from_s), windows) => {
-            let after = windows.iter().map(|[from, to]| [from.max(from_s), *to]);
-            after.filter(|[from, to]| from < to).collect()
-        }
-    }
-}
-
-/// Time to either side of a release over which its state is read, s: a swing lasts some tenths.
-const RELEASE_READ_S: f64 = 0.06;
-
-/// The measured state at a time: of the parabola through the samples about it, in least squares.
-fn released(path: &Path, measured: &Measured, time_s: f64) -> Result<Start, InputError> {
-    let near = |k: &usize| (measured.time_s[*k] - time_s).abs() <= RELEASE_READ_S;
-    let near = (0..measured.time_s.len()).filter(near).collect::<Vec<_>>();
-    let of = |channel: &Option<Vec<f64>>| {
-        let theta = channel.as_ref()?;
-        let samples = near.iter().map(|&k| (measured.time_s[k] - time_s, theta[k]));
-        parabola(&samples.filter(|(_, theta)| theta.is_finite()).collect::<Vec<_>>())
-    };
-    let states = measured.theta_rad.each_ref().map(of);
-    let [Some(lower), Some(upper)] = states else {
-        let found = format!("no state of both bodies at release_s = {time_s} s");
-        let allowed = format!("four samples or more of both within {RELEASE_READ_S} s of it; see top_held");
-        return Err(InputError::file(path, found, allowed));
-    };
-    let state = State { theta: [lower[0], upper[0]], omega: [lower[1], upper[1]] };
-    Ok(Start { time_s, state, ..Start::default() })
-}
-
-/// Value and slope at zero of the parabola through samples, in least squares; `None` of fewer than four.
-fn parabola(samples: &[(f64, f64)]) -> Option<Pair> {
-    if samples.len() < 4 {
-        return None;
-    }
-    let rows = DMatrix::from_fn(samples.len(), 3, |k, power| samples[k].0.powi(power as i32));
-    let values = DVector::from_iterator(samples.len(), samples.iter().map(|(_, value)| *value));
-    let fitted = rows.svd(true, true).solve(&values, f64::EPSILON).ok()?;
-    Some([fitted[0], fitted[1]])
-}
-
-/// Steps this near each other, as a share, are equal: files round them.
-const SAME_STEP: f64 = 1e-9;
-
-/// What is kept of a record beyond its last use, s, for walls whose effects bring it earlier: by no more than this.
-const SPARE_S: f64 = 1.0;
-
-/// Reads the records of a test; paths are relative to `folder`.
-///
-/// # Errors
-/// Input errors of the records, or if their steps differ.
-fn read_shaking(folder: &Path, table: &TestTable) -> Result<Shaking> {
-    let options = ReadOptions { step_s: table.record_step_s, ..ReadOptions::default() };
-    let Some(record) = &table.record else { return Ok(Shaking::default()) };
-    let horizontal = read(&folder.join(record), &options)?.accelerogram.scaled(table.scale);
-    let vertical = match &table.vertical {
-        None => None,
-        Some(name) => {
-            let path = folder.join(name);
-            let record = read(&path, &options)?.accelerogram;
-            let (step_s, needed) = (record.step_s(), horizontal.step_s());
-            if (step_s / needed - 1.0).abs() > SAME_STEP {
-                let allowed = format!("the step of the horizontal record, {needed} s");
-                return Err(InputError::file(&path, format!("a step of {step_s} s"), allowed).into());
-            }
-            Some(record.scaled(table.vertical_scale.unwrap_or(table.scale)))
-        }
-    };
-    Ok(Shaking { horizontal: Some(horizontal), vertical, tail_s: 0.0 })
-}
-
-/// The records cut where nothing counts any more, or free motion added until there.
-///
-/// What comes after a time does not change what came before it, so the cut changes no result.
-fn until(shaking: &Shaking, end_s: f64) -> Shaking {
-    let horizontal = shaking.horizontal.as_ref().map(|record| cut(record, end_s));
-    let vertical = shaking.vertical.as_ref().map(|record| cut(record, end_s));
-    let duration_s = horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
-    Shaking { horizontal, vertical, tail_s: (end_s - duration_s).max(0.0) }
-}
-
-fn cut(record: &Accelerogram, end_s: f64) -> Accelerogram {
-    let samples = record.acceleration_m_s2();
-    let needed = ((end_s + SPARE_S) / record.step_s()).ceil() as usize + 2;
-    if needed >= samples.len() {
-        return record.clone();
-    }
-    // A part of a valid record, two samples at least, is valid.
-    Accelerogram::new(record.step_s(), samples[..needed].to_vec()).unwrap_or_else(|_| record.clone())
-}

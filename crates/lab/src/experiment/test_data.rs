@@ -66,39 +66,18 @@ impl TestData {
     /// Input errors for a channel that is lost or without noise, rotations no standing wall has, a measurement apart
     /// from its record, or too few samples.
     pub fn new(test: &Test, path: &Path, table: &TestTable, wall: &Wall) -> Result<Self, InputError> {
-        let refuse = |found: String, allowed: &str| Err(InputError::file(path, found, allowed));
+        let refuse = |found: String, allowed: &str| InputError::file(path, found, allowed);
         let measured = &test.measured;
-        let [Some(_), Some(_)] = &measured.theta_rad else {
-            let found = format!("one rotation only in test {:?}", test.name);
-            return refuse(
-                found,
-                "what tells both: theta1_rad and theta2_rad, a displacement up to the crack and one above it, \
-                 or either and top_held = true",
-            );
-        };
+        check_both_told(test, path)?;
         check_radians(test, path, table)?;
-        let (time_s, mut theta_rad) = measured.counted(&super::test::counted_s(table));
-        let record_s = test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s);
-        let last_s = time_s.last().copied().unwrap_or(0.0);
-        let is_shaken = test.shaking.horizontal.is_some();
-        if is_shaken && last_s.min(record_s) <= time_s.first().copied().unwrap_or(0.0) {
-            let [from_s, to_s] =
-                [measured.time_s.first(), measured.time_s.last()].map(|t| t.copied().unwrap_or(0.0));
-            let found =
-                format!("test {:?} measured from {from_s:.2} to {to_s:.2} s of the record's time", test.name);
-            return refuse(
-                found,
-                &format!("times that overlap the record, 0 to {record_s:.2} s; see start_s"),
-            );
-        }
-        let Some(step_s) = median_step(&time_s).filter(|_| time_s.len() >= LEAST_SAMPLES) else {
+        let (time_s, mut theta_rad) = measured.counted(&super::release::counted_s(table));
+        check_shaken(test, path, &time_s)?;
+        let step_s = median_step(&time_s).filter(|_| time_s.len() >= LEAST_SAMPLES).ok_or_else(|| {
             let found =
                 format!("{} samples of test {:?} from its record's beginning on", time_s.len(), test.name);
-            return refuse(
-                found,
-                &format!("{LEAST_SAMPLES} or more before the wall falls; are rotations in radians?"),
-            );
-        };
+            let allowed = format!("{LEAST_SAMPLES} or more before the wall falls; are rotations in radians?");
+            refuse(found, &allowed)
+        })?;
         let by_time = is_uneven(&time_s, measured.gap_s);
         // Uneven samples nearer than a channel is a cubic are joined.
         let gap_s = match table.gap_s {
@@ -106,7 +85,7 @@ impl TestData {
             _ => measured.gap_s,
         };
         let [Some(lower_rad), Some(upper_rad)] = channel_noise_rad(measured, &time_s, &theta_rad) else {
-            return refuse("no noise at all".into(), "rotations as measured");
+            return Err(refuse("no noise at all".into(), "rotations as measured"));
         };
         let noise_rad = [lower_rad, upper_rad];
         let step_s = if by_time { mean_step(&time_s, gap_s).unwrap_or(step_s) } else { step_s };
@@ -114,6 +93,7 @@ impl TestData {
         if test.top_held {
             theta_rad.iter_mut().for_each(|theta| theta[1] = f64::NAN);
         }
+        let [last_s, record_s] = [time_s.last().copied().unwrap_or(0.0), record_s(test)];
         let tail_s = (last_s - record_s).max(0.0) + gap_s;
         Ok(Self {
             name: test.name.clone(),
@@ -139,6 +119,36 @@ impl TestData {
     pub fn samples_in(&self, seconds: f64) -> usize {
         (seconds / self.step_s).round().max(1.0) as usize
     }
+}
+
+/// Refuses a test that tells one rotation only.
+fn check_both_told(test: &Test, path: &Path) -> Result<(), InputError> {
+    let [Some(_), Some(_)] = &test.measured.theta_rad else {
+        let found = format!("one rotation only in test {:?}", test.name);
+        let allowed = "what tells both: theta1_rad and theta2_rad, a displacement up to the crack and one above it, \
+             or either and top_held = true";
+        return Err(InputError::file(path, found, allowed));
+    };
+    Ok(())
+}
+
+/// Length of the record of a test, s; 0 where it moved by itself.
+fn record_s(test: &Test) -> f64 {
+    test.shaking.horizontal.as_ref().map_or(0.0, Accelerogram::duration_s)
+}
+
+/// Refuses samples that all lie outside the record, where there is one.
+fn check_shaken(test: &Test, path: &Path, time_s: &[f64]) -> Result<(), InputError> {
+    let [first_s, last_s] = [time_s.first(), time_s.last()].map(|t| t.copied().unwrap_or(0.0));
+    let record_s = record_s(test);
+    if test.shaking.horizontal.is_none() || last_s.min(record_s) > first_s {
+        return Ok(());
+    }
+    let measured_s = &test.measured.time_s;
+    let [from_s, to_s] = [measured_s.first(), measured_s.last()].map(|t| t.copied().unwrap_or(0.0));
+    let found = format!("test {:?} measured from {from_s:.2} to {to_s:.2} s of the record's time", test.name);
+    let allowed = format!("times that overlap the record, 0 to {record_s:.2} s; see start_s");
+    Err(InputError::file(path, found, allowed))
 }
 
 /// Mean distance of samples that no gap parts, s.
