@@ -57,6 +57,7 @@ pub fn execute(args: &CalibrateArgs) -> Result<()> {
     let pool = args.threads.pool()?;
     pool.install(|| check_tests(&args.experiment, &experiment.given()?, &experiment.tests))?;
     print_lost(&experiment);
+    print_unused(&experiment);
     let Some(out) = args.out.as_ref().filter(|_| !args.evaluate) else { return evaluate(&experiment) };
     if args.resume
         && let Some(stored) = finished(out, &experiment)?
@@ -88,6 +89,15 @@ fn print_lost(experiment: &Experiment) {
             let columns = test.measured.columns.join(", ");
             eprintln!("mrbd: note: test {:?} has no {name}: columns {columns}", test.name);
         }
+    }
+}
+
+/// Says what is known beforehand and goes into no calibration.
+fn print_unused(experiment: &Experiment) {
+    if experiment.knows_sensor_gain {
+        eprintln!(
+            "mrbd: note: prior.sensor_gain is not used here: gains of sensors are for `mrbd diagnose` to find"
+        );
     }
 }
 

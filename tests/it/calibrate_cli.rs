@@ -1,5 +1,6 @@
 //! `mrbd calibrate` as a user meets it: files, resuming, threads, another optimiser.
 
+use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -187,10 +188,13 @@ fn regress_the_calibrated_wall_runs_and_the_table_is_csv() {
 fn verified_another_optimiser_gets_the_same_misfits() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let experiment = quick().write(folder.path());
+    let known = fs::read_to_string(&experiment).expect("just written") + "\n[prior]\nsensor_gain = 0.05\n";
+    fs::write(&experiment, known).expect("room");
     let mut child = Command::new(env!("CARGO_BIN_EXE_mrbd"))
         .args(["calibrate", text(&experiment), "--evaluate"])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
         .spawn()
         .expect("mrbd starts");
     let truth = TRUE.map(|c| c.to_string()).join(",");
@@ -205,6 +209,8 @@ fn verified_another_optimiser_gets_the_same_misfits() {
     };
     // The truth leaves the roundings of a history written and read back; C_l = 1 does not fit.
     assert!(wme(0, 0) < 1e-9 && wme(0, 1) < 1e-9 && wme(1, 0) > 0.01, "{rows}");
+    let notes = String::from_utf8(output.stderr).expect("UTF-8");
+    assert!(notes.contains("prior.sensor_gain is not used here"), "{notes}");
 }
 
 #[test]

@@ -17,6 +17,7 @@ use super::report::disagreement;
 use super::result::{Calibration, Identifiability, MethodResult, Vector};
 use super::search::{Draws, Found};
 use super::staged_search::{StagedSearch, stage_names};
+use crate::diagnose::experiment::SENSOR_GAIN;
 use crate::experiment::file::{CalibrateTable, ExperimentFile, Purpose, TestTable};
 use crate::experiment::{Test, TestData, load_tests};
 use crate::release::Moments;
@@ -38,6 +39,8 @@ pub struct Experiment {
     pub readable: Vec<(usize, TestData)>,
     /// The settings.
     pub settings: CalibrateTable,
+    /// Whether something is known of the sensors' gains, for which a calibration has no use.
+    pub knows_sensor_gain: bool,
     /// What was read, each file with its role.
     pub files: Vec<(String, PathBuf)>,
     /// SHA-256 of everything that decides the result.
@@ -61,7 +64,9 @@ impl Experiment {
         let files = file.files(path);
         let readable = readable(path, &file, &given, &tests);
         let request = request(&files, &settings)?;
-        Ok(Self { path: path.to_path_buf(), space, tests, readable, settings, files, request })
+        let knows_sensor_gain = file.prior.contains_key(SENSOR_GAIN);
+        let path = path.to_path_buf();
+        Ok(Self { path, space, tests, readable, settings, knows_sensor_gain, files, request })
     }
 
     /// Numbers of the tests that the search sees.
