@@ -238,7 +238,7 @@ impl Motion {
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
         if let Some(bedded) = &self.bedded {
-            return bedded.rate(self, [theta, omega], ground).into();
+            return bedded.rate(self, [theta, omega], ground, &mut None).into();
         }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
         dispatch!(self.level, _ => self.rate_at(&self.configuration(theta), omega, ground)).into()

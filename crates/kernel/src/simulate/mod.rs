@@ -9,6 +9,7 @@ mod history;
 mod lane_accounts;
 mod lane_beds;
 mod lane_kinks;
+mod lane_paths;
 mod lane_steps;
 mod response;
 mod rest;

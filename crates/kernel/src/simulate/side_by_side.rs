@@ -6,7 +6,6 @@
 use fearless_simd::Level;
 
 use super::history::Observer;
-use super::lane_beds::steps;
 use super::lane_steps::advance;
 use super::response::Response;
 use super::row::Row;
@@ -79,8 +78,8 @@ struct Pool<'w, O> {
     slots: Vec<Option<(usize, Run<O>)>>,
     /// Slots that wait for a step, by its kind.
     queues: [Vec<usize>; LaneKind::ALL.len()],
-    /// Walls on sharp edges that step together, by the kind of their step.
-    rows: [Aboard; LaneKind::ON_EDGES],
+    /// Walls that step together, by the kind of their step.
+    rows: [Aboard; LaneKind::ALL.len()],
     /// Vector instructions that this processor has, and whether walls go side by side by them.
     level: Level,
     lanes_pay: bool,
@@ -117,10 +116,7 @@ impl<'w, O: Observer> Pool<'w, O> {
             self.queue_step(self.slots.len() - 1);
         }
         while let Some(kind) = self.most_wanted() {
-            match self.rows.get(kind.index()) {
-                Some(_) => self.step_row(kind),
-                None => self.step_on_request(kind),
-            }
+            self.step_row(kind);
         }
     }
 
@@ -170,9 +166,7 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     /// The kind of step that most runs wait for, those aboard counted; `None` when none does.
     fn most_wanted(&self) -> Option<LaneKind> {
-        let wanted = |kind: &LaneKind| {
-            self.queues[kind.index()].len() + self.rows.get(kind.index()).map_or(0, Aboard::count)
-        };
+        let wanted = |kind: &LaneKind| self.queues[kind.index()].len() + self.rows[kind.index()].count();
         LaneKind::ALL.into_iter().filter(|kind| wanted(kind) > 0).max_by_key(wanted)
     }
 
@@ -256,29 +250,6 @@ impl<'w, O: Observer> Pool<'w, O> {
             }
             (Some(next), _) => self.queues[next.index()].push(slot),
             (None, _) => {}
-        }
-    }
-
-    /// Takes the steps that walls on beds request.
-    fn step_on_request(&mut self, kind: LaneKind) {
-        let queue = &mut self.queues[kind.index()];
-        let from = queue.len().saturating_sub(LANES);
-        let Some(&last) = queue.last() else { return };
-        // A lane without a run does the work of another once more.
-        let mut of = [last; LANES];
-        let count = queue.len() - from;
-        of[..count].copy_from_slice(&queue[from..]);
-        queue.truncate(from);
-        let requests = of.map(|slot| {
-            let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
-            run.step_request()
-        });
-        let mut taken = steps(self.level, &requests);
-        for (slot, (step, reactions)) in of.into_iter().zip(&mut taken).take(count) {
-            if let Some((_, run)) = &mut self.slots[slot] {
-                run.finish_step(step, reactions);
-            }
-            self.queue_step(slot);
         }
     }
 }

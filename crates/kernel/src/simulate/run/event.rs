@@ -81,7 +81,7 @@ impl<O: Observer> Run<O> {
     /// where there is none, or the step may not be kept.
     pub fn approaches_event_in(&mut self, row: &mut Row, i: usize) -> bool {
         let (step, piece, from_s) = (row.step(i), row.ground.at(i), row.ground.offset_s[i]);
-        if self.wall.piecewise_laws().is_some() {
+        if self.wall.piecewise_laws().is_some() || self.wall.wall().gives() {
             return false;
         }
         let mut controller = self.controller;
