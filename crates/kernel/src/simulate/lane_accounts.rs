@@ -35,6 +35,15 @@ struct Paths<S: Simd> {
     rise: Mask<S>,
 }
 
+/// What was found of the steps of a row.
+struct Settled<S: Simd> {
+    h: F<S>,
+    error: F<S>,
+    to: Onwards<S>,
+    rise: Mask<S>,
+    corner_force: F<S>,
+}
+
 /// Where a piece of the record goes on, or the next begins.
 struct Onwards<S: Simd> {
     offset_s: F<S>,
@@ -174,14 +183,15 @@ impl SumRow {
 }
 
 impl Row {
-    /// Keeps the steps in which nothing happened, and requests those that follow. Gives the lanes of which it did.
+    /// Keeps the steps in which nothing happened, and requests those that follow. Gives the bits of the lanes that are left.
     #[inline(always)]
     pub fn settle<S: Simd, M: Stepping<S>>(
         &mut self,
         motions: &M,
+        alone: bool,
         landed: &Landed<S>,
         samples: &[&[Vector]; LANES],
-    ) -> Mask<S> {
+    ) -> u64 {
         let simd = landed.position[0].simd;
         let h = from_row(simd, &self.moving.h);
         let error = self.errors.of(landed.position_error, landed.velocity_error, h);
@@ -191,22 +201,44 @@ impl Row {
         if M::ON_BEDS {
             kept = kept & self.beds.keep_contact(&self.moving, landed, h);
         }
-        let done = kept & self.stay_closed(M::AS_ONE, kept, landed);
+        let (corner_force, stays) = self.stay_closed(M::AS_ONE, landed);
+        let done = kept & stays;
+        let left = self.taken & !done.to_bitmask();
+        let settled = Settled { h, error, to, rise: paths.rise, corner_force };
+        if alone && left == 0 {
+            // In lanes that are known beforehand, so that the next step need not wait for all that was looked at.
+            self.go_on(Mask::from_bitmask(simd, self.taken), motions, landed, &settled, samples);
+        } else {
+            self.go_on(done, motions, landed, &settled, samples);
+        }
+        left
+    }
+
+    /// Keeps the steps of some lanes.
+    #[inline(always)]
+    fn go_on<S: Simd, M: Stepping<S>>(
+        &mut self,
+        done: Mask<S>,
+        motions: &M,
+        landed: &Landed<S>,
+        &Settled { h, error, ref to, rise, corner_force }: &Settled<S>,
+        samples: &[&[Vector]; LANES],
+    ) {
         if self.watched {
             self.remember();
         }
-        let rises = done & paths.rise;
+        let rises = done & rise;
         if rises.any_true() {
             self.landed.store_motion(landed);
             self.raise_rotations(rises.to_bitmask());
         }
+        keep(done, &mut self.limits.corner_force, corner_force);
         self.account(done, landed, h);
         self.turn_top(done, motions, landed, h);
         self.moving_on(done, landed);
         self.errors.propose(done, error, h);
-        let left_s = self.ground.move_on(done, &to, samples);
+        let left_s = self.ground.move_on(done, to, samples);
         self.request(done, left_s);
-        done
     }
 
     /// Requests the next steps of some lanes, with so much left of their pieces in s.
@@ -229,16 +261,14 @@ impl Row {
         advances & self.kinks.far(&self.moving, before_m_s, landed, h)
     }
 
-    /// Whether closed joints surely stay closed, and the pivots are under tension as they were; the smallest corner
-    /// forces of the lanes of which both hold are kept.
+    /// The smallest corner forces, and whether closed joints surely stay closed and the pivots are under tension as
+    /// they were.
     #[inline(always)]
-    fn stay_closed<S: Simd>(&mut self, as_one: bool, kept: Mask<S>, landed: &Landed<S>) -> Mask<S> {
+    fn stay_closed<S: Simd>(&self, as_one: bool, landed: &Landed<S>) -> (F<S>, Mask<S>) {
         // On sharp edges, walls that turn as one have a closed crack, or none. Others have the ground closed, or nothing.
         let closed = if as_one { landed.reactions.crack } else { landed.reactions.ground };
         let (corner_force, stays) = self.limits.corner_force(closed);
-        let stays = stays & self.limits.same_tension(self.normals(landed));
-        keep(kept & stays, &mut self.limits.corner_force, corner_force);
-        stays
+        (corner_force, stays & self.limits.same_tension(self.normals(landed)))
     }
 
     /// Normal forces through the ground and the crack, 0 where there is none.

@@ -2,7 +2,7 @@
 
 use std::ops::Mul;
 
-use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4};
+use fearless_simd::{Level, Simd, SimdBase, f64x4};
 
 use super::lane_beds::OnBeds;
 use super::row::{GroundRow, MovingRow, Row};
@@ -334,13 +334,13 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S
 fn steps_until<S: Simd>(
     simd: S,
     motions: impl Stepping<S>,
+    alone: bool,
     row: &mut Row,
     samples: &[&[Vector]; LANES],
 ) -> u64 {
     loop {
         let landed = motions.step(simd, row);
-        let done = row.settle(&motions, &landed, samples);
-        let left = row.taken & !done.to_bitmask();
+        let left = row.settle(&motions, alone, &landed, samples);
         if left != 0 || row.watched {
             row.landed.store(&landed);
             motions.put_back(&mut row.motions);
@@ -352,11 +352,12 @@ fn steps_until<S: Simd>(
 #[inline(always)]
 fn edges_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
     simd: S,
+    alone: bool,
     row: &mut Row,
     samples: &[&[Vector]; LANES],
 ) -> u64 {
     let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &mut row.motions);
-    steps_until(simd, motions, row, samples)
+    steps_until(simd, motions, alone, row, samples)
 }
 
 #[inline(always)]
@@ -367,23 +368,23 @@ fn beds_until<S: Simd, const AS_ONE: bool>(
     samples: &[&[Vector]; LANES],
 ) -> u64 {
     let motions = OnBeds::<S, AS_ONE>(BeddedMotions::new(simd, &mut row.motions, freedom));
-    steps_until(simd, motions, row, samples)
+    steps_until(simd, motions, false, row, samples)
 }
 
 /// The steps of walls of one kind until something happens to some of them: the bits of their lanes.
 pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row, samples: &[&[Vector]; LANES]) -> u64 {
     match kind {
         LaneKind::AsOne { further: false } => {
-            dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, false, row, samples))
         }
         LaneKind::Apart { further: false } => {
-            dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, false, row, samples))
         }
         LaneKind::AsOne { further: true } => {
-            dispatch_lanes!(level, simd => edges_until::<_, true, true>(simd, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, true, true>(simd, false, row, samples))
         }
         LaneKind::Apart { further: true } => {
-            dispatch_lanes!(level, simd => edges_until::<_, false, true>(simd, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, false, true>(simd, false, row, samples))
         }
         LaneKind::Bedded(Freedom::Monolithic) => {
             dispatch_lanes!(level, simd => beds_until::<_, true>(simd, Freedom::Monolithic, row, samples))
@@ -391,5 +392,14 @@ pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row, samples: &[&[
         LaneKind::Bedded(freedom) => {
             dispatch_lanes!(level, simd => beds_until::<_, false>(simd, freedom, row, samples))
         }
+    }
+}
+
+/// The same of one run in a row of its own, on sharp edges and without further laws.
+pub(super) fn advance_alone(level: Level, as_one: bool, row: &mut Row, samples: &[&[Vector]; LANES]) {
+    if as_one {
+        dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, true, row, samples));
+    } else {
+        dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, true, row, samples));
     }
 }

@@ -1,5 +1,6 @@
 //! One run: a wall under a ground motion, from the first sample to the end of free motion.
 
+mod alone;
 mod bed_events;
 mod beyond_model;
 mod ensemble;

@@ -110,16 +110,6 @@ impl<O: Observer> Run<O> {
         }
     }
 
-    /// The run that was begun, to its end, step by step.
-    pub fn into_response(mut self) -> Response {
-        let mut reactions = Reactions::default();
-        while self.needs_step() {
-            let mut step = self.step_request().take(&mut reactions);
-            self.finish_step(&mut step, &reactions);
-        }
-        self.end()
-    }
-
     /// Starts the run; then [`Run::needs_step`] brings it to its first step.
     pub fn begin(&mut self, start_s: f64) {
         self.stopped = self.start(start_s).err();
@@ -165,6 +155,11 @@ impl<O: Observer> Run<O> {
             now: &self.now,
             quadrature_rate: self.quadrature_rate,
         }
+    }
+
+    /// Whether the next step is to advance, and not for an event.
+    pub fn advances(&self) -> bool {
+        matches!(self.task, Task::Advance { .. })
     }
 
     /// Length of the step that is to be taken, s.

@@ -5,6 +5,7 @@
 
 use fearless_simd::Level;
 
+use super::alone::to_its_end;
 use super::history::Observer;
 use super::lane_steps::advance;
 use super::response::Response;
@@ -40,7 +41,7 @@ impl<O: Observer> Prepared<O> {
 
     /// Runs it alone.
     pub(super) fn run_alone(self) -> Response {
-        self.begun().into_response()
+        to_its_end(self.begun())
     }
 }
 

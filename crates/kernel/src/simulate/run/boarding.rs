@@ -3,7 +3,7 @@
 use super::super::bed_events::keeps_contact_between;
 use super::super::history::Observer;
 use super::super::row::{Row, put};
-use super::{Run, Stop, Task};
+use super::{Run, Stop};
 use crate::model::{Contact, Joint, Kink, Regime};
 use crate::solver::{Point, STAGES};
 
@@ -91,7 +91,7 @@ impl<O: Observer> Run<O> {
         row.ground.put(i, piece, self.k, self.offset_s);
         row.errors.put(i, &self.controller);
         row.motions.put_formulas(i, self.wall.motion(self.contact));
-        let advances = matches!(self.task, Task::Advance { .. }) && self.is_plain();
+        let advances = self.advances() && self.is_plain();
         let (limits, totals) = (&mut row.limits, &self.totals);
         limits.advances[i] = f64::from(u8::from(advances));
         limits.put_rotations(i, &totals.theta_max);
