@@ -199,7 +199,7 @@ impl Row {
         let paths = self.limits.paths(M::AS_ONE, &self.moving, landed, h);
         let mut kept = error.simd_le(1.0) & paths.clear & to.goes_on & self.far_from_kinks(landed, h);
         if M::ON_BEDS {
-            kept = kept & self.beds.keep_contact(&self.moving, landed, h);
+            kept &= self.beds.keep_contact(&self.moving, landed, h);
         }
         let (corner_force, stays) = self.stay_closed(M::AS_ONE, landed);
         let done = kept & stays;
