@@ -19,6 +19,7 @@ mod lane_laws;
 mod laws;
 mod mass_matrix;
 mod motion;
+mod motion_energy;
 mod motion_row;
 mod number;
 mod parameters;

@@ -4,7 +4,8 @@ use fearless_simd::{Simd, SimdBase, f64x4, mask64x4};
 
 use super::events::ROUNDINGS;
 use super::lane_paths::{bound, scale};
-use super::lane_steps::{GroundLanes, Landed, Stepping, TwoRotations, apart, as_rate, landed_by};
+use super::lane_steps::{GroundLanes, Landed, Stepping, apart, as_rate, landed_by};
+use super::lane_values::TwoRotations;
 use super::row::{BedLimitRow, MovingRow, Row};
 use crate::lanes::{Numbers, from_row};
 use crate::model::{BeddedMotions, MotionRow, Pose, ReactionLanes};

@@ -1,80 +1,19 @@
 //! The steps of a row of runs on sharp edges, in vector lanes.
 
-use std::ops::Mul;
-
 use fearless_simd::{Level, Simd, SimdBase, f64x4};
 
 use super::lane_beds::OnBeds;
+use super::lane_values::{OneRotation, TwoRotations};
 use super::row::{GroundRow, MovingRow, Row};
-use crate::fused::fused_lanes;
 use crate::instructions::dispatch_lanes;
 use crate::lanes::{LANES, Numbers, from_row};
 use crate::model::{
     BeddedMotions, ConfigurationLanes, Freedom, LaneKind, MotionRow, Motions, RateLanes, ReactionLanes,
     Vector,
 };
-use crate::solver::{Field, Nystrom, Rate, Stride, Values};
+use crate::solver::{Field, Nystrom, Rate, Stride};
 
 type F<S> = f64x4<S>;
-
-/// One coordinate of every run, or both of them.
-#[derive(Clone, Copy)]
-struct OneRotation<S: Simd>(F<S>);
-
-#[derive(Clone, Copy)]
-pub(super) struct TwoRotations<S: Simd>(pub [F<S>; 2]);
-
-impl<S: Simd> Mul<f64> for OneRotation<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, factor: f64) -> Self {
-        Self(self.0 * factor)
-    }
-}
-
-impl<S: Simd> Values for OneRotation<S> {
-    type Length = F<S>;
-    #[inline(always)]
-    fn over(self, length: F<S>) -> Self {
-        Self(self.0 * length)
-    }
-
-    #[inline(always)]
-    fn over_plus(self, length: F<S>, other: Self) -> Self {
-        Self(fused_lanes(self.0, length, other.0))
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: f64, other: Self) -> Self {
-        Self(fused_lanes(self.0, F::splat(self.0.simd, factor), other.0))
-    }
-}
-
-impl<S: Simd> Mul<f64> for TwoRotations<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, factor: f64) -> Self {
-        Self([self.0[0] * factor, self.0[1] * factor])
-    }
-}
-
-impl<S: Simd> Values for TwoRotations<S> {
-    type Length = F<S>;
-    #[inline(always)]
-    fn over(self, length: F<S>) -> Self {
-        Self([self.0[0] * length, self.0[1] * length])
-    }
-
-    #[inline(always)]
-    fn over_plus(self, length: F<S>, other: Self) -> Self {
-        Self([fused_lanes(self.0[0], length, other.0[0]), fused_lanes(self.0[1], length, other.0[1])])
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: f64, other: Self) -> Self {
-        self.over_plus(F::splat(self.0[0].simd, factor), other)
-    }
-}
 
 /// Calls what every stage of a step does as a function of its own, compiled for the same instructions. Rare laws
 /// are longer than ones that are everywhere: six times over they would fill the cache of instructions, and the

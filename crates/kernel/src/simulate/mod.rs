@@ -12,6 +12,7 @@ mod lane_beds;
 mod lane_kinks;
 mod lane_paths;
 mod lane_steps;
+mod lane_values;
 mod response;
 mod rest;
 mod row;
