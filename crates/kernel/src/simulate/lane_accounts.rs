@@ -76,9 +76,12 @@ impl GroundRow {
     fn move_on<S: Simd>(&mut self, done: Mask<S>, to: &Onwards<S>, samples: &[&[Vector]; LANES]) -> F<S> {
         let simd = to.start_s.simd;
         let ended = done & to.ended;
-        keep(done, &mut self.offset_s, to.ended.select(F::splat(simd, 0.0), to.offset_s));
+        let reached_s = to.ended.select(F::splat(simd, 0.0), to.offset_s);
+        let offset_s = done.select(reached_s, from_row(simd, &self.offset_s));
+        self.offset_s = offset_s.into();
+        let length_s = ended.select(to.length_s, from_row(simd, &self.length_s));
         if !ended.any_true() {
-            return from_row(simd, &self.length_s) - from_row(simd, &self.offset_s);
+            return length_s - offset_s;
         }
         let at = self.k.map(|k| k + 1);
         let pair = |i: usize| samples[i].get(at[i]..at[i] + 2).unwrap_or(&[Vector { x: 0.0, y: 0.0 }; 2]);
@@ -90,11 +93,11 @@ impl GroundRow {
         keep_both(ended, &mut self.slope, slope);
         keep_both(ended, &mut self.from, [from[0] + slope[0] * 0.0, from[1] + slope[1] * 0.0]);
         keep(ended, &mut self.start_s, to.start_s);
-        keep(ended, &mut self.length_s, to.length_s);
+        self.length_s = length_s.into();
         keep(ended, &mut self.piece, to.piece);
         let bits = ended.to_bitmask();
         self.k = std::array::from_fn(|i| self.k[i] + (bits >> i & 1) as usize);
-        from_row(simd, &self.length_s) - from_row(simd, &self.offset_s)
+        length_s - offset_s
     }
 }
 
@@ -169,8 +172,7 @@ impl SumRow {
 
     #[inline(always)]
     fn add<S: Simd>(done: Mask<S>, sum: &mut Numbers, more: F<S>) {
-        let new = from_row(more.simd, sum) + more;
-        keep(done, sum, new);
+        *sum = (from_row(more.simd, sum) + done.select(more, F::splat(more.simd, 0.0))).into();
     }
 
     /// As [`super::totals::Totals::energy`].
@@ -206,19 +208,20 @@ impl Row {
         let left = self.taken & !done.to_bitmask();
         let settled = Settled { h, error, to, rise: paths.rise, corner_force };
         if alone && left == 0 {
-            // In lanes that are known beforehand, so that the next step need not wait for all that was looked at.
-            self.go_on(Mask::from_bitmask(simd, self.taken), motions, landed, &settled, samples);
+            // In all lanes, so that the next step need not wait for all that was looked at. Only one is ever told of.
+            let taken = Mask::from_bitmask(simd, self.taken);
+            self.go_on([Mask::splat(simd, true), taken], motions, landed, &settled, samples);
         } else {
-            self.go_on(done, motions, landed, &settled, samples);
+            self.go_on([done, done], motions, landed, &settled, samples);
         }
         left
     }
 
-    /// Keeps the steps of some lanes.
+    /// Keeps the steps of some lanes, and looks at maxima and at lengths that change in `told` of them.
     #[inline(always)]
     fn go_on<S: Simd, M: Stepping<S>>(
         &mut self,
-        done: Mask<S>,
+        [done, told]: [Mask<S>; 2],
         motions: &M,
         landed: &Landed<S>,
         &Settled { h, error, ref to, rise, corner_force }: &Settled<S>,
@@ -227,16 +230,16 @@ impl Row {
         if self.watched {
             self.remember();
         }
-        let rises = done & rise;
+        let rises = told & rise;
         if rises.any_true() {
             self.landed.store_motion(landed);
             self.raise_rotations(rises.to_bitmask());
         }
         keep(done, &mut self.limits.corner_force, corner_force);
         self.account(done, landed, h);
-        self.turn_top(done, motions, landed, h);
+        self.turn_top(told, motions, landed, h);
         self.moving_on(done, landed);
-        self.errors.propose(done, error, h);
+        self.errors.propose(told, error, h);
         let left_s = self.ground.move_on(done, to, samples);
         self.request(done, left_s);
     }

@@ -226,12 +226,12 @@ impl<O: Observer> Run<O> {
         }
         self.contact = next;
         let known = known.unwrap_or_else(|| self.motion_now(ground));
-        let Carried { rate, reactions, reserve } = self.in_its_branches(known, ground);
+        let Carried { rate, top_velocity_m_s, reserve } = self.in_its_branches(known, ground);
         self.totals.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
         self.corner_force = reserve;
-        self.top_velocity_m_s = reactions.top_velocity_m_s;
+        self.top_velocity_m_s = top_velocity_m_s;
         Ok(())
     }
 
@@ -250,7 +250,7 @@ impl<O: Observer> Run<O> {
         let rate = self.wall.rate(self.contact, &self.state(), ground);
         let reactions = self.reactions(&Point { acceleration: rate.theta_dd, ..self.now }, ground);
         let reserve = self.wall.smallest_reserve(self.contact, &reactions);
-        Carried { rate, reactions, reserve }
+        Carried { rate, top_velocity_m_s: reactions.top_velocity_m_s, reserve }
     }
 
     /// The contact state that carries the joint forces, with its motion where that is known.

@@ -86,16 +86,40 @@ struct Pool<'w, O> {
     lanes_pay: bool,
 }
 
-/// A row and the slots of the runs in it, with the laws by which they boarded.
+/// A row and the slots of the runs in it, with the contact and the branch of the laws in which they boarded.
 #[derive(Default)]
 struct Aboard {
     row: Box<Row>,
-    slots: [Option<(usize, (Contact, Regime))>; LANES],
+    slots: [Option<(usize, Contact)>; LANES],
+    /// Of those whose laws have branches.
+    regimes: [Regime; LANES],
 }
 
 impl Aboard {
     fn count(&self) -> usize {
         self.slots.iter().flatten().count()
+    }
+
+    fn board<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>) {
+        run.board(&mut self.row, i);
+        self.take(i, slot, run);
+    }
+
+    /// A run that comes back to its lane, where all but what moves is there already if its laws are as they were.
+    fn board_again<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>, before: Contact) {
+        if run.contact() != before || run.regime().is_some_and(|regime| regime != self.regimes[i]) {
+            return self.board(i, slot, run);
+        }
+        run.board_again(&mut self.row, i);
+        self.take(i, slot, run);
+    }
+
+    fn take<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>) {
+        self.row.taken |= 1 << i;
+        self.slots[i] = Some((slot, run.contact()));
+        if let Some(regime) = run.regime() {
+            self.regimes[i] = regime;
+        }
     }
 }
 
@@ -175,7 +199,7 @@ impl<'w, O: Observer> Pool<'w, O> {
     fn step_row(&mut self, kind: LaneKind) {
         loop {
             self.fill(kind);
-            let Aboard { row, slots } = &mut self.rows[kind.index()];
+            let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
             let run = |i: usize| slots[i].and_then(|(slot, _)| self.slots[slot].as_ref());
             let samples = std::array::from_fn(|i| run(i).map_or(&[][..], |(_, run)| run.samples()));
             let left = advance(self.level, kind, row, &samples);
@@ -200,17 +224,15 @@ impl<'w, O: Observer> Pool<'w, O> {
             }
             let Some(slot) = self.queues[kind.index()].pop() else { return };
             let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
-            let Aboard { row, slots } = &mut self.rows[kind.index()];
-            run.board(row, i);
-            row.watched = run.is_watched();
-            row.taken |= 1 << i;
-            slots[i] = Some((slot, run.laws()));
+            let aboard = &mut self.rows[kind.index()];
+            aboard.row.watched = run.is_watched();
+            aboard.board(i, slot, run);
         }
     }
 
     /// Shows a step that was kept in a lane to whoever watches the run.
     fn show(&mut self, kind: LaneKind, i: usize) {
-        let Aboard { row, slots } = &mut self.rows[kind.index()];
+        let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
         let Some((slot, _)) = slots[i] else { return };
         let Some((_, run)) = &mut self.slots[slot] else { return };
         if run.is_watched_on(row, i) {
@@ -223,7 +245,7 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     /// Goes through what happened to the run in a lane, and lets it or another one board there.
     fn attend(&mut self, kind: LaneKind, i: usize) {
-        let Aboard { row, slots } = &mut self.rows[kind.index()];
+        let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
         let Some((slot, boarded)) = slots[i] else { return };
         if let Some((_, run)) = &mut self.slots[slot] {
             if row.limits.advances[i] == 1.0 && run.approaches_event_in(row, i) {
@@ -237,18 +259,13 @@ impl<'w, O: Observer> Pool<'w, O> {
         let before = number(self);
         let next = self.next_kind(slot);
         let same = number(self) == before;
-        let Aboard { row, slots } = &mut self.rows[kind.index()];
-        row.taken &= !(1 << i);
+        let aboard = &mut self.rows[kind.index()];
+        aboard.row.taken &= !(1 << i);
         match (next, &self.slots[slot]) {
-            (Some(next), Some((_, run))) if next == kind => {
-                if same && run.laws() == boarded {
-                    run.board_again(row, i);
-                } else {
-                    run.board(row, i);
-                }
-                row.taken |= 1 << i;
-                slots[i] = Some((slot, run.laws()));
-            }
+            (Some(next), Some((_, run))) if next == kind => match same {
+                true => aboard.board_again(i, slot, run, boarded),
+                false => aboard.board(i, slot, run),
+            },
             (Some(next), _) => self.queues[next.index()].push(slot),
             (None, _) => {}
         }

@@ -8,9 +8,14 @@ use crate::model::{Contact, Joint, Kink, Regime};
 use crate::solver::{Point, STAGES};
 
 impl<O: Observer> Run<O> {
-    /// What its motion depends on beside the wall: the contact state, and the branch of the laws at the top.
-    pub fn laws(&self) -> (Contact, Regime) {
-        (self.contact, self.wall.regime())
+    /// The contact state.
+    pub fn contact(&self) -> Contact {
+        self.contact
+    }
+
+    /// The branch of the laws at the top, where these have branches.
+    pub fn regime(&self) -> Option<Regime> {
+        self.wall.piecewise_laws().map(|_| self.wall.regime())
     }
 
     /// Whether anybody watches it.
