@@ -9,7 +9,7 @@ use mrbd_kernel::simulate::{
 };
 use rand::RngExt;
 
-use crate::walls::{any_effects, any_restitution, any_shaking, any_wall, made, rng};
+use crate::walls::{any_bed, any_effects, any_restitution, any_shaking, any_wall, made, rng};
 
 /// Walls of all kinds, cracked and not, most without effects, each under a shaking of its own.
 fn anything(count: u64) -> Vec<(Wall, Shaking, Accuracy)> {
@@ -67,6 +67,37 @@ fn analytic_walls_side_by_side_move_as_alone_to_the_bit() {
         assert!(side_by_side(runs.iter().take(few)) == alone[..few]);
     }
     assert!(side_by_side(runs.iter().take(0)).is_empty());
+}
+
+/// Walls with a bed in a joint or in both, some with effects beside it. None where the wall would fall on its bed.
+fn on_beds(count: u64) -> Vec<(Wall, Shaking, Accuracy)> {
+    let one = |index| {
+        let mut rng = rng(85, index);
+        let mut wall = any_wall(&mut rng);
+        if rng.random_bool(0.3) {
+            wall.effects = any_effects(&mut rng, &wall);
+        }
+        let bed = any_bed(&mut rng, &wall, &wall.effects)?;
+        wall.effects.push(bed);
+        wall.restitution = any_restitution(&mut rng, 1.0);
+        let shaking = any_shaking(&mut rng, &wall, true);
+        Some((made(&wall), shaking, Accuracy { tolerance: 10_f64.powf(-rng.random_range(3.0..7.0)) }))
+    };
+    (0..count).filter_map(one).collect()
+}
+
+#[test]
+fn analytic_walls_on_beds_side_by_side_move_as_alone_to_the_bit() {
+    let runs = on_beds(60);
+    let alone: Vec<Response> = runs.iter().map(|(wall, shaking, of)| simulate(wall, shaking, *of)).collect();
+    let changes: u64 = alone.iter().map(|response| response.openings.total()).sum();
+    assert!(runs.len() > 40 && changes > 2000, "{} walls, {changes} changes of contact", runs.len());
+    for level in levels() {
+        assert!(side_by_side_at(level, runs.iter()) == alone, "{level:?}");
+    }
+    let mut backwards = side_by_side(runs.iter().rev());
+    backwards.reverse();
+    assert!(backwards == alone);
 }
 
 /// The sets of vector instructions that this processor has.

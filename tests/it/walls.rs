@@ -184,7 +184,7 @@ fn any_rival(rng: &mut ChaCha8Rng, wall: &WallParameters, others: &[Effect]) -> 
 
 /// A bed in a joint or in both, in whole contact up to 1e-4 to 1e-2 of the slenderness; none where the wall would fall
 /// on it. Not above 1e11 Pa/m: stiffer beds move as sharp edges, in ever shorter steps.
-fn any_bed(rng: &mut ChaCha8Rng, wall: &WallParameters, others: &[Effect]) -> Option<Effect> {
+pub fn any_bed(rng: &mut ChaCha8Rng, wall: &WallParameters, others: &[Effect]) -> Option<Effect> {
     let joint = ["ground", "crack", "both"][rng.random_range(0..3)];
     let full_contact_rad = log_uniform(rng, 1e-4, 1e-2) * wall.lower_width_m / wall.height_m;
     let stiffness =

@@ -177,7 +177,7 @@ impl Motion {
     #[inline(always)]
     pub fn rate_and_reactions_at(&self, theta: Pair, omega: Pair, ground: Vector) -> (MotionRate, Reactions) {
         if let Some(bedded) = &self.bedded {
-            let (rate, reactions) = bedded.reactions(self, [theta, omega], None, ground);
+            let (rate, reactions) = bedded.rate_and_reactions(self, [theta, omega], ground, &mut None);
             return (rate.into(), reactions);
         }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
@@ -189,7 +189,7 @@ impl Motion {
     /// Joint forces and motion of the top at a state with these angular accelerations.
     pub fn reactions(&self, theta: Pair, omega: Pair, theta_dd: Pair, ground: Vector) -> Reactions {
         if let Some(bedded) = &self.bedded {
-            return bedded.reactions(self, [theta, omega], Some(theta_dd), ground).1;
+            return bedded.reactions(self, [theta, omega], theta_dd, ground);
         }
         let [theta, omega, theta_dd] = [theta, omega, theta_dd].map(f64x2::new);
         dispatch!(self.level, _ => {

@@ -9,7 +9,7 @@ use super::laws::Laws;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
 use crate::fused::fused_lanes as fused;
-use crate::lanes::{LANES, Numbers, from_row};
+use crate::lanes::{Numbers, from_row};
 
 type F<S> = f64x4<S>;
 
@@ -35,9 +35,6 @@ impl LaneKind {
         Self::Bedded(Freedom::Upper),
         Self::Bedded(Freedom::Both),
     ];
-
-    /// How many of them, the first ones, are of walls on sharp edges.
-    pub const ON_EDGES: usize = 4;
 
     /// Position among all kinds.
     #[inline]
@@ -122,12 +119,6 @@ pub(crate) struct LawRow {
 }
 
 impl LawRow {
-    fn of(m: [&Motion; LANES]) -> Self {
-        let mut row = Self::default();
-        m.iter().enumerate().for_each(|(i, motion)| row.put(i, motion));
-        row
-    }
-
     /// The laws of the wall in a lane.
     #[inline(always)]
     pub fn put(&mut self, i: usize, motion: &Motion) {
@@ -179,9 +170,14 @@ pub(crate) struct LawLanes<S: Simd> {
 
 impl<S: Simd> LawLanes<S> {
     #[inline(always)]
-    pub fn new(simd: S, m: [&Motion; LANES]) -> Self {
-        let mut row = LawRow::of(m);
-        Self { spring: SpringLanes::new(simd, &row), further: FurtherLanes::new(simd, &mut row) }
+    pub fn new(simd: S, row: &mut LawRow) -> Self {
+        Self { spring: SpringLanes::new(simd, row), further: FurtherLanes::new(simd, row) }
+    }
+
+    /// Puts back what [`LawLanes::new`] took out of the row.
+    #[inline(always)]
+    pub fn put_back(self, row: &mut LawRow) {
+        self.further.put_back(row);
     }
 }
 

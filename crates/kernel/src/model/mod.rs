@@ -7,6 +7,7 @@
 //! plane, y up; rotations are absolute, clockwise positive, zero at rest.
 
 mod bed;
+mod bedded_lanes;
 mod contact;
 mod effect;
 mod formula;
@@ -18,6 +19,7 @@ mod lane_laws;
 mod laws;
 mod mass_matrix;
 mod motion;
+mod motion_energy;
 mod motion_row;
 mod number;
 mod parameters;
@@ -29,7 +31,8 @@ mod vector;
 mod wall;
 
 pub use bed::{Bed, CrushingJoint, JointLaw, RoundedEdges, TrilinearJoint};
-pub(crate) use bed::{BeddedMotion, Branch, JointLanes};
+pub(crate) use bed::{BeddedMotion, Branch, Pose};
+pub(crate) use bedded_lanes::BeddedMotions;
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
 pub(crate) use effect::GroundChange;
 pub use effect::{
@@ -41,7 +44,8 @@ pub use geometry::Pair;
 pub use impact::Impact;
 pub(crate) use joint_forces::Reactions;
 pub use joint_forces::{JointForce, JointForces};
-pub(crate) use lane_laws::{LaneKind, LawLanes};
+pub(crate) use lane_laws::LaneKind;
+pub(crate) use mass_matrix::Freedom;
 pub use motion::MotionRate;
 pub(crate) use motion::{Configuration, Motion, RatePair};
 pub(crate) use motion_row::MotionRow;

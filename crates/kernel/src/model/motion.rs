@@ -217,7 +217,7 @@ impl Motion {
     }
 
     #[inline(always)]
-    fn mass_matrix_of(&self, t: &Configuration) -> MassMatrix {
+    pub(super) fn mass_matrix_of(&self, t: &Configuration) -> MassMatrix {
         let m_dp = self.laws.carriage_mass_kg;
         let ([x_q, _], [y_q, y_c]) = (t.x.to_array(), t.y.to_array());
         let ([_, u_x], [_, u_y]) = (t.s_x.to_array(), t.s_y.to_array());
@@ -238,7 +238,7 @@ impl Motion {
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).
     pub fn rate(&self, theta: Pair, omega: Pair, ground: Vector) -> MotionRate {
         if let Some(bedded) = &self.bedded {
-            return bedded.rate(self, [theta, omega], ground).into();
+            return bedded.rate(self, [theta, omega], ground, &mut None).into();
         }
         let (theta, omega) = (f64x2::new(theta), f64x2::new(omega));
         dispatch!(self.level, _ => self.rate_at(&self.configuration(theta), omega, ground)).into()
@@ -378,36 +378,6 @@ impl Motion {
             theta_dd = self.with_held_top(equations, t, theta_dd).0;
         }
         RatePair { theta_dd: f64x2::new(theta_dd), powers_w: f64x2::new([ground_power_w, loss_power_w]) }
-    }
-
-    /// Kinetic, gravity and spring energy at a state, J; gravity is zero at rest.
-    pub fn energy_j(&self, theta: Pair, omega: Pair) -> f64 {
-        if let Some(bedded) = &self.bedded {
-            let at_top = self.laws.spring_energy_j(self.top_displacement_m(theta));
-            return bedded.energy_j(theta, omega) + at_top;
-        }
-        let t = self.configuration_at(theta);
-        let kinetic = 0.5 * self.mass_matrix_of(&t).quadratic(omega);
-        let [v_y, u_y] = t.s_y.to_array();
-        let lifted = (v_y - self.v.y) + (u_y - self.u.y);
-        kinetic + G_M_S2 * lifted + self.laws.spring_energy_j(self.top_displacement_m(theta))
-    }
-
-    /// Kinetic energy at a state, J.
-    #[inline(always)]
-    pub fn kinetic_energy_j(&self, rotations: Rotations, omega: Pair) -> f64 {
-        0.5 * self.mass_matrix(rotations).quadratic(omega)
-    }
-
-    /// Horizontal displacement s_Cx of the top, m.
-    pub fn top_displacement_m(&self, theta: Pair) -> f64 {
-        if let Some(bedded) = &self.bedded {
-            let [x_c, _, _] = bedded.top(theta, [0.0; 2], [0.0; 2]);
-            return x_c;
-        }
-        let t = self.configuration_at(theta);
-        let [x_q, x_c] = t.x.to_array();
-        (x_q + x_c) + self.o_c
     }
 }
 

@@ -1,5 +1,6 @@
 //! The motions of the walls of a row in memory, from where [`super::side_by_side`] takes them into registers.
 
+use super::bed::BedRow;
 use super::lane_laws::LawRow;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
@@ -24,6 +25,7 @@ pub(crate) struct MotionRow {
     pub(super) upper_mass: Numbers,
     pub(super) lower_inertia: Numbers,
     pub(super) laws: LawRow,
+    pub(super) beds: BedRow,
 }
 
 impl MotionRow {
@@ -49,6 +51,9 @@ impl MotionRow {
         self.upper_mass[i] = m.upper_mass;
         self.lower_inertia[i] = m.lower_inertia;
         self.laws.put(i, m);
+        if let Some(bedded) = m.on_beds() {
+            self.beds.put(i, bedded);
+        }
     }
 
     /// The formulas of a motion whose other laws are in the lane.

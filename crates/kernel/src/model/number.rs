@@ -10,7 +10,6 @@ use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4};
 use super::side_by_side::sin_cos_lanes;
 use super::vector::sin_cos;
 use crate::fused::{fused, fused_lanes};
-use crate::lanes::{LANES, lanes};
 
 /// What laws calculate with.
 pub trait Number:
@@ -38,9 +37,6 @@ pub trait Number:
 
     /// Sine and cosine by the polynomials of [`sin_cos`].
     fn sine_and_cosine(self) -> (Self, Self);
-
-    /// Sine and cosine by the library.
-    fn library_sine_and_cosine(self) -> (Self, Self);
 }
 
 impl Number for f64 {
@@ -72,11 +68,6 @@ impl Number for f64 {
     #[inline(always)]
     fn sine_and_cosine(self) -> (Self, Self) {
         sin_cos(self)
-    }
-
-    #[inline(always)]
-    fn library_sine_and_cosine(self) -> (Self, Self) {
-        self.sin_cos()
     }
 }
 
@@ -110,16 +101,4 @@ impl<S: Simd> Number for f64x4<S> {
     fn sine_and_cosine(self) -> (Self, Self) {
         sin_cos_lanes(self)
     }
-
-    #[inline(always)]
-    fn library_sine_and_cosine(self) -> (Self, Self) {
-        let pairs = library_pairs(self.into());
-        (lanes(self.simd, |i| pairs[i].0), lanes(self.simd, |i| pairs[i].1))
-    }
-}
-
-/// Apart, because what is compiled for wider registers would keep them from the library.
-#[inline(never)]
-fn library_pairs(angles: [f64; LANES]) -> [(f64, f64); LANES] {
-    angles.map(f64::sin_cos)
 }

@@ -7,7 +7,7 @@ use super::bed::{Branch, JointLaw};
 use super::contact::{Contact, Joint, Pivot, Touching};
 use super::formula::{FormulaLaws, Slopes};
 use super::geometry::{Arms, Pair, Rotations, TurnedArms};
-use super::joint_forces::{JointForces, Masses, Reactions};
+use super::joint_forces::{JointForces, Masses};
 use super::laws::{Laws, PiecewiseLaws};
 use super::motion::{Motion, MotionRate};
 use super::regime::Regime;
@@ -36,7 +36,7 @@ pub struct State {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Carried {
     pub rate: MotionRate,
-    pub reactions: Reactions,
+    pub top_velocity_m_s: f64,
     /// As [`RockingWall::smallest_reserve`] says.
     pub reserve: Option<f64>,
 }
@@ -390,7 +390,7 @@ impl RockingWall {
         };
         let reserve = self.smallest_reserve(candidate, &reactions);
         let carries = self.joints().all(apart) && reserve.is_none_or(|least| least >= 0.0);
-        carries.then_some(Carried { rate, reactions, reserve })
+        carries.then_some(Carried { rate, top_velocity_m_s: reactions.top_velocity_m_s, reserve })
     }
 }
 

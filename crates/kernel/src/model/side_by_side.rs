@@ -13,7 +13,7 @@ use std::f64::consts::FRAC_PI_4;
 use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
 use super::formula::angles;
-use super::joint_forces::{JointForce, JointForces, Reactions};
+use super::joint_forces::{JointForces, Reactions};
 use super::lane_laws::{FurtherLanes, SpringLanes};
 use super::motion_row::MotionRow;
 use super::vector::{COS, SIN, sin_cos};
@@ -379,23 +379,5 @@ impl<S: Simd> ReactionLanes<S> {
             crack: [crack.shear, crack.normal, crack.moment],
             top: [reactions.top_displacement_m, reactions.top_velocity_m_s, reactions.top_acceleration_m_s2],
         }
-    }
-
-    /// That of one lane.
-    #[inline(always)]
-    pub fn unpacked(&self) -> [Reactions; LANES] {
-        let [ground, crack, top] = [self.ground, self.crack, self.top].map(|of| of.map(<[f64; LANES]>::from));
-        let force = |of: &[[f64; LANES]; 3], i: usize| JointForce {
-            shear: of[0][i],
-            normal: of[1][i],
-            moment: of[2][i],
-        };
-        std::array::from_fn(|i| Reactions {
-            forces: JointForces { ground: force(&ground, i), crack: force(&crack, i) },
-            top_displacement_m: top[0][i],
-            top_velocity_m_s: top[1][i],
-            top_acceleration_m_s2: top[2][i],
-            holding_n: 0.0,
-        })
     }
 }

@@ -90,6 +90,20 @@ pub(super) fn first_bed_change(
     first
 }
 
+/// Between which rotations (rad) a joint before the kink of its law keeps its contact; finite.
+pub(super) fn keeps_contact_between(
+    wall: &RockingWall,
+    contact: Contact,
+    opened: [Pivot; 2],
+    joint: Joint,
+) -> [f64; 2] {
+    let Some(law) = wall.joint_law(joint) else { return [-f64::MAX, f64::MAX] };
+    let changes = changes_of(joint, law, contact.at(joint), opened[joint as usize]);
+    changes.into_iter().flatten().fold([-f64::MAX, f64::MAX], |[low, high], change| {
+        if change.sign > 0.0 { [low, high.min(change.limit_rad)] } else { [low.max(change.limit_rad), high] }
+    })
+}
+
 /// The changes that may come next of a joint before the kink of its law. Its contact is whole up to ±φ_c; sharp edges
 /// open and close by impacts.
 #[inline]

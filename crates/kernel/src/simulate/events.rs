@@ -20,6 +20,24 @@ pub(super) enum Event {
     Bed(BedChange),
 }
 
+/// What of these happens to a wall on sharp edges by itself; small, so that it stays in registers.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum EdgeEvent {
+    Collapse,
+    Impact(Touching),
+    Opening,
+}
+
+impl From<EdgeEvent> for Event {
+    fn from(event: EdgeEvent) -> Self {
+        match event {
+            EdgeEvent::Collapse => Event::Collapse,
+            EdgeEvent::Impact(touching) => Event::Impact(touching),
+            EdgeEvent::Opening => Event::Opening,
+        }
+    }
+}
+
 impl Event {
     /// The gap that closes.
     pub fn gap(self) -> Option<fn(Pair) -> f64> {
@@ -57,9 +75,9 @@ pub(super) fn first_event(
     collapse_rad: Pair,
     corner_force: (Option<f64>, Option<f64>),
     force_at: impl Fn(f64) -> f64,
-) -> Option<(Event, f64)> {
+) -> Option<(EdgeEvent, f64)> {
     let opening = match corner_force {
-        (Some(start), Some(end)) => first_lift(start, end, force_at).map(|share| (Event::Opening, share)),
+        (Some(start), Some(end)) => first_lift(start, end, force_at).map(|share| (EdgeEvent::Opening, share)),
         _ => None,
     };
     // Most steps are far from everything, and their coefficients prove it.
@@ -72,7 +90,7 @@ pub(super) fn first_event(
     if stands {
         return at_joints;
     }
-    sooner(first_collapse(motion, collapse_rad).map(|share| (Event::Collapse, share)), at_joints)
+    sooner(first_collapse(motion, collapse_rad).map(|share| (EdgeEvent::Collapse, share)), at_joints)
 }
 
 /// The first of two things inside a step, and of two at one instant the one that is named first.
@@ -101,7 +119,7 @@ fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
-fn first_closing(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
+fn first_closing(contact: Contact, motion: &Quintic) -> Option<(EdgeEvent, f64)> {
     let [lower, upper] = motion.bounds();
     let ground = closing(contact.ground.sign(), motion.coordinate(0), lower);
     let crack = closing(contact.crack.sign(), motion.difference(), upper);
@@ -111,7 +129,7 @@ fn first_closing(contact: Contact, motion: &Quintic) -> Option<(Event, f64)> {
         ground: now(ground) || contact.ground.is_closed(),
         crack: now(crack) || contact.crack.is_closed(),
     };
-    Some((Event::Impact(touching), first))
+    Some((EdgeEvent::Impact(touching), first))
 }
 
 /// Share at which a gap of a joint that is open on this side first closes; `size` is that of the rotations it is the

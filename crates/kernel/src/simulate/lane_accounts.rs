@@ -7,10 +7,11 @@ use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
 use super::events::NEAR_ZERO;
 use super::ground_path::LEAST_PIECE;
-use super::lane_steps::Landed;
+use super::lane_paths::{bound, keeps_to, scale, value};
+use super::lane_steps::{Landed, Stepping};
 use super::row::{GroundRow, LimitRow, MovingRow, Row, SumRow};
 use crate::lanes::{LANES, Numbers, from_row, lanes};
-use crate::model::{Motions, Vector};
+use crate::model::Vector;
 
 type F<S> = f64x4<S>;
 type Mask<S> = mask64x4<S>;
@@ -27,31 +28,6 @@ fn keep_both<S: Simd>(which: Mask<S>, numbers: &mut [Numbers; 2], new: [F<S>; 2]
     keep(which, &mut numbers[1], new[1]);
 }
 
-/// Bernstein coefficients of the quintics through both ends of the steps, as [`crate::solver::Quintic`] has them.
-#[inline(always)]
-pub(super) fn hermite<S: Simd>(
-    [x0, v0, a0]: [F<S>; 3],
-    [x1, v1, a1]: [F<S>; 3],
-    [h_5, hh_20]: [F<S>; 2],
-) -> [F<S>; 6] {
-    let (v0, v1) = (v0 * h_5, v1 * h_5);
-    [x0, x0 + v0, x0 + v0 * 2.0 + a0 * hh_20, x1 - v1 * 2.0 + a1 * hh_20, x1 - v1, x1]
-}
-
-#[inline(always)]
-fn bound<S: Simd>(c: &[F<S>; 6]) -> F<S> {
-    let [first, second] = [c[0].abs().max(c[1].abs()), c[2].abs().max(c[3].abs())];
-    first.max(second).max(c[4].abs().max(c[5].abs()))
-}
-
-/// Whether a gap keeps to its side for sure, as [`crate::solver::Quintic::keep_to`] says.
-#[inline(always)]
-fn keeps_to<S: Simd>(side: F<S>, c: &[F<S>; 6]) -> Mask<S> {
-    let at = [c[1] * side, c[2] * side, c[3] * side, c[4] * side, c[5] * side];
-    let least = at[0].min(at[1]).min(at[2].min(at[3])).min(at[4]) + (1.0 - side.abs());
-    least.simd_gt(0.0) & (c[0] * side).simd_ge(0.0)
-}
-
 /// Whether the paths of both bodies are surely clear of collapse and contact, and whether they may rise above the
 /// largest rotations so far.
 struct Paths<S: Simd> {
@@ -59,37 +35,13 @@ struct Paths<S: Simd> {
     rise: Mask<S>,
 }
 
-impl MovingRow {
-    /// Position, velocity and acceleration of a body.
-    #[inline(always)]
-    fn start<S: Simd>(&self, simd: S, i: usize) -> [F<S>; 3] {
-        let of = |numbers: &Numbers| from_row(simd, numbers);
-        [of(&self.position[i]), of(&self.velocity[i]), of(&self.acceleration[i])]
-    }
-}
-
-impl<S: Simd> Landed<S> {
-    #[inline(always)]
-    fn end(&self, i: usize) -> [F<S>; 3] {
-        [self.position[i], self.velocity[i], self.acceleration[i]]
-    }
-}
-
-/// By what velocities and accelerations enter the coefficients.
-#[inline(always)]
-pub(super) fn scale<S: Simd>(h: F<S>) -> [F<S>; 2] {
-    [h / 5.0, h * h / 20.0]
-}
-
-/// Value at a share of the steps, as [`crate::solver::Bernstein::value`] has it.
-#[inline(always)]
-fn value<S: Simd>(mut c: [F<S>; 6], share: F<S>) -> F<S> {
-    for width in (1..6).rev() {
-        for i in 0..width {
-            c[i] = c[i] + share * (c[i + 1] - c[i]);
-        }
-    }
-    c[0]
+/// What was found of the steps of a row.
+struct Settled<S: Simd> {
+    h: F<S>,
+    error: F<S>,
+    to: Onwards<S>,
+    rise: Mask<S>,
+    corner_force: F<S>,
 }
 
 /// Where a piece of the record goes on, or the next begins.
@@ -124,9 +76,12 @@ impl GroundRow {
     fn move_on<S: Simd>(&mut self, done: Mask<S>, to: &Onwards<S>, samples: &[&[Vector]; LANES]) -> F<S> {
         let simd = to.start_s.simd;
         let ended = done & to.ended;
-        keep(done, &mut self.offset_s, to.ended.select(F::splat(simd, 0.0), to.offset_s));
+        let reached_s = to.ended.select(F::splat(simd, 0.0), to.offset_s);
+        let offset_s = done.select(reached_s, from_row(simd, &self.offset_s));
+        self.offset_s = offset_s.into();
+        let length_s = ended.select(to.length_s, from_row(simd, &self.length_s));
         if !ended.any_true() {
-            return from_row(simd, &self.length_s) - from_row(simd, &self.offset_s);
+            return length_s - offset_s;
         }
         let at = self.k.map(|k| k + 1);
         let pair = |i: usize| samples[i].get(at[i]..at[i] + 2).unwrap_or(&[Vector { x: 0.0, y: 0.0 }; 2]);
@@ -138,43 +93,32 @@ impl GroundRow {
         keep_both(ended, &mut self.slope, slope);
         keep_both(ended, &mut self.from, [from[0] + slope[0] * 0.0, from[1] + slope[1] * 0.0]);
         keep(ended, &mut self.start_s, to.start_s);
-        keep(ended, &mut self.length_s, to.length_s);
+        self.length_s = length_s.into();
         keep(ended, &mut self.piece, to.piece);
         let bits = ended.to_bitmask();
         self.k = std::array::from_fn(|i| self.k[i] + (bits >> i & 1) as usize);
-        from_row(simd, &self.length_s) - from_row(simd, &self.offset_s)
+        length_s - offset_s
     }
 }
 
 impl LimitRow {
     #[inline(always)]
-    fn paths<S: Simd, const AS_ONE: bool>(
-        &self,
-        moving: &MovingRow,
-        landed: &Landed<S>,
-        h: F<S>,
-    ) -> Paths<S> {
+    fn paths<S: Simd>(&self, as_one: bool, moving: &MovingRow, landed: &Landed<S>, h: F<S>) -> Paths<S> {
         let simd = h.simd;
         let scale = scale(h);
-        let (start_1, end_1) = (moving.start(simd, 0), landed.end(0));
-        let lower = hermite(start_1, end_1, scale);
+        let lower = moving.path(0, landed, scale);
         let stands = |i: usize, bound: F<S>| bound.simd_lt(from_row(simd, &self.collapse_rad[i]));
         let rises = |i: usize, bound: F<S>| bound.simd_gt(from_row(simd, &self.theta_max_rad[i]));
         let sides = [from_row(simd, &self.sides[0]), from_row(simd, &self.sides[1])];
         // What is no number compares to nothing.
-        let sum = end_1[0] + end_1[1] + end_1[2];
+        let sum = landed.sum(0);
         let bound_1 = bound(&lower);
         let clear = sum.simd_eq(sum) & stands(0, bound_1) & keeps_to(sides[0], &lower);
-        if AS_ONE {
+        if as_one {
             return Paths { clear: clear & stands(1, bound_1), rise: rises(0, bound_1) | rises(1, bound_1) };
         }
-        let (start_2, end_2) = (moving.start(simd, 1), landed.end(1));
-        let upper = hermite(start_2, end_2, scale);
-        let apart = |first: [F<S>; 3], second: [F<S>; 3]| {
-            [second[0] - first[0], second[1] - first[1], second[2] - first[2]]
-        };
-        let gap = hermite(apart(start_1, start_2), apart(end_1, end_2), scale);
-        let sum = end_2[0] + end_2[1] + end_2[2];
+        let (upper, gap) = (moving.path(1, landed, scale), moving.opening_of_crack(landed, scale));
+        let sum = landed.sum(1);
         let bound_2 = bound(&upper);
         let clear = clear & sum.simd_eq(sum) & stands(1, bound_2) & keeps_to(sides[1], &gap);
         Paths { clear, rise: rises(0, bound_1) | rises(1, bound_2) }
@@ -228,8 +172,7 @@ impl SumRow {
 
     #[inline(always)]
     fn add<S: Simd>(done: Mask<S>, sum: &mut Numbers, more: F<S>) {
-        let new = from_row(more.simd, sum) + more;
-        keep(done, sum, new);
+        *sum = (from_row(more.simd, sum) + done.select(more, F::splat(more.simd, 0.0))).into();
     }
 
     /// As [`super::totals::Totals::energy`].
@@ -242,36 +185,63 @@ impl SumRow {
 }
 
 impl Row {
-    /// Keeps the steps in which nothing happened, and requests those that follow. Gives the lanes of which it did.
+    /// Keeps the steps in which nothing happened, and requests those that follow. Gives the bits of the lanes that are left.
     #[inline(always)]
-    pub fn settle<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+    pub fn settle<S: Simd, M: Stepping<S>>(
         &mut self,
-        motions: &Motions<S, AS_ONE, FURTHER>,
+        motions: &M,
+        alone: bool,
         landed: &Landed<S>,
         samples: &[&[Vector]; LANES],
-    ) -> Mask<S> {
+    ) -> u64 {
         let simd = landed.position[0].simd;
         let h = from_row(simd, &self.moving.h);
         let error = self.errors.of(landed.position_error, landed.velocity_error, h);
         let to = self.ground.onwards(simd, h);
-        let paths = self.limits.paths::<S, AS_ONE>(&self.moving, landed, h);
-        let kept = error.simd_le(1.0) & paths.clear & to.goes_on & self.far_from_kinks(landed, h);
-        let done = kept & self.stay_closed::<S, AS_ONE>(kept, landed);
+        let paths = self.limits.paths(M::AS_ONE, &self.moving, landed, h);
+        let mut kept = error.simd_le(1.0) & paths.clear & to.goes_on & self.far_from_kinks(landed, h);
+        if M::ON_BEDS {
+            kept &= self.beds.keep_contact(&self.moving, landed, h);
+        }
+        let (corner_force, stays) = self.stay_closed(M::AS_ONE, landed);
+        let done = kept & stays;
+        let left = self.taken & !done.to_bitmask();
+        let settled = Settled { h, error, to, rise: paths.rise, corner_force };
+        if alone && left == 0 {
+            // In all lanes, so that the next step need not wait for all that was looked at. Only one is ever told of.
+            let taken = Mask::from_bitmask(simd, self.taken);
+            self.go_on([Mask::splat(simd, true), taken], motions, landed, &settled, samples);
+        } else {
+            self.go_on([done, done], motions, landed, &settled, samples);
+        }
+        left
+    }
+
+    /// Keeps the steps of some lanes, and looks at maxima and at lengths that change in `told` of them.
+    #[inline(always)]
+    fn go_on<S: Simd, M: Stepping<S>>(
+        &mut self,
+        [done, told]: [Mask<S>; 2],
+        motions: &M,
+        landed: &Landed<S>,
+        &Settled { h, error, ref to, rise, corner_force }: &Settled<S>,
+        samples: &[&[Vector]; LANES],
+    ) {
         if self.watched {
             self.remember();
         }
-        let rises = done & paths.rise;
+        let rises = told & rise;
         if rises.any_true() {
             self.landed.store_motion(landed);
             self.raise_rotations(rises.to_bitmask());
         }
+        keep(done, &mut self.limits.corner_force, corner_force);
         self.account(done, landed, h);
-        self.turn_top(done, motions, landed, h);
+        self.turn_top(told, motions, landed, h);
         self.moving_on(done, landed);
-        self.errors.propose(done, error, h);
-        let left_s = self.ground.move_on(done, &to, samples);
+        self.errors.propose(told, error, h);
+        let left_s = self.ground.move_on(done, to, samples);
         self.request(done, left_s);
-        done
     }
 
     /// Requests the next steps of some lanes, with so much left of their pieces in s.
@@ -294,16 +264,14 @@ impl Row {
         advances & self.kinks.far(&self.moving, before_m_s, landed, h)
     }
 
-    /// Whether closed joints surely stay closed, and the pivots are under tension as they were; the smallest corner
-    /// forces of the lanes of which both hold are kept.
+    /// The smallest corner forces, and whether closed joints surely stay closed and the pivots are under tension as
+    /// they were.
     #[inline(always)]
-    fn stay_closed<S: Simd, const AS_ONE: bool>(&mut self, kept: Mask<S>, landed: &Landed<S>) -> Mask<S> {
-        // Walls that turn as one have a closed crack, or none. Others have the ground closed, or nothing.
-        let closed = if AS_ONE { landed.reactions.crack } else { landed.reactions.ground };
+    fn stay_closed<S: Simd>(&self, as_one: bool, landed: &Landed<S>) -> (F<S>, Mask<S>) {
+        // On sharp edges, walls that turn as one have a closed crack, or none. Others have the ground closed, or nothing.
+        let closed = if as_one { landed.reactions.crack } else { landed.reactions.ground };
         let (corner_force, stays) = self.limits.corner_force(closed);
-        let stays = stays & self.limits.same_tension(self.normals(landed));
-        keep(kept & stays, &mut self.limits.corner_force, corner_force);
-        stays
+        (corner_force, stays & self.limits.same_tension(self.normals(landed)))
     }
 
     /// Normal forces through the ground and the crack, 0 where there is none.
@@ -330,13 +298,7 @@ impl Row {
 
     /// Raises the largest displacement of tops that turn back inside the step, as [`super::run`] does.
     #[inline(always)]
-    fn turn_top<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
-        &mut self,
-        done: Mask<S>,
-        motions: &Motions<S, AS_ONE, FURTHER>,
-        landed: &Landed<S>,
-        h: F<S>,
-    ) {
+    fn turn_top<S: Simd, M: Stepping<S>>(&mut self, done: Mask<S>, motions: &M, landed: &Landed<S>, h: F<S>) {
         let (simd, now) = (h.simd, landed.reactions.top[1]);
         let before = from_row(simd, &self.limits.top_velocity_m_s);
         let turns = done & (before * now).simd_lt(0.0);
@@ -345,12 +307,12 @@ impl Row {
         }
         let share = turns.select(before / (before - now), F::splat(simd, 0.0));
         let scale = scale(h);
-        let lower = value(hermite(self.moving.start(simd, 0), landed.end(0), scale), share);
-        let upper = match AS_ONE {
+        let lower = value(self.moving.path(0, landed, scale), share);
+        let upper = match M::AS_ONE {
             true => lower,
-            false => value(hermite(self.moving.start(simd, 1), landed.end(1), scale), share),
+            false => value(self.moving.path(1, landed, scale), share),
         };
-        let x_c = motions.top_displacement_m(&motions.configuration([lower, upper]));
+        let x_c = motions.top_displacement_m([lower, upper]);
         let start_s = from_row(simd, &self.ground.start_s) + from_row(simd, &self.ground.offset_s);
         self.sums.top(turns, x_c, start_s + share * h);
     }

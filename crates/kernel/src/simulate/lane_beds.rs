@@ -1,59 +1,31 @@
-//! The steps of several walls on beds at once, in vector lanes: packed, taken together, unpacked.
+//! The steps of a row of walls on beds, and whether their joints surely keep their contact.
 
-use fearless_simd::{Level, Simd, f64x4};
+use fearless_simd::{Simd, SimdBase, f64x4, mask64x4};
 
-use super::lane_steps::{GroundLanes, TwoRotations, apart, as_rate};
-use super::run::StepRequest;
-use crate::instructions::dispatch_lanes;
-use crate::lanes::{LANES, lanes};
-use crate::model::{BeddedMotion, JointLanes, LawLanes, RateLanes, ReactionLanes, Reactions, Vector};
-use crate::solver::{Field, Nystrom, Point, Rate, Step};
+use super::events::ROUNDINGS;
+use super::lane_paths::{bound, scale};
+use super::lane_steps::{GroundLanes, Landed, Stepping, apart, as_rate, landed_by};
+use super::lane_values::TwoRotations;
+use super::row::{BedLimitRow, MovingRow, Row};
+use crate::lanes::{Numbers, from_row};
+use crate::model::{BeddedMotions, MotionRow, Pose, ReactionLanes};
+use crate::solver::{Field, Rate};
 
 type F<S> = f64x4<S>;
 
-impl<S: Simd> GroundLanes<S> {
-    #[inline(always)]
-    fn requested(simd: S, requests: &[StepRequest; LANES]) -> Self {
-        let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
-        Self {
-            from: [lanes(|a| a.piece.from.x), lanes(|a| a.piece.from.y)],
-            slope: [lanes(|a| a.piece.slope.x), lanes(|a| a.piece.slope.y)],
-            from_s: lanes(|a| a.from_s),
-        }
-    }
-}
+/// Walls on beds that turn as one, or apart.
+pub(super) struct OnBeds<S: Simd, const AS_ONE: bool>(pub BeddedMotions<S>);
 
-/// Walls on beds.
-struct BeddedShaken<S: Simd> {
-    equations: BeddedMotion<F<S>, JointLanes<S>>,
-    laws: LawLanes<S>,
+/// Walls on beds under the ground's motion, and the reactions once they have landed.
+struct BeddedShaken<'a, S: Simd> {
+    motions: &'a BeddedMotions<S>,
     ground: GroundLanes<S>,
+    /// That of the last stage, whose positions are those of the end.
+    pose: Option<Pose<F<S>>>,
     reactions: Option<ReactionLanes<S>>,
 }
 
-impl<S: Simd> BeddedShaken<S> {
-    /// `None` unless every wall stands on beds.
-    #[inline(always)]
-    fn new(simd: S, requests: &[StepRequest; LANES]) -> Option<Self> {
-        let m = requests.each_ref().map(|request| request.motion);
-        let walls = [m[0].on_beds()?, m[1].on_beds()?, m[2].on_beds()?, m[3].on_beds()?];
-        Some(Self {
-            equations: BeddedMotion::of_lanes(simd, &walls),
-            laws: LawLanes::new(simd, m),
-            ground: GroundLanes::requested(simd, requests),
-            reactions: None,
-        })
-    }
-
-    #[inline(always)]
-    fn rate_at(&self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
-        let [x, y] = self.ground.at(after_s);
-        let balance = self.equations.balance(&self.laws, false, [theta, omega], Vector { x, y });
-        RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w }
-    }
-}
-
-impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<S> {
+impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<'_, S> {
     #[inline(always)]
     fn rate(
         &mut self,
@@ -64,7 +36,10 @@ impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<S> {
         as_rate(apart(
             after_s.simd,
             #[inline(always)]
-            || self.rate_at(after_s, theta.0, omega.0),
+            || {
+                let pose = self.pose.insert(self.motions.pose(theta.0));
+                self.motions.rate(pose, [theta.0, omega.0], self.ground.at(after_s))
+            },
         ))
     }
 
@@ -75,52 +50,55 @@ impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<S> {
         theta: TwoRotations<S>,
         omega: TwoRotations<S>,
     ) -> Rate<TwoRotations<S>> {
-        let [x, y] = self.ground.at(after_s);
-        let balance = self.equations.balance(&self.laws, false, [theta.0, omega.0], Vector { x, y });
-        self.reactions = Some(ReactionLanes::of(&self.equations.reactions_by(&balance, balance.theta_dd)));
-        as_rate(RateLanes { theta_dd: balance.theta_dd, powers_w: balance.powers_w })
+        let pose = self.pose.get_or_insert_with(|| self.motions.pose(theta.0));
+        let (rate, reactions) =
+            self.motions.rate_and_reactions(pose, [theta.0, omega.0], self.ground.at(after_s));
+        self.reactions = Some(reactions);
+        as_rate(rate)
     }
 }
 
-/// The steps of walls on beds.
-#[inline(always)]
-fn bedded_steps<S: Simd>(simd: S, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    let Some(mut shaken) = BeddedShaken::new(simd, requests) else { unreachable!("walls of a kind on beds") };
-    let lanes = |of: fn(&StepRequest) -> f64| lanes(simd, |i| of(&requests[i]));
-    let start = Rate {
-        acceleration: TwoRotations([lanes(|a| a.now.acceleration[0]), lanes(|a| a.now.acceleration[1])]),
-        quadrature: TwoRotations([lanes(|a| a.quadrature_rate[0]), lanes(|a| a.quadrature_rate[1])]),
-    };
-    let x = TwoRotations([lanes(|a| a.now.position[0]), lanes(|a| a.now.position[1])]);
-    let v = TwoRotations([lanes(|a| a.now.velocity[0]), lanes(|a| a.now.velocity[1])]);
-    let stride = Nystrom::stride(x, v, start, lanes(|a| a.h), &mut shaken);
-    let reactions = shaken.reactions.as_ref().map_or([Reactions::default(); LANES], ReactionLanes::unpacked);
-    let [x, v, a, rate, gained, e_x, e_v] = [
-        stride.position,
-        stride.velocity,
-        stride.end.acceleration,
-        stride.end.quadrature,
-        stride.quadrature,
-        stride.position_error,
-        stride.velocity_error,
-    ]
-    .map(|of| of.0.map(<[f64; LANES]>::from));
-    std::array::from_fn(|i| {
-        let both = |of: &[[f64; LANES]; 2]| [of[0][i], of[1][i]];
-        let step = Step {
-            h: requests[i].h,
-            start: *requests[i].now,
-            end: Point { position: both(&x), velocity: both(&v), acceleration: both(&a) },
-            quadrature: both(&gained),
-            end_quadrature_rate: both(&rate),
-            position_error: both(&e_x),
-            velocity_error: both(&e_v),
-        };
-        (step, reactions[i])
-    })
+impl<S: Simd, const AS_ONE: bool> Stepping<S> for OnBeds<S, AS_ONE> {
+    const AS_ONE: bool = AS_ONE;
+    const ON_BEDS: bool = true;
+
+    #[inline(always)]
+    fn step(&self, simd: S, row: &Row) -> Landed<S> {
+        let ground = GroundLanes::of_row(simd, &row.ground);
+        let mut shaken = BeddedShaken { motions: &self.0, ground, pose: None, reactions: None };
+        let stride = row.moving.stride(simd, &mut shaken);
+        landed_by(stride, shaken.reactions)
+    }
+
+    #[inline(always)]
+    fn top_displacement_m(&self, theta: [F<S>; 2]) -> F<S> {
+        self.0.top_displacement_m(&self.0.pose(theta))
+    }
+
+    #[inline(always)]
+    fn put_back(self, row: &mut MotionRow) {
+        self.0.put_back(row);
+    }
 }
 
-/// The steps that walls on beds request.
-pub(super) fn steps(level: Level, requests: &[StepRequest; LANES]) -> [(Step, Reactions); LANES] {
-    dispatch_lanes!(level, simd => bedded_steps(simd, requests))
+impl BedLimitRow {
+    /// Whether the rotations across joints on beds surely stay between the limits of their contact, as
+    /// [`super::bed_events::first_bed_change`] finds it.
+    #[inline(always)]
+    pub fn keep_contact<S: Simd>(&self, moving: &MovingRow, landed: &Landed<S>, h: F<S>) -> mask64x4<S> {
+        let [lower, upper] = [moving.path(0, landed, scale(h)), moving.path(1, landed, scale(h))];
+        let size = bound(&lower) + bound(&upper);
+        let opening = moving.opening_of_crack(landed, scale(h));
+        self.stays_between(0, &lower, size) & self.stays_between(1, &opening, size)
+    }
+
+    #[inline(always)]
+    fn stays_between<S: Simd>(&self, joint: usize, c: &[F<S>; 6], size: F<S>) -> mask64x4<S> {
+        let of = |numbers: &Numbers| from_row(size.simd, numbers);
+        let least = c[0].min(c[1]).min(c[2].min(c[3])).min(c[4].min(c[5]));
+        let most = c[0].max(c[1]).max(c[2].max(c[3])).max(c[4].max(c[5]));
+        let (low, high) = (of(&self.low_rad[joint]), of(&self.high_rad[joint]));
+        let rounding = |limit: F<S>| size.max(limit.abs()) * (ROUNDINGS * f64::EPSILON);
+        (least - low).simd_gt(rounding(low)) & (high - most).simd_gt(rounding(high))
+    }
 }

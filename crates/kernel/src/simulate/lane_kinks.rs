@@ -4,7 +4,8 @@
 
 use fearless_simd::{Select, Simd, SimdBase, f64x4, mask64x4};
 
-use super::lane_accounts::{hermite, keep, scale};
+use super::lane_accounts::keep;
+use super::lane_paths::{hermite, scale};
 use super::lane_steps::Landed;
 use super::row::{KinkRow, MovingRow};
 use crate::lanes::from_row;

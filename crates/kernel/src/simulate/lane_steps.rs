@@ -1,76 +1,19 @@
 //! The steps of a row of runs on sharp edges, in vector lanes.
 
-use std::ops::Mul;
+use fearless_simd::{Level, Simd, SimdBase, f64x4};
 
-use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4};
-
-use super::row::{GroundRow, Row};
-use crate::fused::fused_lanes;
+use super::lane_beds::OnBeds;
+use super::lane_values::{OneRotation, TwoRotations};
+use super::row::{GroundRow, MovingRow, Row};
 use crate::instructions::dispatch_lanes;
 use crate::lanes::{LANES, Numbers, from_row};
-use crate::model::{ConfigurationLanes, LaneKind, Motions, RateLanes, ReactionLanes, Vector};
-use crate::solver::{Field, Nystrom, Rate, Values};
+use crate::model::{
+    BeddedMotions, ConfigurationLanes, Freedom, LaneKind, MotionRow, Motions, RateLanes, ReactionLanes,
+    Vector,
+};
+use crate::solver::{Field, Nystrom, Rate, Stride};
 
 type F<S> = f64x4<S>;
-
-/// One coordinate of every run, or both of them.
-#[derive(Clone, Copy)]
-struct OneRotation<S: Simd>(F<S>);
-
-#[derive(Clone, Copy)]
-pub(super) struct TwoRotations<S: Simd>(pub [F<S>; 2]);
-
-impl<S: Simd> Mul<f64> for OneRotation<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, factor: f64) -> Self {
-        Self(self.0 * factor)
-    }
-}
-
-impl<S: Simd> Values for OneRotation<S> {
-    type Length = F<S>;
-    #[inline(always)]
-    fn over(self, length: F<S>) -> Self {
-        Self(self.0 * length)
-    }
-
-    #[inline(always)]
-    fn over_plus(self, length: F<S>, other: Self) -> Self {
-        Self(fused_lanes(self.0, length, other.0))
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: f64, other: Self) -> Self {
-        Self(fused_lanes(self.0, F::splat(self.0.simd, factor), other.0))
-    }
-}
-
-impl<S: Simd> Mul<f64> for TwoRotations<S> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, factor: f64) -> Self {
-        Self([self.0[0] * factor, self.0[1] * factor])
-    }
-}
-
-impl<S: Simd> Values for TwoRotations<S> {
-    type Length = F<S>;
-    #[inline(always)]
-    fn over(self, length: F<S>) -> Self {
-        Self([self.0[0] * length, self.0[1] * length])
-    }
-
-    #[inline(always)]
-    fn over_plus(self, length: F<S>, other: Self) -> Self {
-        Self([fused_lanes(self.0[0], length, other.0[0]), fused_lanes(self.0[1], length, other.0[1])])
-    }
-
-    #[inline(always)]
-    fn times_plus(self, factor: f64, other: Self) -> Self {
-        self.over_plus(F::splat(self.0[0].simd, factor), other)
-    }
-}
 
 /// Calls what every stage of a step does as a function of its own, compiled for the same instructions. Rare laws
 /// are longer than ones that are everywhere: six times over they would fill the cache of instructions, and the
@@ -102,7 +45,7 @@ pub(super) struct GroundLanes<S: Simd> {
 
 impl<S: Simd> GroundLanes<S> {
     #[inline(always)]
-    fn of_row(simd: S, row: &GroundRow) -> Self {
+    pub fn of_row(simd: S, row: &GroundRow) -> Self {
         Self {
             from: [from_row(simd, &row.from[0]), from_row(simd, &row.from[1])],
             slope: [from_row(simd, &row.slope[0]), from_row(simd, &row.slope[1])],
@@ -139,7 +82,9 @@ impl<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'a, S, A
 }
 
 /// The one rotation and the power of the ground, where nothing is lost.
-impl<S: Simd> Field<OneRotation<S>> for ShakenMotion<'_, S, true, false> {
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<OneRotation<S>>
+    for ShakenMotion<'_, S, AS_ONE, FURTHER>
+{
     #[inline(always)]
     fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
         let (theta_dd, [power, _]) = self.motions.monolithic_rate(theta.0, omega.0, self.ground.at(after_s));
@@ -213,7 +158,11 @@ pub(super) fn as_rate<S: Simd>(rate: RateLanes<S>) -> Rate<TwoRotations<S>> {
 
 /// A step of walls that turn as one and lose nothing between impacts.
 #[inline(always)]
-fn monolithic_step<S: Simd>(simd: S, motions: &Motions<S, true, false>, row: &Row) -> Landed<S> {
+fn monolithic_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+    simd: S,
+    motions: &Motions<S, AS_ONE, FURTHER>,
+    row: &Row,
+) -> Landed<S> {
     let mut shaken = ShakenMotion::new(motions, GroundLanes::of_row(simd, &row.ground));
     let of = |numbers: &[Numbers; 2]| OneRotation(from_row(simd, &numbers[0]));
     let moving = &row.moving;
@@ -233,20 +182,28 @@ fn monolithic_step<S: Simd>(simd: S, motions: &Motions<S, true, false>, row: &Ro
     }
 }
 
-/// A step of walls on sharp edges by both rotations.
+impl MovingRow {
+    /// The step of both rotations of every run.
+    #[inline(always)]
+    pub fn stride<S: Simd>(
+        &self,
+        simd: S,
+        shaken: &mut impl Field<TwoRotations<S>>,
+    ) -> Stride<TwoRotations<S>> {
+        let of =
+            |numbers: &[Numbers; 2]| TwoRotations([from_row(simd, &numbers[0]), from_row(simd, &numbers[1])]);
+        let start = Rate { acceleration: of(&self.acceleration), quadrature: of(&self.powers_w) };
+        Nystrom::stride(of(&self.position), of(&self.velocity), start, from_row(simd, &self.h), shaken)
+    }
+}
+
+/// What a step of both rotations gave.
 #[inline(always)]
-fn two_body_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
-    simd: S,
-    motions: &Motions<S, AS_ONE, FURTHER>,
-    row: &Row,
+pub(super) fn landed_by<S: Simd>(
+    stride: Stride<TwoRotations<S>>,
+    reactions: Option<ReactionLanes<S>>,
 ) -> Landed<S> {
-    let mut shaken = ShakenMotion::new(motions, GroundLanes::of_row(simd, &row.ground));
-    let of =
-        |numbers: &[Numbers; 2]| TwoRotations([from_row(simd, &numbers[0]), from_row(simd, &numbers[1])]);
-    let moving = &row.moving;
-    let start = Rate { acceleration: of(&moving.acceleration), quadrature: of(&moving.powers_w) };
-    let h = from_row(simd, &moving.h);
-    let stride = Nystrom::stride(of(&moving.position), of(&moving.velocity), start, h, &mut shaken);
+    let Some(reactions) = reactions else { unreachable!("a step that was taken has landed") };
     Landed {
         position: stride.position.0,
         velocity: stride.velocity.0,
@@ -255,52 +212,74 @@ fn two_body_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
         powers_w: stride.end.quadrature.0,
         position_error: stride.position_error.0,
         velocity_error: stride.velocity_error.0,
-        reactions: shaken.landed(),
+        reactions,
     }
+}
+
+/// A step of walls on sharp edges by both rotations.
+#[inline(always)]
+fn two_body_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+    simd: S,
+    motions: &Motions<S, AS_ONE, FURTHER>,
+    row: &Row,
+) -> Landed<S> {
+    let mut shaken = ShakenMotion::new(motions, GroundLanes::of_row(simd, &row.ground));
+    let stride = row.moving.stride(simd, &mut shaken);
+    landed_by(stride, shaken.reactions)
 }
 
 /// The motions of a row, as they take their step.
-trait Stepping<S: Simd> {
+pub(super) trait Stepping<S: Simd> {
+    /// Whether both bodies turn by one rotation, and whether joints are on beds.
+    const AS_ONE: bool;
+    const ON_BEDS: bool;
+
     fn step(&self, simd: S, row: &Row) -> Landed<S>;
+
+    /// Displacement of the top at rotations, m.
+    fn top_displacement_m(&self, theta: [F<S>; 2]) -> F<S>;
+
+    /// Puts back what was taken out of the row.
+    fn put_back(self, row: &mut MotionRow);
 }
 
-impl<S: Simd> Stepping<S> for Motions<S, true, false> {
-    #[inline(always)]
-    fn step(&self, simd: S, row: &Row) -> Landed<S> {
-        monolithic_step(simd, self, row)
-    }
-}
+/// A wall on sharp edges, which steps by one rotation where it can.
+impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S, AS_ONE, FURTHER> {
+    const AS_ONE: bool = AS_ONE;
+    const ON_BEDS: bool = false;
 
-impl<S: Simd> Stepping<S> for Motions<S, false, false> {
     #[inline(always)]
     fn step(&self, simd: S, row: &Row) -> Landed<S> {
+        if AS_ONE && !FURTHER {
+            return monolithic_step(simd, self, row);
+        }
         two_body_step(simd, self, row)
     }
-}
 
-impl<S: Simd, const AS_ONE: bool> Stepping<S> for Motions<S, AS_ONE, true> {
     #[inline(always)]
-    fn step(&self, simd: S, row: &Row) -> Landed<S> {
-        two_body_step(simd, self, row)
+    fn top_displacement_m(&self, theta: [F<S>; 2]) -> F<S> {
+        Motions::top_displacement_m(self, &self.configuration(theta))
+    }
+
+    #[inline(always)]
+    fn put_back(self, row: &mut MotionRow) {
+        Motions::put_back(self, row);
     }
 }
 
 /// Steps of a row until something happens to one of the runs in it: gives its lane, and those of others to which
 /// something does at once.
 #[inline(always)]
-fn steps_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+fn steps_until<S: Simd>(
     simd: S,
+    motions: impl Stepping<S>,
+    alone: bool,
     row: &mut Row,
     samples: &[&[Vector]; LANES],
-) -> u64
-where
-    Motions<S, AS_ONE, FURTHER>: Stepping<S>,
-{
-    let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &mut row.motions);
+) -> u64 {
     loop {
         let landed = motions.step(simd, row);
-        let done = row.settle(&motions, &landed, samples);
-        let left = row.taken & !done.to_bitmask();
+        let left = row.settle(&motions, alone, &landed, samples);
         if left != 0 || row.watched {
             row.landed.store(&landed);
             motions.put_back(&mut row.motions);
@@ -309,21 +288,57 @@ where
     }
 }
 
-/// The steps of walls of one kind on sharp edges until something happens to some of them: the bits of their lanes.
+#[inline(always)]
+fn edges_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
+    simd: S,
+    alone: bool,
+    row: &mut Row,
+    samples: &[&[Vector]; LANES],
+) -> u64 {
+    let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &mut row.motions);
+    steps_until(simd, motions, alone, row, samples)
+}
+
+#[inline(always)]
+fn beds_until<S: Simd, const AS_ONE: bool>(
+    simd: S,
+    freedom: Freedom,
+    row: &mut Row,
+    samples: &[&[Vector]; LANES],
+) -> u64 {
+    let motions = OnBeds::<S, AS_ONE>(BeddedMotions::new(simd, &mut row.motions, freedom));
+    steps_until(simd, motions, false, row, samples)
+}
+
+/// The steps of walls of one kind until something happens to some of them: the bits of their lanes.
 pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row, samples: &[&[Vector]; LANES]) -> u64 {
     match kind {
         LaneKind::AsOne { further: false } => {
-            dispatch_lanes!(level, simd => steps_until::<_, true, false>(simd, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, false, row, samples))
         }
         LaneKind::Apart { further: false } => {
-            dispatch_lanes!(level, simd => steps_until::<_, false, false>(simd, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, false, row, samples))
         }
         LaneKind::AsOne { further: true } => {
-            dispatch_lanes!(level, simd => steps_until::<_, true, true>(simd, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, true, true>(simd, false, row, samples))
         }
         LaneKind::Apart { further: true } => {
-            dispatch_lanes!(level, simd => steps_until::<_, false, true>(simd, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, false, true>(simd, false, row, samples))
         }
-        LaneKind::Bedded(_) => unreachable!("walls on beds take their steps by request"),
+        LaneKind::Bedded(Freedom::Monolithic) => {
+            dispatch_lanes!(level, simd => beds_until::<_, true>(simd, Freedom::Monolithic, row, samples))
+        }
+        LaneKind::Bedded(freedom) => {
+            dispatch_lanes!(level, simd => beds_until::<_, false>(simd, freedom, row, samples))
+        }
+    }
+}
+
+/// The same of one run in a row of its own, on sharp edges and without further laws.
+pub(super) fn advance_alone(level: Level, as_one: bool, row: &mut Row, samples: &[&[Vector]; LANES]) {
+    if as_one {
+        dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, true, row, samples));
+    } else {
+        dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, true, row, samples));
     }
 }

@@ -1,5 +1,6 @@
 //! One run: a wall under a ground motion, from the first sample to the end of free motion.
 
+mod alone;
 mod bed_events;
 mod beyond_model;
 mod ensemble;
@@ -9,7 +10,9 @@ mod history;
 mod lane_accounts;
 mod lane_beds;
 mod lane_kinks;
+mod lane_paths;
 mod lane_steps;
+mod lane_values;
 mod response;
 mod rest;
 mod row;

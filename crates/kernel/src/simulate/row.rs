@@ -24,6 +24,7 @@ pub(super) struct Row {
     pub errors: ErrorRow,
     pub limits: LimitRow,
     pub kinks: KinkRow,
+    pub beds: BedLimitRow,
     pub sums: SumRow,
     pub landed: LandedRow,
     /// Whether the runs are watched, and then where and when they were before the last step.
@@ -101,6 +102,13 @@ pub(super) struct KinkRow {
     /// Displacement (m) and acceleration (m/s²) of the top now.
     pub top_m: Numbers,
     pub top_m_s2: Numbers,
+}
+
+/// Between which rotations across joints on beds keep their contact, rad; finite.
+#[derive(Debug, Default)]
+pub(super) struct BedLimitRow {
+    pub low_rad: [Numbers; 2],
+    pub high_rad: [Numbers; 2],
 }
 
 /// What every step adds to.

@@ -2,6 +2,7 @@
 
 mod bed;
 mod boarding;
+mod ending;
 mod event;
 mod rest;
 mod step;
@@ -11,13 +12,12 @@ use fearless_simd::Level;
 use super::events::Event;
 use super::ground_path::{GroundPath, Piece};
 use super::history::Observer;
-use super::response::{Outcome, Peak, Response};
 use super::rest::RestLimits;
-use super::simulator::{Placed, Simulator, Start};
+use super::simulator::{Placed, Simulator};
 use super::totals::Totals;
 use crate::model::{
-    Carried, Contact, MechanicsError, Pair, Pivot, Reactions, Regime, RockingWall, Side, State, TopMemory,
-    Vector, opening,
+    Carried, Contact, MechanicsError, Pair, Pivot, Reactions, Regime, RockingWall, State, TopMemory, Vector,
+    opening,
 };
 use crate::solver::{Controller, Point, Quintic, STAGES, Step};
 pub(super) use step::StepRequest;
@@ -110,16 +110,6 @@ impl<O: Observer> Run<O> {
         }
     }
 
-    /// The run that was begun, to its end, step by step.
-    pub fn into_response(mut self) -> Response {
-        let mut reactions = Reactions::default();
-        while self.needs_step() {
-            let mut step = self.step_request().take(&mut reactions);
-            self.finish_step(&mut step, &reactions);
-        }
-        self.end()
-    }
-
     /// Starts the run; then [`Run::needs_step`] brings it to its first step.
     pub fn begin(&mut self, start_s: f64) {
         self.stopped = self.start(start_s).err();
@@ -167,6 +157,11 @@ impl<O: Observer> Run<O> {
         }
     }
 
+    /// Whether the next step is to advance, and not for an event.
+    pub fn advances(&self) -> bool {
+        matches!(self.task, Task::Advance { .. })
+    }
+
     /// Length of the step that is to be taken, s.
     #[inline]
     fn requested_s(&self) -> f64 {
@@ -192,15 +187,6 @@ impl<O: Observer> Run<O> {
             }
         };
         self.stopped = result.err();
-    }
-
-    pub fn end(mut self) -> Response {
-        let outcome = match self.stopped.take() {
-            None | Some(Stop::SeenEnough) => Outcome::Stood,
-            Some(Stop::Collapsed { time_s }) => Outcome::Collapsed { time_s },
-            Some(Stop::Failed { time_s, reason }) => Outcome::Failed { time_s, reason },
-        };
-        self.response(outcome)
     }
 
     fn state(&self) -> State {
@@ -240,12 +226,12 @@ impl<O: Observer> Run<O> {
         }
         self.contact = next;
         let known = known.unwrap_or_else(|| self.motion_now(ground));
-        let Carried { rate, reactions, reserve } = self.in_its_branches(known, ground);
+        let Carried { rate, top_velocity_m_s, reserve } = self.in_its_branches(known, ground);
         self.totals.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
         self.corner_force = reserve;
-        self.top_velocity_m_s = reactions.top_velocity_m_s;
+        self.top_velocity_m_s = top_velocity_m_s;
         Ok(())
     }
 
@@ -264,7 +250,7 @@ impl<O: Observer> Run<O> {
         let rate = self.wall.rate(self.contact, &self.state(), ground);
         let reactions = self.reactions(&Point { acceleration: rate.theta_dd, ..self.now }, ground);
         let reserve = self.wall.smallest_reserve(self.contact, &reactions);
-        Carried { rate, reactions, reserve }
+        Carried { rate, top_velocity_m_s: reactions.top_velocity_m_s, reserve }
     }
 
     /// The contact state that carries the joint forces, with its motion where that is known.
@@ -316,21 +302,6 @@ impl<O: Observer> Run<O> {
         Ok(false)
     }
 
-    /// Plastic displacement of a yielding spring now, m; one that yields has moved on since it began to.
-    fn plastic_displacement_m(&self) -> f64 {
-        let x_c = self.wall.top_displacement_m(self.contact, self.now.position);
-        self.wall.wall().plastic_displacement_m(self.wall.regime().plastic_m, x_c)
-    }
-
-    /// The largest displacement of the top until now, m, where it is kept.
-    fn largest_displacement_m(&self) -> f64 {
-        let regime = self.wall.regime();
-        match regime.grows {
-            Side::Between => regime.largest_m,
-            _ => self.wall.top_displacement_m(self.contact, self.now.position).abs().max(regime.largest_m),
-        }
-    }
-
     fn reactions(&self, point: &Point, ground: Vector) -> Reactions {
         self.wall.motion(self.contact).reactions(point.position, point.velocity, point.acceleration, ground)
     }
@@ -363,46 +334,6 @@ impl<O: Observer> Run<O> {
             let share = before / (before - now);
             let x_c = self.wall.top_displacement_m(self.contact, motion.position(share));
             self.totals.top(x_c, start_s + share * motion.h());
-        }
-    }
-
-    fn response(mut self, outcome: Outcome) -> Response {
-        let end_time_s = match outcome {
-            Outcome::Stood => self.ground.end_s(),
-            Outcome::Collapsed { time_s } | Outcome::Failed { time_s, .. } => time_s,
-        };
-        self.totals.energy.final_j = self.wall.energy_j(self.contact, &self.state());
-        // A wall that falls from rest by its own weight turns one energy into another, with no work from outside.
-        let halted = State { omega: [0.0; 2], ..self.state() };
-        let kinetic_j = self.totals.energy.final_j - self.wall.energy_j(self.contact, &halted);
-        let passed_j = &mut self.totals.energy.passed_through_j;
-        *passed_j = passed_j.max(kinetic_j);
-        self.observer.ended(end_time_s, self.contact, self.now.position);
-        let wall = self.wall.wall();
-        let lower = self.totals.theta_max[0];
-        Response {
-            outcome,
-            end_time_s,
-            theta_max_rad: self.totals.theta_max,
-            alpha_i_rad: wall.alpha_i_rad(),
-            alpha_rad: wall.alpha_rad(),
-            top_displacement_m: self.totals.top_max,
-            // The middle of the crack moves monotonically with θ_1, so both are largest together.
-            crack_displacement_m: Peak { value: self.wall.crack_displacement_m(lower.value), ..lower },
-            pattern_time_s: self.totals.pattern_time_s,
-            impacts: self.totals.impacts,
-            openings: self.totals.openings,
-            energy: self.totals.energy,
-            demand: self.totals.demand,
-            work: self.totals.work,
-            left: Start {
-                time_s: end_time_s,
-                state: State { theta: self.now.position, omega: self.now.velocity },
-                contact: Some(self.contact),
-                plastic_displacement_m: self.plastic_displacement_m(),
-                crushed_rad: self.wall.crushed_rad(self.now.position),
-                largest_displacement_m: self.largest_displacement_m(),
-            },
         }
     }
 }

@@ -5,8 +5,8 @@
 
 use fearless_simd::Level;
 
+use super::alone::to_its_end;
 use super::history::Observer;
-use super::lane_beds::steps;
 use super::lane_steps::advance;
 use super::response::Response;
 use super::row::Row;
@@ -41,7 +41,7 @@ impl<O: Observer> Prepared<O> {
 
     /// Runs it alone.
     pub(super) fn run_alone(self) -> Response {
-        self.begun().into_response()
+        to_its_end(self.begun())
     }
 }
 
@@ -79,23 +79,47 @@ struct Pool<'w, O> {
     slots: Vec<Option<(usize, Run<O>)>>,
     /// Slots that wait for a step, by its kind.
     queues: [Vec<usize>; LaneKind::ALL.len()],
-    /// Walls on sharp edges that step together, by the kind of their step.
-    rows: [Aboard; LaneKind::ON_EDGES],
+    /// Walls that step together, by the kind of their step.
+    rows: [Aboard; LaneKind::ALL.len()],
     /// Vector instructions that this processor has, and whether walls go side by side by them.
     level: Level,
     lanes_pay: bool,
 }
 
-/// A row and the slots of the runs in it, with the laws by which they boarded.
+/// A row and the slots of the runs in it, with the contact and the branch of the laws in which they boarded.
 #[derive(Default)]
 struct Aboard {
     row: Box<Row>,
-    slots: [Option<(usize, (Contact, Regime))>; LANES],
+    slots: [Option<(usize, Contact)>; LANES],
+    /// Of those whose laws have branches.
+    regimes: [Regime; LANES],
 }
 
 impl Aboard {
     fn count(&self) -> usize {
         self.slots.iter().flatten().count()
+    }
+
+    fn board<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>) {
+        run.board(&mut self.row, i);
+        self.take(i, slot, run);
+    }
+
+    /// A run that comes back to its lane, where all but what moves is there already if its laws are as they were.
+    fn board_again<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>, before: Contact) {
+        if run.contact() != before || run.regime().is_some_and(|regime| regime != self.regimes[i]) {
+            return self.board(i, slot, run);
+        }
+        run.board_again(&mut self.row, i);
+        self.take(i, slot, run);
+    }
+
+    fn take<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>) {
+        self.row.taken |= 1 << i;
+        self.slots[i] = Some((slot, run.contact()));
+        if let Some(regime) = run.regime() {
+            self.regimes[i] = regime;
+        }
     }
 }
 
@@ -117,10 +141,7 @@ impl<'w, O: Observer> Pool<'w, O> {
             self.queue_step(self.slots.len() - 1);
         }
         while let Some(kind) = self.most_wanted() {
-            match self.rows.get(kind.index()) {
-                Some(_) => self.step_row(kind),
-                None => self.step_on_request(kind),
-            }
+            self.step_row(kind);
         }
     }
 
@@ -170,9 +191,7 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     /// The kind of step that most runs wait for, those aboard counted; `None` when none does.
     fn most_wanted(&self) -> Option<LaneKind> {
-        let wanted = |kind: &LaneKind| {
-            self.queues[kind.index()].len() + self.rows.get(kind.index()).map_or(0, Aboard::count)
-        };
+        let wanted = |kind: &LaneKind| self.queues[kind.index()].len() + self.rows[kind.index()].count();
         LaneKind::ALL.into_iter().filter(|kind| wanted(kind) > 0).max_by_key(wanted)
     }
 
@@ -180,7 +199,7 @@ impl<'w, O: Observer> Pool<'w, O> {
     fn step_row(&mut self, kind: LaneKind) {
         loop {
             self.fill(kind);
-            let Aboard { row, slots } = &mut self.rows[kind.index()];
+            let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
             let run = |i: usize| slots[i].and_then(|(slot, _)| self.slots[slot].as_ref());
             let samples = std::array::from_fn(|i| run(i).map_or(&[][..], |(_, run)| run.samples()));
             let left = advance(self.level, kind, row, &samples);
@@ -205,17 +224,15 @@ impl<'w, O: Observer> Pool<'w, O> {
             }
             let Some(slot) = self.queues[kind.index()].pop() else { return };
             let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
-            let Aboard { row, slots } = &mut self.rows[kind.index()];
-            run.board(row, i);
-            row.watched = run.is_watched();
-            row.taken |= 1 << i;
-            slots[i] = Some((slot, run.laws()));
+            let aboard = &mut self.rows[kind.index()];
+            aboard.row.watched = run.is_watched();
+            aboard.board(i, slot, run);
         }
     }
 
     /// Shows a step that was kept in a lane to whoever watches the run.
     fn show(&mut self, kind: LaneKind, i: usize) {
-        let Aboard { row, slots } = &mut self.rows[kind.index()];
+        let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
         let Some((slot, _)) = slots[i] else { return };
         let Some((_, run)) = &mut self.slots[slot] else { return };
         if run.is_watched_on(row, i) {
@@ -228,7 +245,7 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     /// Goes through what happened to the run in a lane, and lets it or another one board there.
     fn attend(&mut self, kind: LaneKind, i: usize) {
-        let Aboard { row, slots } = &mut self.rows[kind.index()];
+        let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
         let Some((slot, boarded)) = slots[i] else { return };
         if let Some((_, run)) = &mut self.slots[slot] {
             if row.limits.advances[i] == 1.0 && run.approaches_event_in(row, i) {
@@ -242,43 +259,15 @@ impl<'w, O: Observer> Pool<'w, O> {
         let before = number(self);
         let next = self.next_kind(slot);
         let same = number(self) == before;
-        let Aboard { row, slots } = &mut self.rows[kind.index()];
-        row.taken &= !(1 << i);
+        let aboard = &mut self.rows[kind.index()];
+        aboard.row.taken &= !(1 << i);
         match (next, &self.slots[slot]) {
-            (Some(next), Some((_, run))) if next == kind => {
-                if same && run.laws() == boarded {
-                    run.board_again(row, i);
-                } else {
-                    run.board(row, i);
-                }
-                row.taken |= 1 << i;
-                slots[i] = Some((slot, run.laws()));
-            }
+            (Some(next), Some((_, run))) if next == kind => match same {
+                true => aboard.board_again(i, slot, run, boarded),
+                false => aboard.board(i, slot, run),
+            },
             (Some(next), _) => self.queues[next.index()].push(slot),
             (None, _) => {}
-        }
-    }
-
-    /// Takes the steps that walls on beds request.
-    fn step_on_request(&mut self, kind: LaneKind) {
-        let queue = &mut self.queues[kind.index()];
-        let from = queue.len().saturating_sub(LANES);
-        let Some(&last) = queue.last() else { return };
-        // A lane without a run does the work of another once more.
-        let mut of = [last; LANES];
-        let count = queue.len() - from;
-        of[..count].copy_from_slice(&queue[from..]);
-        queue.truncate(from);
-        let requests = of.map(|slot| {
-            let Some((_, run)) = &self.slots[slot] else { unreachable!("a slot that asks has a run") };
-            run.step_request()
-        });
-        let mut taken = steps(self.level, &requests);
-        for (slot, (step, reactions)) in of.into_iter().zip(&mut taken).take(count) {
-            if let Some((_, run)) = &mut self.slots[slot] {
-                run.finish_step(step, reactions);
-            }
-            self.queue_step(slot);
         }
     }
 }

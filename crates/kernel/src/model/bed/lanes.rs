@@ -4,11 +4,12 @@
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
 use super::super::joint_forces::Masses;
+use super::super::mass_matrix::Freedom;
 use super::super::vector::Vector;
 use super::motion::{BeddedMotion, Rolls};
 use super::roll::{Roll, RollingBed};
 use super::shape::JointShape;
-use crate::lanes::{LANES, lanes};
+use crate::lanes::{Numbers, from_row};
 
 type F<S> = f64x4<S>;
 
@@ -30,8 +31,7 @@ struct Branch<S: Simd> {
 
 impl<S: Simd> Branch<S> {
     #[inline(always)]
-    fn new(simd: S, joints: &[&JointShape; LANES], is_in: fn(&JointShape) -> bool) -> Self {
-        let lanes = lanes(simd, |i| f64::from(u8::from(is_in(joints[i])))).simd_eq(1.0);
+    fn new(lanes: mask64x4<S>) -> Self {
         Self { lanes, any: lanes.any_true() }
     }
 
@@ -53,51 +53,72 @@ impl<S: Simd> Branch<S> {
     }
 }
 
-/// What joints on beds only have; 0 of an edge. Rivals of beds go alone, as the catalogue says.
-#[inline(always)]
-fn of_bed(joint: &JointShape, number: fn(&RollingBed) -> f64) -> f64 {
-    match joint {
-        JointShape::Bed { rolling, .. } => number(rolling),
-        _ => 0.0,
-    }
+/// One joint of the walls of a row, number by number; 0 of what a joint does not have.
+#[derive(Debug, Clone, Default)]
+struct JointRow {
+    /// 1 in whole contact.
+    whole: Numbers,
+    half_m: Numbers,
+    side: Numbers,
+    width_m: Numbers,
+    load_n: Numbers,
+    stiffness_pa: Numbers,
+    damping_s: Numbers,
+    rotational_stiffness_n_m: Numbers,
+    full_contact_rad: Numbers,
+    u_c: Numbers,
+    root_u_c: Numbers,
+    v_c: Numbers,
 }
 
-#[inline(always)]
-fn side(joint: &JointShape) -> f64 {
-    match joint {
-        JointShape::Bed { side, .. } => *side,
-        _ => 0.0,
+impl JointRow {
+    fn put(&mut self, i: usize, joint: &JointShape) {
+        match joint {
+            JointShape::Bed { rolling, side, .. } => self.put_bed(i, rolling, *side),
+            JointShape::Edge { half_m } => self.put_edge(i, *half_m),
+            _ => unreachable!("rivals of beds go alone, as the catalogue says"),
+        }
     }
-}
 
-#[inline(always)]
-fn half_m(joint: &JointShape) -> f64 {
-    match joint {
-        JointShape::Edge { half_m } => *half_m,
-        _ => 0.0,
+    fn put_edge(&mut self, i: usize, half_m: f64) {
+        (self.whole[i], self.half_m[i], self.side[i]) = (0.0, half_m, 0.0);
+    }
+
+    fn put_bed(&mut self, i: usize, bed: &RollingBed, side: f64) {
+        (self.whole[i], self.half_m[i], self.side[i]) = (f64::from(u8::from(side == 0.0)), 0.0, side);
+        self.width_m[i] = bed.width_m;
+        self.load_n[i] = bed.load_n;
+        self.stiffness_pa[i] = bed.stiffness_pa;
+        self.damping_s[i] = bed.damping_s;
+        self.rotational_stiffness_n_m[i] = bed.rotational_stiffness_n_m;
+        self.full_contact_rad[i] = bed.full_contact_rad;
+        self.u_c[i] = bed.u_c;
+        self.root_u_c[i] = bed.root_u_c;
+        self.v_c[i] = bed.v_c;
     }
 }
 
 impl<S: Simd> JointLanes<S> {
     #[inline(always)]
-    fn new(simd: S, joints: &[&JointShape; LANES]) -> Self {
-        let on_bed = |number: fn(&RollingBed) -> f64| lanes(simd, |i| of_bed(joints[i], number));
+    fn new(simd: S, row: &JointRow) -> Self {
+        let of = |numbers: &Numbers| from_row(simd, numbers);
+        let (half_m, side) = (of(&row.half_m), of(&row.side));
         Self {
-            on_edge: Branch::new(simd, joints, |joint| half_m(joint) != 0.0),
-            whole: Branch::new(simd, joints, |joint| matches!(joint, JointShape::Bed { side: 0.0, .. })),
-            in_part: Branch::new(simd, joints, |joint| side(joint) != 0.0),
-            half_m: lanes(simd, |i| half_m(joints[i])),
-            side: lanes(simd, |i| side(joints[i])),
+            on_edge: Branch::new(!half_m.simd_eq(0.0)),
+            whole: Branch::new(of(&row.whole).simd_eq(1.0)),
+            in_part: Branch::new(!side.simd_eq(0.0)),
+            half_m,
+            side,
             rolling: RollingBed {
-                width_m: on_bed(|bed| bed.width_m),
-                load_n: on_bed(|bed| bed.load_n),
-                stiffness_pa: on_bed(|bed| bed.stiffness_pa),
-                damping_s: on_bed(|bed| bed.damping_s),
-                rotational_stiffness_n_m: on_bed(|bed| bed.rotational_stiffness_n_m),
-                full_contact_rad: on_bed(|bed| bed.full_contact_rad),
-                u_c: on_bed(|bed| bed.u_c),
-                root_u_c: on_bed(|bed| bed.root_u_c),
-                v_c: on_bed(|bed| bed.v_c),
+                width_m: of(&row.width_m),
+                load_n: of(&row.load_n),
+                stiffness_pa: of(&row.stiffness_pa),
+                damping_s: of(&row.damping_s),
+                rotational_stiffness_n_m: of(&row.rotational_stiffness_n_m),
+                full_contact_rad: of(&row.full_contact_rad),
+                u_c: of(&row.u_c),
+                root_u_c: of(&row.root_u_c),
+                v_c: of(&row.v_c),
             },
         }
     }
@@ -120,25 +141,58 @@ impl<S: Simd> Rolls<F<S>> for JointLanes<S> {
     }
 }
 
+/// The walls on beds of a row in memory, number by number as registers take them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct BedRow {
+    joints: [JointRow; 2],
+    m: [Numbers; 2],
+    i: [Numbers; 2],
+    m_d: Numbers,
+    m_dp: Numbers,
+    height_1_m: Numbers,
+    g1: [Numbers; 2],
+    g2: [Numbers; 2],
+    c: [Numbers; 2],
+}
+
+impl BedRow {
+    /// Puts the equations of a wall in a lane.
+    pub fn put(&mut self, i: usize, wall: &BeddedMotion) {
+        let put = |to: &mut [Numbers; 2], [first, second]: [f64; 2]| {
+            to[0][i] = first;
+            to[1][i] = second;
+        };
+        let Masses { m, i: inertias, m_d, m_dp } = wall.masses;
+        put(&mut self.m, m);
+        put(&mut self.i, inertias);
+        (self.m_d[i], self.m_dp[i], self.height_1_m[i]) = (m_d, m_dp, wall.height_1_m);
+        put(&mut self.g1, [wall.g1.x, wall.g1.y]);
+        put(&mut self.g2, [wall.g2.x, wall.g2.y]);
+        put(&mut self.c, [wall.c.x, wall.c.y]);
+        self.joints[0].put(i, &wall.joints[0]);
+        self.joints[1].put(i, &wall.joints[1]);
+    }
+}
+
 impl<S: Simd> BeddedMotion<F<S>, JointLanes<S>> {
-    /// The equations of several walls in which the same rotations are free.
+    /// The equations of the walls of a row, in which these rotations are free.
     #[inline(always)]
-    pub fn of_lanes(simd: S, walls: &[&BeddedMotion; LANES]) -> Self {
-        let of = |number: fn(&BeddedMotion) -> f64| lanes(simd, |i| number(walls[i]));
-        let joint = |j: usize| std::array::from_fn(|i| &walls[i].joints[j]);
+    pub fn of_row(simd: S, row: &BedRow, freedom: Freedom) -> Self {
+        let of = |numbers: &Numbers| from_row(simd, numbers);
+        let vector = |of_both: &[Numbers; 2]| Vector::new(of(&of_both[0]), of(&of_both[1]));
         Self {
-            joints: [JointLanes::new(simd, &joint(0)), JointLanes::new(simd, &joint(1))],
-            freedom: walls[0].freedom,
+            joints: [JointLanes::new(simd, &row.joints[0]), JointLanes::new(simd, &row.joints[1])],
+            freedom,
             masses: Masses {
-                m: [of(|wall| wall.masses.m[0]), of(|wall| wall.masses.m[1])],
-                i: [of(|wall| wall.masses.i[0]), of(|wall| wall.masses.i[1])],
-                m_d: of(|wall| wall.masses.m_d),
-                m_dp: of(|wall| wall.masses.m_dp),
+                m: [of(&row.m[0]), of(&row.m[1])],
+                i: [of(&row.i[0]), of(&row.i[1])],
+                m_d: of(&row.m_d),
+                m_dp: of(&row.m_dp),
             },
-            height_1_m: of(|wall| wall.height_1_m),
-            g1: Vector::new(of(|wall| wall.g1.x), of(|wall| wall.g1.y)),
-            g2: Vector::new(of(|wall| wall.g2.x), of(|wall| wall.g2.y)),
-            c: Vector::new(of(|wall| wall.c.x), of(|wall| wall.c.y)),
+            height_1_m: of(&row.height_1_m),
+            g1: vector(&row.g1),
+            g2: vector(&row.g2),
+            c: vector(&row.c),
         }
     }
 }

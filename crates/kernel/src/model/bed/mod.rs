@@ -33,9 +33,9 @@ mod trilinear;
 
 pub use crushing::CrushingJoint;
 pub use joint_law::JointLaw;
-pub(crate) use lanes::JointLanes;
+pub(crate) use lanes::{BedRow, JointLanes};
 pub use law::Bed;
-pub(crate) use motion::{Acting, BeddedMotion, BeddedRate};
+pub(crate) use motion::{Acting, BeddedMotion, BeddedRate, Pose};
 pub(in crate::model) use of_wall::{Carries, law_at};
 pub use rounded::RoundedEdges;
 pub(crate) use shape::{Branch, JointShape};

@@ -61,7 +61,7 @@ pub(crate) struct BeddedMotion<N = f64, J = JointShape> {
 }
 
 /// A wall turned by its rotations: what is where, and how it moves with the rotations.
-struct Pose<N = f64> {
+pub(crate) struct Pose<N = f64> {
     rolls: [Roll<N>; 2],
     arms: TurnedArms<N>,
     turns: [(N, N); 2],
@@ -76,7 +76,6 @@ struct Pose<N = f64> {
 
 /// All that the equations give at a state.
 pub(crate) struct Balance<N = f64> {
-    pose: Pose<N>,
     /// Accelerations of the mass points without θ'', the ground's and gravity in them, m/s².
     drift: PointVelocities<N>,
     /// The same of C, relative to the ground, horizontally.
@@ -111,9 +110,15 @@ fn along<N: Number>(levers: [N; 2], pair: [N; 2]) -> N {
     levers[0] * pair[0] + levers[1] * pair[1]
 }
 
+impl Balance {
+    fn rate(&self) -> BeddedRate {
+        BeddedRate { theta_dd: self.theta_dd, powers_w: self.powers_w }
+    }
+}
+
 impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
     #[inline(always)]
-    fn pose(&self, theta: [N; 2]) -> Pose<N> {
+    pub fn pose(&self, theta: [N; 2]) -> Pose<N> {
         let [ground, crack] = across(theta);
         let rolls = [self.joints[0].roll(ground), self.joints[1].roll(crack)];
         let turns = [theta[0].sine_and_cosine(), theta[1].sine_and_cosine()];
@@ -178,18 +183,18 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
         [[crack.moment_n_m - ground.moment_n_m, -crack.moment_n_m], [lost_1 - lost_0, -lost_1]]
     }
 
-    /// The equations of motion at rotations and velocities; `held`: friction holds the top in place.
+    /// The equations of motion in a pose, at its rotations and velocities; `held`: friction holds the top in place.
     #[inline(always)]
-    pub fn balance(
+    pub fn balance_in(
         &self,
+        pose: &Pose<N>,
         acting: &impl Acting<N>,
         held: bool,
         [theta, omega]: [[N; 2]; 2],
         ground: Vector<N>,
     ) -> Balance<N> {
-        let pose = self.pose(theta);
         let mass = self.mass_of(&pose.arms);
-        let moving = self.drift(&pose, omega);
+        let moving = self.drift(pose, omega);
         let shaking = Vector::new(ground.x, ground.y + ground.y.constant(G_M_S2));
         let drift = PointVelocities {
             g1: moving.g1 + shaking,
@@ -198,12 +203,12 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
             theta: moving.theta,
         };
         let arms = &pose.arms;
-        let x_c = self.top_of(&pose);
+        let x_c = self.top_of(pose);
         let v = arms.velocities(omega);
         let damping_n = acting.damping_force_n(x_c, v.c.x);
         let dampers = acting.joint_moments_n_m(theta, omega);
         let force_n = acting.spring_force_n(x_c) + damping_n;
-        let [stored, lost] = self.bed_moments(&pose, [theta, omega]);
+        let [stored, lost] = self.bed_moments(pose, [theta, omega]);
         let inertia = self.masses.momenta(arms, &drift);
         let levers = [arms.r_q.y, arms.r_c.y];
         let f = [
@@ -225,7 +230,6 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
             theta_dd,
             holding_n,
             powers_w: [-self.masses.power(&v, ground), -loss_w],
-            pose,
         }
     }
 
@@ -242,15 +246,16 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
         }
     }
 
+    /// Displacement of the top, m.
     #[inline(always)]
-    fn top_of(&self, pose: &Pose<N>) -> N {
+    pub fn top_of(&self, pose: &Pose<N>) -> N {
         (pose.foot + pose.q[0] + pose.c).x - self.c.x
     }
 
     /// The reactions to these angular accelerations.
     #[inline(always)]
-    pub fn reactions_by(&self, balance: &Balance<N>, theta_dd: [N; 2]) -> Reactions<N> {
-        let turning = balance.pose.arms.velocities(theta_dd);
+    pub fn reactions_by(&self, pose: &Pose<N>, balance: &Balance<N>, theta_dd: [N; 2]) -> Reactions<N> {
+        let turning = pose.arms.velocities(theta_dd);
         let accelerations = PointVelocities {
             g1: balance.drift.g1 + turning.g1,
             g2: balance.drift.g2 + turning.g2,
@@ -259,7 +264,7 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
         };
         let at_top = balance.force_n + balance.holding_n;
         Reactions {
-            forces: self.masses.through_joints(&balance.pose.arms, &accelerations, at_top),
+            forces: self.masses.through_joints(&pose.arms, &accelerations, at_top),
             top_displacement_m: balance.x_c,
             top_velocity_m_s: balance.v_c,
             top_acceleration_m_s2: balance.top_drift_x + turning.c.x,
@@ -301,25 +306,41 @@ impl BeddedMotion {
         self.mass_of(&self.pose(rotations.angles()).arms)
     }
 
-    pub fn rate(&self, motion: &Motion, moving: [Pair; 2], ground: Vector) -> BeddedRate {
-        dispatch!(motion.level, _ => {
-            let Balance { theta_dd, powers_w, .. } = self.balance(motion, motion.held, moving, ground);
-            BeddedRate { theta_dd, powers_w }
-        })
-    }
-
-    /// Joint forces and motion of the top, with these angular accelerations or those of the motion.
-    pub fn reactions(
+    /// The rate at rotations and velocities. Keeps the pose there.
+    pub fn rate(
         &self,
         motion: &Motion,
         moving: [Pair; 2],
-        theta_dd: Option<Pair>,
         ground: Vector,
+        pose: &mut Option<Pose>,
+    ) -> BeddedRate {
+        dispatch!(motion.level, _ => {
+            let pose = pose.insert(self.pose(moving[0]));
+            self.balance_in(pose, motion, motion.held, moving, ground).rate()
+        })
+    }
+
+    /// The same with the reactions, in a pose that may be known.
+    pub fn rate_and_reactions(
+        &self,
+        motion: &Motion,
+        moving: [Pair; 2],
+        ground: Vector,
+        known: &mut Option<Pose>,
     ) -> (BeddedRate, Reactions) {
         dispatch!(motion.level, _ => {
-            let balance = self.balance(motion, motion.held, moving, ground);
-            let reactions = self.reactions_by(&balance, theta_dd.unwrap_or(balance.theta_dd));
-            (BeddedRate { theta_dd: balance.theta_dd, powers_w: balance.powers_w }, reactions)
+            let pose = known.get_or_insert_with(|| self.pose(moving[0]));
+            let balance = self.balance_in(pose, motion, motion.held, moving, ground);
+            (balance.rate(), self.reactions_by(pose, &balance, balance.theta_dd))
+        })
+    }
+
+    /// Joint forces and motion of the top with these angular accelerations.
+    pub fn reactions(&self, motion: &Motion, moving: [Pair; 2], theta_dd: Pair, ground: Vector) -> Reactions {
+        dispatch!(motion.level, _ => {
+            let pose = self.pose(moving[0]);
+            let balance = self.balance_in(&pose, motion, motion.held, moving, ground);
+            self.reactions_by(&pose, &balance, theta_dd)
         })
     }
 

@@ -127,24 +127,28 @@ impl<N: Number> RollingBed<N> {
         let one = number(1.0);
         let phi = (side * phi).at_least(number(LEAST_PARTIAL) * phi_c);
         let half_m = width_m / number(2.0);
-        let (u, cos, v) = turned(phi);
-        let part_y = (u_c / u).root();
+        let (u, cos) = phi.sine_and_cosine();
         // Beyond a quarter turn, where u falls again, the zone stays as wide as it was there.
         let within = |within: N, beyond: N| phi.choose_up_to(FRAC_PI_2, within, beyond);
+        // 1 + cos φ, and 1 - cos φ where that does not cancel: v = u²/(1 + cos φ).
+        let w = within(one + cos, one - cos);
+        let [over_phi, over_u, over_w] = inverses([phi, within(u, one), w]);
+        let (v, over_v) = (within(u * u * over_w, w), within(w * over_u * over_u, over_w));
+        let part_y = (u_c * over_u).root();
         let open_y = within(one - part_y, one - root_u_c);
         let risen = within(u * (open_y * open_y), open_y * (u - root_u_c));
-        let narrows = within(number(0.5) * part_y * cos * cos / u, number(0.0));
-        let part_x = (v_c / v).root().root();
+        let narrows = within(number(0.5) * part_y * cos * cos * over_u, number(0.0));
+        let part_x = (v_c * over_v).root().root();
         // c = b sqrt(φ_c/φ)
-        let c = width_m * (phi_c / phi).root();
-        let fallen = v * (one - number(4.0 / 3.0) * part_x) + v_c / number(3.0);
-        let bent = (one - part_x) * cos + part_x * (one + cos) / number(4.0);
+        let c = width_m * (phi_c * over_phi).root();
+        let fallen = v * (one - number(4.0 / 3.0) * part_x) + v_c * number(1.0 / 3.0);
+        let bent = (one - part_x) * cos + part_x * (one + cos) * number(0.25);
         Roll {
             place: Vector::new(side * half_m * fallen, half_m * risen),
             slope: Vector::new(half_m * (one - part_x) * u, side * half_m * open_y * cos),
             bend: Vector::new(side * half_m * bent, half_m * (narrows - open_y * u)),
-            moment_n_m: side * self.load_n * c / number(6.0),
-            damping_n_m_s: self.damping_s * (self.stiffness_pa * c * c * c / number(12.0)),
+            moment_n_m: side * self.load_n * c * number(1.0 / 6.0),
+            damping_n_m_s: self.damping_s * (self.stiffness_pa * c * c * c * number(1.0 / 12.0)),
         }
     }
 }
@@ -152,8 +156,16 @@ impl<N: Number> RollingBed<N> {
 /// Sine, cosine, and one less the cosine without cancellation.
 #[inline(always)]
 pub(super) fn turned<N: Number>(phi: N) -> (N, N, N) {
-    let (sin, cos) = phi.library_sine_and_cosine();
+    let (sin, cos) = phi.sine_and_cosine();
     (sin, cos, sin * sin / (phi.constant(1.0) + cos))
+}
+
+/// The inverses of three numbers by one division, which takes as long as some ten products.
+#[inline(always)]
+fn inverses<N: Number>([a, b, c]: [N; 3]) -> [N; 3] {
+    let (ab, bc) = (a * b, b * c);
+    let inverse = a.constant(1.0) / (ab * c);
+    [inverse * bc, inverse * (a * c), inverse * ab]
 }
 
 /// The rotations across the ground and across the crack of a pair of body rotations.

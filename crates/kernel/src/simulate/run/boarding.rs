@@ -1,15 +1,21 @@
 //! A run boards a lane of a row, and alights from it.
 
+use super::super::bed_events::keeps_contact_between;
 use super::super::history::Observer;
 use super::super::row::{Row, put};
-use super::{Run, Stop, Task};
+use super::{Run, Stop};
 use crate::model::{Contact, Joint, Kink, Regime};
 use crate::solver::{Point, STAGES};
 
 impl<O: Observer> Run<O> {
-    /// What its motion depends on beside the wall: the contact state, and the branch of the laws at the top.
-    pub fn laws(&self) -> (Contact, Regime) {
-        (self.contact, self.wall.regime())
+    /// The contact state.
+    pub fn contact(&self) -> Contact {
+        self.contact
+    }
+
+    /// The branch of the laws at the top, where these have branches.
+    pub fn regime(&self) -> Option<Regime> {
+        self.wall.piecewise_laws().map(|_| self.wall.regime())
     }
 
     /// Whether anybody watches it.
@@ -27,7 +33,7 @@ impl<O: Observer> Run<O> {
     fn is_plain(&self) -> bool {
         let formulas = self.wall.formulas();
         let watched = formulas.have_switches() || formulas.remember_largest();
-        !watched && !self.wall.wall().gives() && !self.wall.is_held()
+        !watched && !self.wall.is_held()
     }
 
     /// Puts all that the next step needs in a lane.
@@ -72,10 +78,11 @@ impl<O: Observer> Run<O> {
 
     fn board_limits(&self, row: &mut Row, i: usize) {
         let limits = &mut row.limits;
-        let Contact { ground, crack } = self.contact;
+        let Contact { ground, crack } = self.wall.edges_of(self.contact);
         put(&mut limits.sides, i, [ground.sign(), crack.sign()]);
         put(&mut limits.collapse_rad, i, self.collapse_rad);
-        let closed = self.wall.joints().find(|joint| self.contact.at(*joint).is_closed());
+        let closed_edges = self.wall.closed_edges(self.contact);
+        let closed = self.wall.joints().find(|joint| closed_edges.at(*joint));
         limits.closed[i] = f64::from(u8::from(closed.is_some()));
         limits.width_m[i] = self.wall.width_m(closed.unwrap_or(Joint::Ground));
         limits.weight_n[i] = self.wall.weight_n();
@@ -89,7 +96,7 @@ impl<O: Observer> Run<O> {
         row.ground.put(i, piece, self.k, self.offset_s);
         row.errors.put(i, &self.controller);
         row.motions.put_formulas(i, self.wall.motion(self.contact));
-        let advances = matches!(self.task, Task::Advance { .. }) && self.is_plain();
+        let advances = self.advances() && self.is_plain();
         let (limits, totals) = (&mut row.limits, &self.totals);
         limits.advances[i] = f64::from(u8::from(advances));
         limits.put_rotations(i, &totals.theta_max);
@@ -100,6 +107,12 @@ impl<O: Observer> Run<O> {
             let Point { position, velocity, acceleration } = self.now;
             let [top_m, _, top_m_s2] = self.wall.top(self.contact, position, velocity, acceleration);
             (row.kinks.top_m[i], row.kinks.top_m_s2[i]) = (top_m, top_m_s2);
+        }
+        if self.wall.wall().gives() {
+            for joint in [Joint::Ground, Joint::Crack] {
+                let [low, high] = keeps_contact_between(&self.wall, self.contact, self.opened, joint);
+                (row.beds.low_rad[joint as usize][i], row.beds.high_rad[joint as usize][i]) = (low, high);
+            }
         }
         let sums = &mut row.sums;
         sums.theta_max[i] = totals.theta_max;

@@ -1,7 +1,7 @@
 //! A step, or the part of it up to its first event: found, located, applied.
 
 use super::super::bed_events::first_bed_change;
-use super::super::events::{Event, first_event, first_kink, left_to_kink, sooner};
+use super::super::events::{EdgeEvent, Event, first_event, first_kink, left_to_kink, sooner};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
 use super::super::row::Row;
@@ -47,7 +47,8 @@ impl<O: Observer> Run<O> {
         let kink = first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
         let kink = kink.map(|(kink, share)| (Event::Kink(kink), share));
         // What happens to the joints goes first.
-        let event = sooner(event, kink).map(|(event, share)| (self.on_edges(event), share));
+        let event = event.map(|(event, share)| (self.on_edges(event.into()), share));
+        let event = sooner(event, kink);
         let change = first_bed_change(&self.wall, self.contact, self.opened, step, &motion);
         match sooner(event, change) {
             None => {
@@ -71,7 +72,7 @@ impl<O: Observer> Run<O> {
         corner_force: (Option<f64>, Option<f64>),
         piece: &Piece,
         from_s: f64,
-    ) -> Option<(Event, f64)> {
+    ) -> Option<(EdgeEvent, f64)> {
         let force_at =
             |share: f64| self.corner_force_within(motion, share, piece.at(from_s + share * motion.h()));
         first_event(self.wall.edges_of(self.contact), motion, self.collapse_rad, corner_force, force_at)
@@ -81,7 +82,7 @@ impl<O: Observer> Run<O> {
     /// where there is none, or the step may not be kept.
     pub fn approaches_event_in(&mut self, row: &mut Row, i: usize) -> bool {
         let (step, piece, from_s) = (row.step(i), row.ground.at(i), row.ground.offset_s[i]);
-        if self.wall.piecewise_laws().is_some() {
+        if self.wall.piecewise_laws().is_some() || self.wall.wall().gives() {
             return false;
         }
         let mut controller = self.controller;
@@ -97,7 +98,7 @@ impl<O: Observer> Run<O> {
         };
         self.totals.work.evaluations += STAGES;
         row.errors.put(i, &controller);
-        self.request_up_to(event, share, step.h);
+        self.request_up_to(event.into(), share, step.h);
         row.limits.advances[i] = 0.0;
         row.moving.h[i] = self.requested_s();
         true

@@ -4,7 +4,7 @@ use wide::f64x2;
 
 use super::super::ground_path::Piece;
 use crate::instructions::dispatch;
-use crate::model::{Configuration, Motion, MotionRate, Pair, RatePair, Reactions};
+use crate::model::{BeddedMotion, Configuration, Motion, MotionRate, Pair, Pose, RatePair, Reactions};
 use crate::solver::{Field, Nystrom, Point, Rate, Step};
 
 /// A step that a run requests.
@@ -21,16 +21,16 @@ impl StepRequest<'_> {
     /// Takes the step, and writes the reactions at its end.
     #[inline]
     pub fn take(&self, reactions: &mut Reactions) -> Step {
-        if self.motion.is_bedded() {
-            return dispatch!(self.motion.level, _ => self.step_on_beds(reactions));
+        if let Some(bedded) = self.motion.on_beds() {
+            return dispatch!(self.motion.level, _ => self.step_on_beds(bedded, reactions));
         }
         dispatch!(self.motion.level, _ => self.step(reactions))
     }
 
     #[inline(always)]
-    fn step_on_beds(&self, reactions: &mut Reactions) -> Step {
-        let mut shaken =
-            BeddedField { motion: self.motion, from_s: self.from_s, piece: self.piece, reactions };
+    fn step_on_beds(&self, bedded: &BeddedMotion, reactions: &mut Reactions) -> Step {
+        let (motion, piece, from_s) = (self.motion, self.piece, self.from_s);
+        let mut shaken = BeddedField { motion, bedded, from_s, piece, pose: None, reactions };
         Nystrom::step(self.now, self.quadrature_rate, self.h, &mut shaken)
     }
 
@@ -82,8 +82,11 @@ impl Field for ShakenMotion<'_, '_> {
 /// The motion of a wall whose joints give.
 struct BeddedField<'a, 'b> {
     motion: &'a Motion,
+    bedded: &'a BeddedMotion,
     from_s: f64,
     piece: &'a Piece,
+    /// That of the last stage, whose positions are those of the end.
+    pose: Option<Pose>,
     reactions: &'b mut Reactions,
 }
 
@@ -91,14 +94,16 @@ impl Field for BeddedField<'_, '_> {
     #[inline(always)]
     fn rate(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
         let ground = self.piece.at(self.from_s + after_s);
-        from_motion(self.motion.rate(theta.to_array(), omega.to_array(), ground))
+        let moving = [theta.to_array(), omega.to_array()];
+        from_motion(self.bedded.rate(self.motion, moving, ground, &mut self.pose).into())
     }
 
     fn land(&mut self, after_s: f64, theta: f64x2, omega: f64x2) -> Rate {
         let ground = self.piece.at(self.from_s + after_s);
-        let (rate, reactions) = self.motion.rate_and_reactions_at(theta.to_array(), omega.to_array(), ground);
+        let moving = [theta.to_array(), omega.to_array()];
+        let (rate, reactions) = self.bedded.rate_and_reactions(self.motion, moving, ground, &mut self.pose);
         *self.reactions = reactions;
-        from_motion(rate)
+        from_motion(rate.into())
     }
 }
 
