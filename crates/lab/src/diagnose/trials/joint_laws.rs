@@ -13,7 +13,7 @@ use super::{FittedHypothesis, Trials};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Unknown};
-use crate::limits::{BEDS_WINDOWS, REMAINDER_RIVAL};
+use crate::limits::{BEDS_WINDOWS, BESIDE_BEDS_ASKED_FOR, REMAINDER_RIVAL};
 use mrbd_kernel::model::{EffectKind, G_M_S2, Role};
 
 /// Share of the moment of sharp edges at which a joint of three lines begins.
@@ -56,7 +56,15 @@ impl<P: Progress> Trials<'_, P> {
             return Vec::new();
         }
         let few = Few::new(self.data.fit, BEDS_WINDOWS, own_error(bed));
-        let most = REMAINDER_RIVAL * few.excess(&few.of(bed).fit).max(few.noise_2());
+        let left = few.excess(&few.of(bed).fit);
+        // A bed that crushes is a bed where it hardly does: it must follow better.
+        let most = |law: &Addition| {
+            if is_crushing(law) {
+                (1.0 - BESIDE_BEDS_ASKED_FOR) * left
+            } else {
+                REMAINDER_RIVAL * left.max(few.noise_2())
+            }
+        };
         let same = laws.into_iter().filter(|law| law.joint() == own.joint());
         let with = |law| with_dampers(law).into_iter().chain(beside.iter().copied()).collect::<Vec<_>>();
         let sets = same.map(with).collect::<Vec<_>>();
@@ -64,7 +72,7 @@ impl<P: Progress> Trials<'_, P> {
         let is_promising = |additions: &Vec<Addition>| {
             let fit = self.joint_law_in(&few.problem(), additions, bed);
             self.progress.advance(1);
-            fit.is_some_and(|(_, fit)| few.excess(&fit) < most)
+            fit.is_some_and(|(_, fit)| few.excess(&fit) < most(&additions[0]))
         };
         sets.into_par_iter().filter(is_promising).collect()
     }
@@ -116,6 +124,15 @@ impl<P: Progress> Trials<'_, P> {
             key => of_bed(key).unwrap_or(unknown.scale),
         }
     }
+}
+
+/// Whether a hypothesis has a bed that crushes.
+pub fn crushes(tried: &FittedHypothesis) -> bool {
+    tried.hypothesis.additions.iter().any(is_crushing)
+}
+
+fn is_crushing(law: &Addition) -> bool {
+    law.kind() == Some(EffectKind::CrushingJoint)
 }
 
 /// A law with what takes energy away: its own dampers, or those of the crack where it has none.

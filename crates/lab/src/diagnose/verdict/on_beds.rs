@@ -8,12 +8,12 @@ use super::worth_naming::{leaves_noise, worth_two};
 use super::{Remainder, Verdict, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::trials::{
-    FittedHypothesis, Trials, WallFits, against, all_windows, closes, does_something, excess, is_noise,
-    joint_error,
+    FittedHypothesis, Trials, WallFits, against, all_windows, closes, crushes, does_something, excess,
+    is_noise, joint_error,
 };
 use crate::limits::{
-    BED_OWN_ERROR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL, REMAINDER_TAKEN,
-    SIGNIFICANT_SD, WORTH_A_NAME,
+    BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
+    REMAINDER_TAKEN, WORTH_A_NAME,
 };
 use mrbd_kernel::model::Role;
 
@@ -33,7 +33,7 @@ pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found
     let laws = trials.joint_laws(&best);
     let equals = equals_of_held(trials, &beds, &laws);
     if !trials.is_held() {
-        near.extend(laws.iter().filter(|law| !is_a_bed(law) && comes_near(trials, &best, law)).cloned());
+        near.extend(laws.iter().filter(|law| stands_for(trials, &best, law)).cloned());
     }
     let found = standing.found(trials, wall, best, &near, [beds, pairs, laws, rivals].concat());
     Some(if equals.is_empty() {
@@ -41,14 +41,6 @@ pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found
     } else {
         Found { verdict: Verdict::Class, equivalent: equals, ..found }
     })
-}
-
-/// Whether a law of a joint is no other than a bed: its strength is not told, for nothing crushes.
-fn is_a_bed(law: &FittedHypothesis) -> bool {
-    let h = &law.hypothesis;
-    let strength = h.unknowns.iter().position(|unknown| unknown.key == "compressive_strength_pa");
-    let sd = |i: usize| law.fit.covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].max(0.0).sqrt());
-    strength.is_some_and(|i| (law.fit.values[i] - h.unknowns[i].start).abs() < SIGNIFICANT_SD * sd(i))
 }
 
 /// What a strip whose top is held cannot tell from its best bed: beds at other joints and other laws that leave no more than a
@@ -247,6 +239,13 @@ fn is_worth_it<P: Progress>(
     let takes_most = || Remainder::new(&trials.data, alone, two, &[]).is_some_and(|r| r.holds());
     let to_noise = || follows(trials, wall, two, &[]) && worth_two(&trials.data, alone, two);
     does_something(two) && ((is_more && takes_most()) || to_noise())
+}
+
+/// Whether another law of the joints may stand for a bed: it comes near, and does not only follow because it is a bed that hardly
+/// crushes.
+fn stands_for<P: Progress>(trials: &Trials<P>, best: &FittedHypothesis, law: &FittedHypothesis) -> bool {
+    let [bed, own] = [best, law].map(|tried| excess(&all_windows(tried)));
+    comes_near(trials, best, law) && (!crushes(law) || own < (1.0 - BESIDE_BEDS_ASKED_FOR) * bed)
 }
 
 /// Whether the tests cannot tell another effect from the best: by likelihood where that leaves noise, else by what each leaves.
