@@ -74,6 +74,15 @@ impl<'a> Replay<'a> {
         self.simulators[window.test].run_from(&start, end_s, observer)
     }
 
+    /// Samples of a window run from a state before the first at which another contact holds than at its start.
+    pub fn before_change(&self, window: &Window, x: &[f64]) -> usize {
+        let mut sampled = Sampled::at_all(&self.tests[window.test].time_s[window.samples.clone()]);
+        self.run(window, x, &mut sampled);
+        let mut contacts = sampled.rows().iter().map(|(_, contact)| *contact).peekable();
+        let first = contacts.peek().copied();
+        contacts.take_while(|contact| Some(*contact) == first).count()
+    }
+
     fn prepared<'o>(
         &self,
         window: &Window,
@@ -258,6 +267,26 @@ pub(super) mod tests {
                 assert!((stretch_m - way * 1e-5).abs() < 1e-15, "{stretch_m} at sample {k}");
             }
         }
+    }
+
+    #[test]
+    fn analytic_a_window_is_whole_up_to_where_the_wall_passes_upright() {
+        let (test, physics) = swaying();
+        let tests = [test];
+        let replay = Replay::new(&tests, &physics);
+        let windows = crate::experiment::windows(&tests);
+        let mut cut = 0;
+        for window in &windows {
+            let whole = window.samples.len();
+            let before = replay.before_change(window, &window.measured);
+            // The lower body turns about the same corner until its rotation changes sign; the spring moves no body by its sign.
+            let mut sampled = Sampled::at_all(&tests[0].time_s[window.samples.clone()]);
+            replay.run(window, &window.measured, &mut sampled);
+            let signs = sampled.rows().iter().map(|(theta, _)| theta[0].signum()).collect::<Vec<_>>();
+            assert!(signs[..before].iter().all(|sign| *sign == signs[0]), "{before} of {whole}");
+            cut += usize::from(before < whole);
+        }
+        assert!(cut > 0, "no change of contact in {} windows", windows.len());
     }
 
     #[test]

@@ -113,6 +113,14 @@ pub fn closes(tried: &FittedHypothesis, before: f64) -> bool {
     held_out && !too_many_poor(&all_windows(tried)) && (after < NOISE_AFTER || left < LEFT_OF_GAP)
 }
 
+/// Whether what is left of windows to fit and held out is noise, as where an effect is named.
+pub fn leave_noise([fit, held_out]: &[Vec<WindowFit>; 2]) -> bool {
+    let all = [&fit[..], held_out].concat();
+    windowed_error(&all).is_some_and(|error| error < NOISE_AFTER)
+        && !too_many_poor(&all)
+        && more_poor_held_out_sd(fit, held_out) < MISSED_HELD_OUT_SD
+}
+
 /// Whether what a hypothesis leaves of a gap that was `before` is so little that other starts may close it.
 pub fn nearly_closes(tried: &FittedHypothesis, before: f64) -> bool {
     let Some(after) = joint_error(tried) else { return false };

@@ -6,13 +6,15 @@
 //! | `fitted_hypothesis` | what came of it: whether it follows the tests within noise, closes a gap, does something |
 //! | `effects` | the wall as given, its own numbers, effects one by one and in pairs, an answer fitted again |
 //! | `beds` | joints that give |
-//! | `joint_laws` | other laws of joints beside a bed, for strips whose top is held |
+//! | `between_impacts` | what hypotheses leave of windows up to the first impact, where formulations of contact are alike |
+//! | `joint_laws` | other laws of joints beside a bed |
 //! | `imitation` | hypotheses that could imitate the best |
 //! | `own` | laws of the user's own |
 //! | `friction` | friction that gives a little first |
 //! | `patterns` | patterns read again, without a sensor's gain and with joints open by less than the noise |
 
 mod beds;
+mod between_impacts;
 mod effects;
 mod fitted_hypothesis;
 mod friction;
@@ -23,12 +25,15 @@ mod patterns;
 mod search;
 
 pub use beds::{excess, own_error, widened};
+pub use between_impacts::BetweenImpacts;
 pub use effects::{FirstFits, WallFits};
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
-    against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds, nearly_closes,
+    against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds, leave_noise,
+    nearly_closes,
 };
 pub use friction::{FRICTION, giving_friction, kind_of};
+pub use joint_laws::crushes;
 pub use patterns::{gain_misread, reads_better, set_gain};
 pub use patterns::{opened_as_given, opened_under, opened_windows};
 pub use search::{refit, shared_states, untouched, with_values};

@@ -1,5 +1,8 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
+use super::at_impacts::{
+    NamedBetween, keeps_as_another_formulation, named_between, only_impacts, worth_two_between,
+};
 use super::on_beds::{BedsBeside, on_beds_last};
 use super::worth_naming::{could_show, leaves_noise, place, worth_two};
 use super::{OtherLaw, Remainder, Verdict};
@@ -92,6 +95,21 @@ struct Answer {
     after: FittedHypothesis,
     /// Names of what cannot be told from it.
     equivalent: Vec<String>,
+    /// Whether it is named by what it leaves between impacts.
+    between_impacts: bool,
+}
+
+impl Answer {
+    /// A hypothesis that nothing comes near.
+    const fn of(verdict: Verdict, after: FittedHypothesis) -> Self {
+        Self { verdict, after, equivalent: Vec::new(), between_impacts: false }
+    }
+
+    /// By name, alone or in a class.
+    fn named(after: FittedHypothesis, equivalent: Vec<String>) -> Self {
+        let verdict = if equivalent.is_empty() { Verdict::Named } else { Verdict::Class };
+        Self { equivalent, ..Self::of(verdict, after) }
+    }
 }
 
 /// The verdict on what effects did to the windows one by one.
@@ -131,13 +149,7 @@ impl<P: Progress> Gap<'_, P> {
         let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.wall.recalibrated, best));
         if gain < WORTH_A_NAME {
             if is_noise(&self.wall.before) {
-                let verdict = if could_show(&self.trials.data, &self.wall.recalibrated, &singles) {
-                    Verdict::None
-                } else {
-                    Verdict::NoPower
-                };
-                let after = self.wall.before.clone();
-                return self.found(Answer { verdict, after, equivalent: Vec::new() }, singles);
+                return self.nothing_missing(singles);
             }
             if is_noise(&self.wall.recalibrated) || closes(&self.wall.recalibrated, self.error) {
                 return self.within_the_wall(singles);
@@ -146,10 +158,29 @@ impl<P: Progress> Gap<'_, P> {
         self.with_effects(singles, gain)
     }
 
+    /// The wall as given follows the tests, if an effect could have shown.
+    fn nothing_missing(self, singles: Vec<FittedHypothesis>) -> Found {
+        let could = could_show(&self.trials.data, &self.wall.recalibrated, &singles);
+        let verdict = if could { Verdict::None } else { Verdict::NoPower };
+        let after = self.wall.before.clone();
+        self.found(Answer::of(verdict, after), singles)
+    }
+
     /// One effect or two by name, or the place of what is missing.
     fn with_effects(self, singles: Vec<FittedHypothesis>, gain: f64) -> Found {
         let singles = self.trials.with_imitations(self.trials.with_far_refined(singles), self.error);
+        if self.only_other_impacts(&singles) {
+            return self.other_impacts(singles);
+        }
         let one = self.named(&singles, &self.wall.recalibrated);
+        if one.is_none() && place(&self.trials.data, &self.wall.recalibrated, &singles).is_none() {
+            if only_impacts(self.trials, &self.wall.before, &singles) {
+                return self.nothing_missing(singles);
+            }
+            if only_impacts(self.trials, &self.wall.recalibrated, &singles) {
+                return self.within_the_wall(singles);
+            }
+        }
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
         let far = joint_error(&self.wall.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
         if one.is_none() && !far && gain <= WORTH_PAIRS {
@@ -171,7 +202,7 @@ impl<P: Progress> Gap<'_, P> {
         if other_law.speaks() {
             return self.placed(Some(other_law), tried);
         }
-        let better = self.better_formula(&answer.after, &tried);
+        let better = if answer.between_impacts { None } else { self.better_formula(&answer.after, &tried) };
         let tried = self.trials.ordered(tried);
         match better {
             Some((discovered, formula)) => {
@@ -215,17 +246,32 @@ impl<P: Progress> Gap<'_, P> {
             one = self.named(&tried, &self.wall.recalibrated);
         }
         let single = best_single(&tried);
-        let two = self.named(&pairs, &single).filter(|two| worth_two(&trials.data, &single, &two.after));
+        // What impacts of another formulation leave, a second effect may take up: it must show between them.
+        let between = one.as_ref().is_some_and(|one| one.between_impacts);
+        let is_worth_it = |two: &Answer| match between || two.between_impacts {
+            true => worth_two_between(trials, &single, &two.after),
+            false => worth_two(&trials.data, &single, &two.after),
+        };
+        let two = self.named(&pairs, &single).filter(is_worth_it);
         tried.extend(pairs);
         (two.or(one), tried)
     }
 
-    /// The best hypothesis that closes the gap, is an answer, and is worth its name beside a simpler one; with what cannot
-    /// be told from it.
+    /// The best hypothesis that closes the gap, or leaves noise between impacts, is an answer, and is worth its name beside a
+    /// simpler one; with what cannot be told from it.
     fn named(&self, tried: &[FittedHypothesis], simpler: &FittedHypothesis) -> Option<Answer> {
+        self.closing(tried, simpler).or_else(|| {
+            let NamedBetween { best, near } = named_between(self.trials, tried, simpler)?;
+            let equivalent = if near.is_empty() { Vec::new() } else { names_of_all(best, near) };
+            Some(Answer { between_impacts: true, ..Answer::named(best.clone(), equivalent) })
+        })
+    }
+
+    /// The same of those that close the gap.
+    fn closing(&self, tried: &[FittedHypothesis], simpler: &FittedHypothesis) -> Option<Answer> {
         let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
         let best = best_answer(closing.iter().copied())?;
-        if self.gain(simpler, best) < WORTH_A_NAME {
+        if self.gain(simpler, best) < WORTH_A_NAME || self.is_near_other_impacts(best, &closing) {
             return None;
         }
         // A number of the wall that does clearly better than every effect: a symptom, no answer.
@@ -233,9 +279,33 @@ impl<P: Progress> Gap<'_, P> {
         if first.is_some_and(|t| self.gain(best, t) > EQUIVALENT) {
             return None;
         }
-        let equivalent = self.equivalent(best, &closing);
-        let verdict = if equivalent.is_empty() { Verdict::Named } else { Verdict::Class };
-        Some(Answer { verdict, after: best.clone(), equivalent })
+        Some(Answer::named(best.clone(), self.equivalent(best, &closing)))
+    }
+
+    /// Whether impacts that keep what those of another formulation may keep do as well as the best hypothesis, or are of it.
+    fn is_near_other_impacts(&self, best: &FittedHypothesis, closing: &[&FittedHypothesis]) -> bool {
+        let limit = against(&self.trials.data, best) + EQUIVALENT;
+        let do_as_well = |t: &&&FittedHypothesis| against(&self.trials.data, t) < limit;
+        closing.iter().filter(do_as_well).any(|t| keeps_as_another_formulation(t))
+    }
+
+    /// Whether single effects say no more than that impacts keep what those of another formulation may keep.
+    fn only_other_impacts(&self, singles: &[FittedHypothesis]) -> bool {
+        let closing = singles.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
+        let best = best_answer(closing.iter().copied());
+        best.is_some_and(|best| self.is_near_other_impacts(best, &closing))
+    }
+
+    /// Impacts of another formulation: nothing is missing where a wall without effects leaves noise all the same, else the place.
+    fn other_impacts(self, singles: Vec<FittedHypothesis>) -> Found {
+        if is_noise(&self.wall.before) {
+            return self.nothing_missing(singles);
+        }
+        if is_noise(&self.wall.recalibrated) {
+            return self.within_the_wall(singles);
+        }
+        let after = self.wall.recalibrated.clone();
+        Found { place: Some("impacts"), ..self.found(Answer::of(Verdict::PlaceOnly, after), singles) }
     }
 
     /// Names of the best and of what cannot be told from it; empty if that is nothing.
@@ -258,7 +328,7 @@ impl<P: Progress> Gap<'_, P> {
             }
         }
         let after = self.wall.recalibrated.clone();
-        self.found(Answer { verdict: Verdict::Recalibrated, after, equivalent: Vec::new() }, singles)
+        self.found(Answer::of(Verdict::Recalibrated, after), singles)
     }
 
     /// Uncertain numbers of the wall that were not known and moved.
@@ -307,7 +377,7 @@ impl<P: Progress> Gap<'_, P> {
             Nuisance::Coefficient(..) => EffectKind::ImpactDissipation.name().to_owned(),
         }));
         equivalent.dedup();
-        Some(Answer { verdict: Verdict::Class, after: answer.after, equivalent })
+        Some(Answer { equivalent, ..Answer::of(Verdict::Class, answer.after) })
     }
 
     /// No law of the catalogue follows: one outside it that does, or where the force is missing.
@@ -339,7 +409,7 @@ impl<P: Progress> Gap<'_, P> {
         let others = discovered.equals.iter().filter(|_| verdict == Verdict::FormulaClass);
         let equivalent =
             others.flat_map(|t| t.hypothesis.laws(&t.fit.values)).map(|law| law.name()).collect();
-        Some(Answer { verdict, after, equivalent })
+        Some(Answer { equivalent, ..Answer::of(verdict, after) })
     }
 
     /// Where the force is missing, if that shows.
@@ -353,8 +423,7 @@ impl<P: Progress> Gap<'_, P> {
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
         let tried = self.trials.ordered(tried);
         let after = self.wall.recalibrated.clone();
-        let answer = Answer { verdict, after, equivalent: Vec::new() };
-        Found { place, other_law, ..self.found(answer, tried) }
+        Found { place, other_law, ..self.found(Answer::of(verdict, after), tried) }
     }
 
     /// What one hypothesis gains over another.
@@ -362,7 +431,7 @@ impl<P: Progress> Gap<'_, P> {
         against(&self.trials.data, over) - against(&self.trials.data, of)
     }
 
-    fn found(self, Answer { verdict, after, equivalent }: Answer, tried: Vec<FittedHypothesis>) -> Found {
+    fn found(self, Answer { verdict, after, equivalent, .. }: Answer, tried: Vec<FittedHypothesis>) -> Found {
         let WallFits { before, recalibrated } = self.wall;
         Found {
             verdict,

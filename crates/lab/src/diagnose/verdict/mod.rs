@@ -4,10 +4,12 @@
 //! | --- | --- |
 //! | `judge` | nothing missing, the wall's own numbers, one effect, two, or a place |
 //! | `worth_naming` | whether tests could show an effect, whether a second one shows, and where a force is missing |
+//! | `at_impacts` | what is left at impacts, where formulations of a contact part |
 //! | `remainder` | a name that leaves more than noise |
 //! | `on_beds` | joints that give, where windows ask for them |
 //! | `other_law` | whether a law outside the catalogue is behind a name |
 
+mod at_impacts;
 mod judge;
 mod on_beds;
 mod other_law;

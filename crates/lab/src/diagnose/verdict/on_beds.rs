@@ -4,15 +4,16 @@
 //! they hold, the others are fitted as rivals, and no more is tried.
 
 use super::judge::Found;
-use super::worth_naming::worth_two;
+use super::worth_naming::{leaves_noise, worth_two};
 use super::{Remainder, Verdict, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::trials::{
-    FittedHypothesis, Trials, WallFits, against, all_windows, closes, does_something, excess, is_noise,
-    joint_error,
+    FittedHypothesis, Trials, WallFits, against, all_windows, closes, crushes, does_something, excess,
+    is_noise, joint_error,
 };
 use crate::limits::{
-    BED_OWN_ERROR, BEDS_GAP, BESIDE_BEDS_FROM, EQUIVALENT, REMAINDER_RIVAL, REMAINDER_TAKEN, WORTH_A_NAME,
+    BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
+    REMAINDER_TAKEN, WORTH_A_NAME,
 };
 use mrbd_kernel::model::Role;
 
@@ -23,14 +24,17 @@ pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found
     if !beds.first().is_some_and(does_something) {
         return None;
     }
-    let OnBeds { best, near, pairs } = with_effect(trials, wall, &beds)?;
+    let OnBeds { best, mut near, pairs, rivals } = with_effect(trials, wall, &beds)?;
     if Remainder::new(&trials.data, recalibrated, &best, &[])?.taken_held_out < REMAINDER_TAKEN {
         return None;
     }
-    let rivals = trials.rivals_of_beds(before);
+    let rivals = rivals.unwrap_or_else(|| trials.rivals_of_beds(before));
     let standing = Standing::of(trials, wall, &best, &rivals)?;
     let laws = trials.joint_laws(&best);
     let equals = equals_of_held(trials, &beds, &laws);
+    if !trials.is_held() {
+        near.extend(laws.iter().filter(|law| stands_for(trials, &best, law)).cloned());
+    }
     let found = standing.found(trials, wall, best, &near, [beds, pairs, laws, rivals].concat());
     Some(if equals.is_empty() {
         found
@@ -169,6 +173,8 @@ struct OnBeds {
     near: Vec<FittedHypothesis>,
     /// Everything tried beside joints that give.
     pairs: Vec<FittedHypothesis>,
+    /// Single effects on sharp edges, where they were asked for.
+    rivals: Option<Vec<FittedHypothesis>>,
 }
 
 /// Joints that give with an effect beside them where one is worth it, else alone. `None` where joints that give take away too
@@ -184,16 +190,39 @@ fn with_effect<P: Progress>(
         return None;
     }
     // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
-    let none_beside = is_noise(alone) || trials.is_held();
-    let pairs = if none_beside { Vec::new() } else { trials.beside_beds(beds) };
-    let Some((two, others)) = pairs.split_first().filter(|(two, _)| is_worth_it(trials, wall, alone, two))
-    else {
-        return Some(OnBeds { best: alone.clone(), near: Vec::new(), pairs });
+    if leaves_noise(alone) || trials.is_held() {
+        return Some(OnBeds { best: alone.clone(), near: Vec::new(), pairs: Vec::new(), rivals: None });
+    }
+    let pairs = trials.beside_beds(beds);
+    let (pairs, rivals) = match worth_it(trials, wall, alone, &pairs) {
+        None if leaves_more_than_another_model(wall, alone) => {
+            let rivals = trials.rivals_of_beds(&wall.before);
+            let found = trials.beds_beside_rivals(alone, &rivals);
+            ([found, pairs].concat(), Some(rivals))
+        }
+        _ => (pairs, None),
     };
+    let (best, near) = worth_it(trials, wall, alone, &pairs).unwrap_or_else(|| (alone.clone(), Vec::new()));
+    Some(OnBeds { best, near, pairs, rivals })
+}
+
+/// The first of pairs, if it is worth naming beside joints that give alone, and what comes near it.
+fn worth_it<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    alone: &FittedHypothesis,
+    pairs: &[FittedHypothesis],
+) -> Option<(FittedHypothesis, Vec<FittedHypothesis>)> {
+    let (two, others) = pairs.split_first().filter(|(two, _)| is_worth_it(trials, wall, alone, two))?;
     let is_as_good =
         |other: &&FittedHypothesis| comes_near(trials, two, other) && is_worth_it(trials, wall, alone, other);
-    let near = others.iter().filter(is_as_good).cloned().collect();
-    Some(OnBeds { best: two.clone(), near, pairs })
+    Some((two.clone(), others.iter().filter(is_as_good).cloned().collect()))
+}
+
+/// Whether joints that give alone leave more than another way to model them does.
+fn leaves_more_than_another_model(wall: &WallFits, alone: &FittedHypothesis) -> bool {
+    let [gap, left] = [&wall.recalibrated, alone].map(|tried| excess(&all_windows(tried)));
+    left > BED_OWN_ERROR * gap && joint_error(alone).is_some_and(|error| error > BESIDE_BEDS_GAP)
 }
 
 /// Whether an effect beside joints that give is named with them.
@@ -206,11 +235,17 @@ fn is_worth_it<P: Progress>(
     alone: &FittedHypothesis,
     two: &FittedHypothesis,
 ) -> bool {
-    let [gap, left] = [&wall.recalibrated, alone].map(|tried| excess(&all_windows(tried)));
-    let is_more = left > BED_OWN_ERROR * gap && joint_error(alone).is_some_and(|error| error > BEDS_GAP);
+    let is_more = leaves_more_than_another_model(wall, alone);
     let takes_most = || Remainder::new(&trials.data, alone, two, &[]).is_some_and(|r| r.holds());
     let to_noise = || follows(trials, wall, two, &[]) && worth_two(&trials.data, alone, two);
     does_something(two) && ((is_more && takes_most()) || to_noise())
+}
+
+/// Whether another law of the joints may stand for a bed: it comes near, and does not only follow because it is a bed that hardly
+/// crushes.
+fn stands_for<P: Progress>(trials: &Trials<P>, best: &FittedHypothesis, law: &FittedHypothesis) -> bool {
+    let [bed, own] = [best, law].map(|tried| excess(&all_windows(tried)));
+    comes_near(trials, best, law) && (!crushes(law) || own < (1.0 - BESIDE_BEDS_ASKED_FOR) * bed)
 }
 
 /// Whether the tests cannot tell another effect from the best: by likelihood where that leaves noise, else by what each leaves.

@@ -5,14 +5,15 @@
 //! fit to all of them.
 
 use super::few::Few;
-use super::{in_rounds, own_error, widened};
+use super::probe::Probe;
+use super::{excess, in_rounds, own_error, widened};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
 use crate::diagnose::trials::imitation::seconds;
 use crate::diagnose::trials::search::{judged_from_measured, states_of, with_values};
 use crate::diagnose::trials::{Data, FittedHypothesis, Trials, joint_error};
-use crate::limits::{BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL};
+use crate::limits::{BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL};
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;
 
@@ -26,18 +27,52 @@ impl<P: Progress> Trials<'_, P> {
         let with_effect = best.hypothesis.additions[1..].iter().all(|a| a.role() != Some(Role::Bed));
         let others = others.iter().filter(|_| with_effect).collect::<Vec<_>>();
         found.extend(others.par_iter().filter_map(|bed| self.on_other_bed(bed, &best)).collect::<Vec<_>>());
-        by_error(&mut found);
-        if let Some(best) = found.first_mut()
-            && let Some(finished) = self.finished_beside_own_error(best)
-        {
-            *best = finished;
-        }
+        self.best_finished(&mut found);
         found
     }
 
     /// Joints that give beside an effect that takes away much alone.
     pub fn beds_beside(&self, effect: &FittedHypothesis) -> Vec<FittedHypothesis> {
         if self.leaves_wide_gap(effect) { self.beds_under(&[effect], Some(effect)) } else { Vec::new() }
+    }
+
+    /// Joints that give beside single effects that follow best on sharp edges, what follows the tests best first: where numbers of
+    /// the wall stood for such an effect beside joints that give `alone`, it is not found from there. None where few windows
+    /// promise little.
+    pub fn beds_beside_rivals(
+        &self,
+        alone: &FittedHypothesis,
+        rivals: &[FittedHypothesis],
+    ) -> Vec<FittedHypothesis> {
+        let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
+        let most = (1.0 - BESIDE_BEDS_ASKED_FOR) * excess(&few.left(&alone.fit));
+        let is_effect = |t: &&FittedHypothesis| {
+            let role = t.hypothesis.additions[0].role();
+            role.is_some_and(|role| role != Role::Impact)
+                && t.hypothesis.unknowns.len() == t.hypothesis.nuisances + 1
+        };
+        let begun = rivals.iter().filter(is_effect).filter_map(|effect| Probe::new(self, effect, None));
+        let begun = begun.filter_map(|probe| probe.begun().into_iter().next());
+        let promising = begun.filter(|(_, fit)| excess(&fit.windows) < most).collect::<Vec<_>>();
+        self.progress.begin("joints that give beside effects on sharp edges", promising.len());
+        let fit = |(h, begun): &(Hypothesis, Fit)| {
+            let fitted = self.bed(h, begun);
+            self.progress.advance(1);
+            fitted
+        };
+        let mut found = promising.par_iter().filter_map(fit).collect::<Vec<_>>();
+        self.best_finished(&mut found);
+        found
+    }
+
+    /// Orders hypotheses by what follows best, and fits that to the end.
+    fn best_finished(&self, found: &mut [FittedHypothesis]) {
+        by_error(found);
+        if let Some(best) = found.first_mut()
+            && let Some(finished) = self.finished_beside_own_error(best)
+        {
+            *best = finished;
+        }
     }
 
     /// The best of what few windows promise, and what comes near it there, fitted to all; none where that is little.

@@ -50,6 +50,11 @@ impl Few {
         excess(&fit.windows.iter().map(own).collect::<Vec<_>>())
     }
 
+    /// Squared noise of these windows, in that of the tests.
+    pub fn noise_2(&self) -> f64 {
+        self.factor * self.factor
+    }
+
     /// A hypothesis as it is in these windows, none held out.
     pub fn of(&self, tried: &FittedHypothesis) -> FittedHypothesis {
         let fit = Fit { windows: self.left(&tried.fit), ..tried.fit.clone() };

@@ -28,6 +28,7 @@ use crate::diagnose::fit::{Fit, Problem, WindowFit, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::TestData;
 use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST};
+pub use few::Few;
 use probe::Probe;
 
 /// Squared error of windows above that of noise.

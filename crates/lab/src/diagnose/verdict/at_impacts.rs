@@ -1,0 +1,153 @@
+//! What is left at impacts, where formulations of a stiff contact part.
+//!
+//! Rigid bodies on sharp edges meet in no time; on corners that give an impact takes its time, and a row of springs keeps more
+//! of the motion. None of that is an effect that a wall lacks. So a law is named by what it leaves between impacts, where it
+//! leaves little at them; and impacts that keep as much as those of another formulation get no name.
+
+use super::remainder::model_error_rad;
+use crate::Progress;
+use crate::diagnose::fit::nats;
+use crate::diagnose::hypothesis::Addition;
+use crate::diagnose::trials::{
+    BetweenImpacts, FittedHypothesis, Trials, best_answer, does_something, kinds, leave_noise,
+};
+use crate::limits::{
+    EQUIVALENT, KEPT_AT_IMPACTS, LEFT_AT_IMPACTS, NOT_TOLD_SD, SIGNIFICANT_SD, WORTH_A_NAME,
+    WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
+};
+use mrbd_kernel::model::Role;
+
+/// A name by what is left between impacts.
+pub struct NamedBetween<'t> {
+    /// The best hypothesis.
+    pub best: &'t FittedHypothesis,
+    /// Of other kinds, what cannot be told from it.
+    pub near: Vec<&'t FittedHypothesis>,
+}
+
+/// The best of hypotheses, in order, that leaves noise between impacts and little at them, and gains a name's worth over a simpler
+/// one there; `None` if that is nothing, or no answer.
+pub fn named_between<'t, P: Progress>(
+    trials: &Trials<P>,
+    tried: &'t [FittedHypothesis],
+    simpler: &FittedHypothesis,
+) -> Option<NamedBetween<'t>> {
+    let may = tried.iter().filter(|t| !has_impacts(t) && leaves_little(trials, t)).collect::<Vec<_>>();
+    let cut = BetweenImpacts::cut(&trials.data, best_answer(may.iter().copied())?)?;
+    let against = |t: &'t FittedHypothesis| {
+        let left = cut.left(&trials.data, t).filter(leave_noise)?;
+        Some((sum(&left.map(|side| nats(&side))) + t.price(&trials.data), t))
+    };
+    let mut following = may.into_iter().filter_map(against).collect::<Vec<_>>();
+    following.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (first, _) = following.first()?;
+    let (own, best) = following.iter().find(|(_, t)| kinds(t).is_some() && does_something(t))?;
+    let without =
+        sum(&cut.left(&trials.data, simpler)?.map(|side| nats(&side))) + simpler.price(&trials.data);
+    if without - own < WORTH_A_NAME || own - first > EQUIVALENT {
+        return None;
+    }
+    let is_near =
+        |(other, t): &&(f64, &FittedHypothesis)| other - own < EQUIVALENT && kinds(t) != kinds(best);
+    let near = following.iter().filter(is_near).map(|(_, t)| *t).collect();
+    Some(NamedBetween { best, near })
+}
+
+/// Whether a wall leaves noise between impacts and little at them, and no effect is worth a name between impacts.
+pub fn only_impacts<P: Progress>(
+    trials: &Trials<P>,
+    wall: &FittedHypothesis,
+    singles: &[FittedHypothesis],
+) -> bool {
+    let follows = || {
+        let cut = BetweenImpacts::cut(&trials.data, wall)?;
+        cut.left(&trials.data, wall).filter(leave_noise)
+    };
+    leaves_little(trials, wall) && follows().is_some() && named_between(trials, singles, wall).is_none()
+}
+
+/// Whether a second effect is worth naming by what it takes away between impacts.
+pub fn worth_two_between<P: Progress>(
+    trials: &Trials<P>,
+    one: &FittedHypothesis,
+    two: &FittedHypothesis,
+) -> bool {
+    let gains = || {
+        let cut = BetweenImpacts::cut(&trials.data, two)?;
+        let [one, two] = [one, two].map(|t| Some(cut.left(&trials.data, t)?.map(|side| nats(&side))));
+        let (one, two) = (one?, two?);
+        Some([0, 1].map(|side| one[side] - two[side]))
+    };
+    gains().is_some_and(|gain| {
+        let seen = gain[1] > WORTH_A_SECOND_HELD_OUT;
+        let least = if seen { WORTH_A_SECOND_SEEN } else { WORTH_A_SECOND_TO_NOISE };
+        sum(&gain) + one.price(&trials.data) - two.price(&trials.data) > least
+    })
+}
+
+/// Whether a hypothesis has impacts, and all that they are told to keep is what those of another formulation may keep.
+pub fn keeps_as_another_formulation(tried: &FittedHypothesis) -> bool {
+    let h = &tried.hypothesis;
+    let sd = |i: usize| tried.fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)].max(0.0).sqrt());
+    let is_factor = |i: &usize| {
+        let impacts =
+            |(index, addition): (usize, _)| is_impacts(addition) && h.unknowns[*i].belongs_to(index);
+        h.additions.iter().enumerate().any(impacts) && sd(*i) < NOT_TOLD_SD
+    };
+    let [least, most] = KEPT_AT_IMPACTS;
+    let inside = |i: usize| {
+        let unsure = SIGNIFICANT_SD * sd(i);
+        (least - unsure..=most + unsure).contains(&tried.fit.values[i])
+    };
+    has_impacts(tried) && (h.nuisances..h.unknowns.len()).filter(is_factor).all(inside)
+}
+
+/// Whether what a hypothesis leaves over all windows is what formulations of a stiff contact part by.
+pub fn leaves_little<P: Progress>(trials: &Trials<P>, tried: &FittedHypothesis) -> bool {
+    let most_rad = LEFT_AT_IMPACTS * trials.experiment.scales.rotation_rad;
+    model_error_rad(&trials.data, tried).is_none_or(|left_rad| left_rad < most_rad)
+}
+
+fn has_impacts(tried: &FittedHypothesis) -> bool {
+    tried.hypothesis.additions.iter().any(is_impacts)
+}
+
+fn is_impacts(addition: &Addition) -> bool {
+    addition.role() == Some(Role::Impact)
+}
+
+fn sum(sides: &[f64; 2]) -> f64 {
+    sides.iter().sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::fit::Fit;
+    use crate::diagnose::hypothesis::example::starter_with;
+    use nalgebra::DMatrix;
+
+    /// Factors of impacts, each known to a standard deviation, with an effect beside them or none.
+    fn kept(names: &[&str], factors: [f64; 6], sd: f64) -> bool {
+        let hypothesis = starter_with(names);
+        let count = hypothesis.unknowns.len();
+        let mut values = vec![0.0; count];
+        let first = count - factors.len();
+        values[first..].copy_from_slice(&factors);
+        let covariance = Some(DMatrix::from_diagonal_element(count, count, sd * sd));
+        let fit = Fit { values, windows: Vec::new(), cost: 0.0, covariance };
+        let held_out = fit.clone();
+        keeps_as_another_formulation(&FittedHypothesis { hypothesis, fit, held_out })
+    }
+
+    #[test]
+    fn analytic_impacts_that_keep_as_much_as_those_of_springs_are_no_effect() {
+        let springs = [1.0505, 1.0493, 1.0061, 1.0037, 1.0, 1.0031];
+        assert!(kept(&["impact_dissipation"], springs, 1e-3));
+        assert!(kept(&["joint_damping.crack", "impact_dissipation"], springs, 1e-3), "beside an effect too");
+        let less = [0.95, 0.98, 1.0, 1.0, 1.0, 0.93];
+        assert!(!kept(&["impact_dissipation"], less, 1e-3));
+        assert!(kept(&["impact_dissipation"], less, 0.2), "not told");
+        assert!(!kept(&["impact_dissipation"], [1.2, 1.0, 1.0, 1.0, 1.0, 1.0], 1e-3), "more than any");
+    }
+}
