@@ -216,6 +216,8 @@ limits! {
     WORTH_PAIRS: f64 = 60.0, "ln of likelihood";
     /// Shares of its fitted size from which each number of an answer is fitted again.
     ANSWER_SHARES: [f64; 6] = [0.7, 0.87, 0.96, 1.04, 1.15, 1.4], "share";
+    /// Shares of itself from which each number of a law outside the catalogue is fitted again.
+    LAW_SHARES: [f64; 2] = [0.93, 1.07], "share";
     /// Times that an answer is fitted again from about itself.
     ANSWER_ROUNDS: usize = 3, "";
     /// Gain that is worth another time.
@@ -468,8 +470,15 @@ limits! {
     EXACT_WITHIN: f64 = 0.2, "";
     /// Largest difference of two forces over what was excited below which they are one law, over the largest force.
     SAME_FORCE: f64 = 0.02, "share";
+    /// Difference of two forces over what was excited from which a name with its exponent set free is another law, over the
+    /// largest force.
+    ///
+    /// Chosen above [`TREND_SHARE`]: right names differ by the finer points of a contact.
+    OTHER_FORCE: f64 = 0.05, "share";
     /// Distance from nothing at which a curve of velocity feeds the wall.
     FEEDS_SD: f64 = 3.0, "standard deviations";
+    /// Share of a force from which it depends on the way, or on how far the top has been, and is no curve.
+    OF_MEMORY: f64 = 0.1, "share";
     /// Share of the squared error above noise that a force without a formula must take away in the tests fitted, and in those
     /// held out.
     CURVE_SHRINKS: f64 = 0.8, "share";

@@ -39,6 +39,8 @@ pub enum Form {
     NearRest { d: f64 },
     /// (u/s)/(1 + (u/s)²): drag that fades with velocity.
     Slipping { s: f64 },
+    /// A wave of straight lines, as over teeth: up to d, through nothing at 2 d, up again from 3 d to 5 d, and down for good.
+    Teeth { d: f64 },
     /// −q m/(g + m) with the largest |q| so far, m: the floor's spring, softer for good.
     Weakening { g: f64 },
     /// q/(g + m): saturates, and goes back straight.
@@ -106,6 +108,12 @@ impl Atom {
                 Form::Hardening { d } => q.signum() * ((q.abs() / d).exp() - 1.0),
                 Form::NearRest { d } => u * (-(q / d).powi(2)).exp(),
                 Form::Slipping { s } => (u / s) / (1.0 + (u / s).powi(2)),
+                Form::Teeth { d } => {
+                    let a = q.abs() / d;
+                    q.signum()
+                        * (a.min(1.0) - (a - 1.0).clamp(0.0, 2.0) + (a - 3.0).clamp(0.0, 2.0)
+                            - (a - 5.0).max(0.0))
+                }
                 Form::Weakening { g } => -q * m / (g + m),
                 Form::Secant { g } => q / (g + m),
                 Form::Slack { a } => q.signum() * (q.abs() - a * m).max(0.0),
@@ -116,7 +124,11 @@ impl Atom {
     pub fn is_in_grammar(&self) -> bool {
         !matches!(
             self.form,
-            Form::Snapping { .. } | Form::Hardening { .. } | Form::NearRest { .. } | Form::Slipping { .. }
+            Form::Snapping { .. }
+                | Form::Hardening { .. }
+                | Form::NearRest { .. }
+                | Form::Slipping { .. }
+                | Form::Teeth { .. }
         )
     }
 
@@ -163,6 +175,13 @@ impl Atom {
             Form::Hardening { .. } => vec![format!("-f*sign({x})*(exp(abs({x})/d)-1)")],
             Form::NearRest { .. } => vec![format!("-c*{v}*exp(-({x}/d)**2)")],
             Form::Slipping { .. } => vec![format!("-f*({v}/s)/(1+({v}/s)**2)")],
+            Form::Teeth { .. } => {
+                let tooth = |from: f64, to: f64| {
+                    format!("(max(min({x}/d-{from},{to}),0)+min(max({x}/d+{from},-{to}),0))")
+                };
+                let last = format!("(max({x}/d-5,0)+min({x}/d+5,0))");
+                vec![format!("-f*(max(min({x}/d,1),-1)-{}+{}-{last})", tooth(1.0, 2.0), tooth(3.0, 2.0))]
+            }
             Form::Weakening { .. } => vec![format!("k*{x}*x_max/(g+x_max)")],
             Form::Secant { .. } => vec![format!("-f*{x}/(g+x_max)")],
             Form::Slack { .. } => vec![format!("-k*sign({x})*max(abs({x})-a*x_max,0)")],
@@ -194,7 +213,7 @@ impl Atom {
                 pure("p", p),
                 pure("n", n),
             ],
-            Form::Saturation { d } | Form::Snapping { d } | Form::Hardening { d } => {
+            Form::Saturation { d } | Form::Snapping { d } | Form::Hardening { d } | Form::Teeth { d } => {
                 vec![size("f", 1.0, String::new()), at("d", d)]
             }
             Form::Weakening { g } => vec![size("k", x, per_x("1")), at("g", g)],

@@ -56,7 +56,8 @@ const TWO: [[&str; 2]; 5] = [
     ["dead zone", "drag"],
     ["drag saturation", "spring"],
 ];
-const OUTSIDE: [&str; 4] = ["snapping", "hardening", "near rest", "slipping"];
+/// Teeth come last: cases of sets before them are the same.
+const OUTSIDE: [&str; 5] = ["snapping", "hardening", "near rest", "slipping", "teeth"];
 const WITH_MEMORY: [&str; 3] = ["weakening", "secant", "slack"];
 
 /// The case of this number.
@@ -198,6 +199,7 @@ fn at_top(form: &str, scale: &Scale, rng: &mut ChaCha8Rng) -> Atom {
             let d = rng.random_range(0.3..0.6);
             (Form::Hardening { d }, 0.3 / ((1.0 / d).exp() - 1.0))
         }
+        "teeth" => (Form::Teeth { d: rng.random_range(0.15..0.22) }, 0.25),
         // Of size 1 a half of the floor's spring at the reach is lost.
         "weakening" => (Form::Weakening { g: rng.random_range(0.8..3.0) }, 0.8),
         "secant" => (Form::Secant { g: rng.random_range(0.1..0.5) }, 0.3),

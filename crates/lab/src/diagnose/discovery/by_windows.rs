@@ -7,16 +7,19 @@ use super::points::Points;
 use super::search::{Candidate, Searched, search};
 use super::stability::Stability;
 use crate::Progress;
+use crate::diagnose::certainty::covariance;
 use crate::diagnose::experiment::Experiment;
-use crate::diagnose::fit::nats;
-use crate::diagnose::formula::{Law, Site, nearest_exact};
+use crate::diagnose::fit::{WindowFit, nats, windowed_error};
+use crate::diagnose::formula::{BOTH, Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    FittedHypothesis, Trials, against, closes, does_something, refit, shared_states, with_values,
+    Data, FittedHypothesis, Trials, against, closes, does_something, refit, shared_states,
 };
+use crate::experiment::Window;
 use crate::limits::{
     CURVE_SHRINKS, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS,
 };
+use mrbd_kernel::model::Wall;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -51,6 +54,10 @@ pub struct OpenGap<'t> {
     pub nearest: &'t FittedHypothesis,
     /// Windowed error of the wall as given.
     pub error: f64,
+    /// Whether laws of two atoms, and curves, are looked for too.
+    pub in_full: bool,
+    /// Laws that windows speak of already: they are tried whatever points say.
+    pub kin: &'t [Law],
 }
 
 impl<P: Progress> Trials<'_, P> {
@@ -67,24 +74,28 @@ impl<P: Progress> Trials<'_, P> {
         let points = Points::new(self.data.fit.tests, &wall)?;
         let searched = search(&points)?;
         let best = searched.singles.iter().chain(&searched.pairs).map(|c| c.evidence).fold(0.0, f64::max);
-        if best < WORTH_WINDOWS {
+        if best < WORTH_WINDOWS && gap.kin.is_empty() {
             return None;
         }
-        let mut tried = self.laws_in_windows(gap, &searched, &searched.singles, "laws of one atom");
+        let mut tried = self.laws_in_windows(gap, &searched, gap.kin, &searched.singles, "laws of one atom");
         let may_be = |t: &&FittedHypothesis| self.may_be(gap, &searched, t);
         let one = tried.iter().filter(may_be).cloned().collect::<Vec<_>>();
         let mut closing = one;
         let single = searched.singles.first().map_or(0.0, |c| c.evidence);
-        if closing.is_empty() && searched.pairs.first().is_some_and(|pair| pair.evidence > single) {
+        if gap.in_full
+            && closing.is_empty()
+            && searched.pairs.first().is_some_and(|pair| pair.evidence > single)
+        {
             let simpler = tried.first().unwrap_or(gap.recalibrated).clone();
-            let pairs = self.laws_in_windows(gap, &searched, &searched.pairs, "laws of two atoms");
+            let pairs = self.laws_in_windows(gap, &searched, &[], &searched.pairs, "laws of two atoms");
             closing = pairs.iter().filter(may_be).filter(|two| worth_two(&simpler, two)).cloned().collect();
             tried.extend(pairs);
         }
         let closing = closing.into_iter().filter(|t| holds(t)).collect();
         let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
         let mut tried = self.ordered(tried);
-        let curve = if equals.is_empty() { self.curve(gap, &searched, tried.first()) } else { None };
+        let curve =
+            if gap.in_full && equals.is_empty() { self.curve(gap, &searched, tried.first()) } else { None };
         tried.truncate(LAWS_TOLD);
         let laws = equals.iter().filter_map(law_of).collect::<Vec<_>>();
         let stability = Stability::of(&searched, &laws);
@@ -110,14 +121,19 @@ impl<P: Progress> Trials<'_, P> {
         self.progress.begin("a force without a formula", 1);
         let Experiment { wall, scales, nuisances, .. } = self.experiment;
         let hypothesis = Hypothesis::of_curve(wall.parameters(), scales, nuisances, curve);
-        let values = beside(&hypothesis, &steps).collect::<Vec<_>>();
-        let found = with_values(&self.data, hypothesis, gap.nearest, &values);
+        let forces = curve.knots().map(|(p, k)| curve.parts[p].force_n[k]);
+        let values = beside(&hypothesis, &steps).chain(forces).collect::<Vec<_>>();
+        let within = values.iter().zip(&hypothesis.unknowns).map(|(value, u)| u.within(*value));
+        let values = within.collect::<Vec<_>>();
+        let found = refit(&self.data, hypothesis, gap.nearest, &values);
         self.progress.advance(1);
-        found.filter(|found| {
-            let best = law.map_or(f64::INFINITY, |law| against(&self.data, law));
-            let gain = against(&self.data, gap.nearest).min(best) - against(&self.data, found);
-            gain >= WORTH_A_NAME && shrinks(gap.recalibrated, found)
-        })
+        let found = found.filter(|found| {
+            let against = |tried: &FittedHypothesis| against_inside(&self.data, wall, found, tried);
+            let best = law.map_or(f64::INFINITY, against);
+            let gain = against(gap.nearest).min(best) - against(found);
+            gain >= WORTH_A_NAME && shrinks(&self.data, wall, gap.recalibrated, found)
+        });
+        found.map(|found| told(&self.data, found))
     }
 
     /// Whether a law that was fitted to windows closes the gap, with numbers that mean something.
@@ -128,11 +144,13 @@ impl<P: Progress> Trials<'_, P> {
         closes(tried, gap.error) && does_something(tried) && gain >= WORTH_A_NAME && laws.iter().all(sound)
     }
 
-    /// The best of laws found over points, fitted to windows; the first of these with exact exponents too.
+    /// Laws that are known to be near and the best of those found over points, fitted to windows; the first of these with
+    /// exact exponents too.
     fn laws_in_windows(
         &self,
         gap: &OpenGap,
         searched: &Searched,
+        kin: &[Law],
         laws: &[Candidate],
         what: &str,
     ) -> Vec<FittedHypothesis> {
@@ -141,7 +159,8 @@ impl<P: Progress> Trials<'_, P> {
                 && lies_inside(&c.law)
                 && holds_in_each_test(&searched.equations, &c.law)
         };
-        let laws = laws.iter().filter(sound).take(LAWS_IN_WINDOWS).map(|c| c.law).collect::<Vec<_>>();
+        let found = laws.iter().filter(sound).take(LAWS_IN_WINDOWS).map(|c| c.law);
+        let laws = kin.iter().copied().chain(found).collect::<Vec<_>>();
         self.progress.begin(&format!("{what}, a first look"), laws.len());
         let look = |law: &Law| {
             let start = self.start_in_windows(gap, searched, law);
@@ -194,30 +213,82 @@ impl<P: Progress> Trials<'_, P> {
 }
 
 /// The wall's numbers after steps in standard deviations of what was known.
-fn beside<'h>(hypothesis: &'h Hypothesis, steps: &'h DVector<f64>) -> impl Iterator<Item = f64> + use<'h> {
+pub(super) fn beside<'h>(
+    hypothesis: &'h Hypothesis,
+    steps: &'h DVector<f64>,
+) -> impl Iterator<Item = f64> + use<'h> {
     let own = hypothesis.unknowns.iter().take(hypothesis.nuisances).zip(steps.iter());
     own.map(|(unknown, step)| unknown.within(unknown.start + step * unknown.prior_sd.unwrap_or(0.0)))
 }
 
-/// Whether a hypothesis takes away most of the squared error above noise that the wall leaves, in the tests fitted and in
-/// those held out.
-fn shrinks(wall: &FittedHypothesis, found: &FittedHypothesis) -> bool {
+/// A fitted curve with its forces and their standard deviations.
+fn told(data: &Data, found: FittedHypothesis) -> FittedHypothesis {
+    let h = &found.hypothesis;
+    let covariance = covariance(data, &found);
+    let sd = |i: usize| covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].sqrt());
+    let sd_n = (h.nuisances..h.unknowns.len()).map(sd).collect::<Vec<_>>();
+    let curve = h.curve.map(|curve| curve.with_forces(&found.fit.values[h.nuisances..], Some(&sd_n)));
+    let mut told = found;
+    told.hypothesis.curve = curve;
+    told
+}
+
+/// Which windows held out stay where a curve is told: beyond its last knot nothing is known.
+fn inside(data: &Data, wall: &Wall, curve: &FittedHypothesis) -> Vec<bool> {
+    let p = wall.parameters();
+    let crack_m = p.crack_height_m.unwrap_or(p.height_m);
+    let reach = curve.hypothesis.curve.map_or(f64::INFINITY, |curve| curve.parts[0].at[BOTH - 1]);
+    let stays = |window: &Window| {
+        let theta = &data.held_out.tests[window.test].theta_rad[window.samples.clone()];
+        theta.iter().all(|[one, two]| {
+            let x = crack_m * one + (p.height_m - crack_m) * two;
+            // What was not read goes nowhere.
+            !x.is_finite() || x.abs() <= reach
+        })
+    };
+    data.held_out.windows.iter().map(stays).collect()
+}
+
+/// The windows held out of a hypothesis that stay where a curve is told.
+fn held_out_inside(
+    data: &Data,
+    wall: &Wall,
+    curve: &FittedHypothesis,
+    of: &FittedHypothesis,
+) -> Vec<WindowFit> {
+    let both = of.held_out.windows.iter().zip(inside(data, wall, curve));
+    both.filter(|(_, inside)| *inside).map(|(window, _)| window.clone()).collect()
+}
+
+/// What speaks against a hypothesis in the windows fitted and in those held out in which a curve is told.
+fn against_inside(data: &Data, wall: &Wall, curve: &FittedHypothesis, of: &FittedHypothesis) -> f64 {
+    of.against(data)[0] + nats(&held_out_inside(data, wall, curve, of))
+}
+
+/// Whether a curve takes away most of the squared error above noise that the wall leaves, in the tests fitted and, where it is
+/// told, in those held out.
+fn shrinks(data: &Data, given: &Wall, wall: &FittedHypothesis, found: &FittedHypothesis) -> bool {
     let excess = |error: f64| (error * error - 1.0).max(0.0);
-    wall.errors().into_iter().zip(found.errors()).all(|errors| match errors {
-        (Some(before), Some(after)) => excess(after) < (1.0 - CURVE_SHRINKS) * excess(before),
+    let errors = |of: &FittedHypothesis| {
+        [windowed_error(&of.fit.windows), windowed_error(&held_out_inside(data, given, found, of))]
+    };
+    errors(wall).into_iter().zip(errors(found)).all(|errors| match errors {
+        (Some(before), Some(after)) => excess(after) <= (1.0 - CURVE_SHRINKS) * excess(before),
         (before, _) => before.is_none(),
     })
 }
 
 /// Steps of the states of windows at a first look.
-const LOOK_STEPS: usize = 2;
+pub(super) const LOOK_STEPS: usize = 2;
 
 /// A law at a first look.
-struct Start {
-    hypothesis: Hypothesis,
-    values: Vec<f64>,
+pub(super) struct Start {
+    /// The law beside the wall.
+    pub hypothesis: Hypothesis,
+    /// Its numbers.
+    pub values: Vec<f64>,
     /// What windows say against it.
-    nats: f64,
+    pub nats: f64,
 }
 
 /// The law of a fitted hypothesis with exact exponents, where all of them are near such.

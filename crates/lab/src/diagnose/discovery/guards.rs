@@ -2,20 +2,26 @@
 
 use super::search::Equations;
 use crate::diagnose::formula::Law;
-use crate::limits::{AT_BOUND, LEFT_OUT_LOSS, LEFT_OUT_SHARE};
+use crate::limits::{AT_BOUND, LEFT_OUT_LOSS, LEFT_OUT_SHARE, WORTH_WINDOWS};
 use nalgebra::{DMatrix, DVector};
 
 /// Whether each test follows a law that was fitted to the others: shapes as they are, sizes and the wall's numbers anew.
 ///
 /// A term that makes the training error smaller may make another experiment worse. What the other tests leave open of a
-/// size, such as that of a stop which a single test reaches, stays open in the prediction. Of one test nothing is told.
+/// size, such as that of a stop which a single test reaches, stays open in the prediction. Of one test nothing is told, and of
+/// a law that points hardly see no more than that no test speaks against it.
 pub fn holds_in_each_test(equations: &Equations, law: &Law) -> bool {
+    hold_in_each_test(equations, &of_law(equations, law))
+}
+
+/// The same of columns, each of the size that was found.
+pub fn hold_in_each_test(equations: &Equations, columns: &[DVector<f64>]) -> bool {
     let mut tests = equations.points().test.clone();
     tests.dedup();
     if tests.len() < 2 {
         return true;
     }
-    let terms = [Terms::new(equations, Some(law)), Terms::new(equations, None)];
+    let terms = [Terms::new(equations, columns), Terms::new(equations, &[])];
     let all = (0..equations.points().test.len()).collect::<Vec<_>>();
     let gain = |fitted: &[usize], judged: &[usize]| gain(&terms, fitted, judged);
     let unseen = tests.iter().map(|test| {
@@ -25,12 +31,19 @@ pub fn holds_in_each_test(equations: &Equations, law: &Law) -> bool {
     });
     let unseen = unseen.collect::<Option<Vec<_>>>().unwrap_or_default();
     let seen = gain(&[], &all).unwrap_or(f64::INFINITY);
-    unseen.iter().all(|gain| *gain > -LEFT_OUT_LOSS) && unseen.iter().sum::<f64>() > LEFT_OUT_SHARE * seen
+    let holds = seen < WORTH_WINDOWS || unseen.iter().sum::<f64>() > LEFT_OUT_SHARE * seen;
+    holds && unseen.len() == tests.len() && unseen.iter().all(|gain| *gain > -LEFT_OUT_LOSS)
 }
 
 /// What a law gains over the wall alone in rows, where it was fitted to others; natural logarithms of likelihood.
 pub fn unseen_gain(equations: &Equations, law: &Law, fitted: &[usize], judged: &[usize]) -> Option<f64> {
-    gain(&[Terms::new(equations, Some(law)), Terms::new(equations, None)], fitted, judged)
+    let columns = of_law(equations, law);
+    gain(&[Terms::new(equations, &columns), Terms::new(equations, &[])], fitted, judged)
+}
+
+/// The atoms of a law as columns of their size.
+fn of_law(equations: &Equations, law: &Law) -> Vec<DVector<f64>> {
+    law.atoms().map(|atom| equations.points().column(&atom) * atom.size).collect()
 }
 
 fn gain([with, without]: &[Terms; 2], fitted: &[usize], judged: &[usize]) -> Option<f64> {
@@ -49,11 +62,9 @@ struct Terms {
 const OPEN_SIZE: f64 = 10.0;
 
 impl Terms {
-    fn new(equations: &Equations, law: Option<&Law>) -> Self {
+    fn new(equations: &Equations, of_atoms: &[DVector<f64>]) -> Self {
         let points = equations.points();
-        let atoms = law.map_or_else(Vec::new, |law| law.atoms().collect());
         let own = points.wall.ncols();
-        let of_atoms = atoms.iter().map(|atom| points.column(atom) * atom.size).collect::<Vec<_>>();
         let sd = equations.variance().sqrt();
         let weight = |row: usize| equations.weight(row) / sd;
         let of = |row: usize, k: usize| match k.checked_sub(own) {
@@ -62,9 +73,9 @@ impl Terms {
         };
         let rows = points.missing.len();
         Self {
-            columns: DMatrix::from_fn(rows, own + atoms.len(), |row, k| weight(row) * of(row, k)),
+            columns: DMatrix::from_fn(rows, own + of_atoms.len(), |row, k| weight(row) * of(row, k)),
             missing: DVector::from_fn(rows, |row, _| weight(row) * points.missing[row]),
-            prior: [vec![1.0; own], vec![OPEN_SIZE.powi(-2); atoms.len()]].concat(),
+            prior: [vec![1.0; own], vec![OPEN_SIZE.powi(-2); of_atoms.len()]].concat(),
         }
     }
 

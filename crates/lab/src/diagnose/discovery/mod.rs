@@ -6,6 +6,7 @@
 //! | `search` | all laws of one atom and of two, weighed by evidence over points |
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
 //! | `guards` | what refuses a law that fits |
+//! | `kin` | a name whose exponent, set free, does clearly better |
 //! | `curve` | a force without a formula |
 //! | `equals` | laws that the tests cannot tell apart |
 //! | [`Stability`] | how sure the form of a law is |
@@ -14,6 +15,7 @@ mod by_windows;
 mod curve;
 mod equals;
 mod guards;
+mod kin;
 mod points;
 mod search;
 mod stability;
@@ -21,6 +23,7 @@ mod stability;
 mod twin;
 
 pub use by_windows::{Discovered, OpenGap};
+pub use kin::is_of_catalogue;
 pub use points::Points;
 pub use search::{Candidate, Searched, search};
 pub use stability::{Stability, UnseenGain};

@@ -55,6 +55,11 @@ impl<'p> Equations<'p> {
         all
     }
 
+    /// Every row by its noise alone.
+    pub fn even(points: &'p Points) -> Self {
+        Self::new(points, DVector::repeat(points.missing.len(), 1.0), 1.0)
+    }
+
     /// The points they are made of.
     pub fn points(&self) -> &Points {
         self.points
@@ -108,7 +113,7 @@ impl<'p> Equations<'p> {
     }
 
     /// A law with the sizes that fit best, and its evidence; `None` where a size may not be.
-    fn fitted(&self, law: &Law) -> Option<Candidate> {
+    pub fn fitted(&self, law: &Law) -> Option<Candidate> {
         let columns = law.atoms().map(|atom| self.points.column(&atom)).collect::<Vec<_>>();
         self.fitted_to(law, &columns)
     }
@@ -226,7 +231,7 @@ pub struct Searched<'p> {
 pub fn search(points: &Points) -> Option<Searched<'_>> {
     let atoms = atoms(points);
     let columns = atoms.par_iter().map(|atom| points.column(atom)).collect::<Vec<_>>();
-    let even = Equations::new(points, DVector::repeat(points.missing.len(), 1.0), 1.0);
+    let even = Equations::even(points);
     let best = Scan::new(&even, &atoms, &columns).best()?;
     let equations = even.reweighted(&best);
     let scan = Scan::new(&equations, &atoms, &columns);

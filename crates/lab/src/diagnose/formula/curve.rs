@@ -4,7 +4,7 @@ use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_statistics::normal::NINETY_PERCENT;
 
 /// Knots on either side of rest, as shares of the largest displacement or velocity: closer where laws bend most.
-const KNOTS: [f64; 5] = [0.08, 0.2, 0.4, 0.7, 1.0];
+const KNOTS: [f64; 6] = [0.08, 0.2, 0.36, 0.54, 0.76, 1.0];
 /// Knots on a side.
 pub const SIDE: usize = KNOTS.len();
 /// Knots on both.
@@ -33,6 +33,16 @@ impl Part {
     pub fn at([least, most]: [f64; 2]) -> [f64; BOTH] {
         let reach = most.max(-least);
         std::array::from_fn(|k| reach * if k < SIDE { -KNOTS[SIDE - 1 - k] } else { KNOTS[k - SIDE] })
+    }
+
+    /// Whether it has a force at all.
+    pub fn acts(&self) -> bool {
+        self.force_n.iter().any(|force| *force != 0.0)
+    }
+
+    /// Largest force at a knot, N.
+    pub fn largest_n(&self) -> f64 {
+        self.force_n.iter().fold(0.0, |most, force| most.max(force.abs()))
     }
 
     /// Shares of the values at the knots that make the force at a place. Beyond the last knot the line goes on.
@@ -77,20 +87,39 @@ impl Part {
 }
 
 impl Curve {
+    /// Its knots with a number to be found: which part and which knot.
+    pub fn knots(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let acts = self.parts.map(|part| part.acts());
+        (0..2).filter(move |p| acts[*p]).flat_map(|p| (0..BOTH).map(move |k| (p, k)))
+    }
+
+    /// The same with forces at these knots, in their order, and with their standard deviations where these are known; N.
+    #[must_use]
+    pub fn with_forces(&self, force_n: &[f64], sd_n: Option<&[f64]>) -> Self {
+        let mut curve = *self;
+        for (i, (p, k)) in self.knots().enumerate() {
+            curve.parts[p].force_n[k] = force_n[i];
+            if let Some(sd_n) = sd_n {
+                curve.parts[p].sd_n[k] = sd_n[i];
+            }
+        }
+        curve
+    }
+
     /// As it is written into wall files; `None` where it is refused.
     pub fn formula(&self) -> Option<Formula> {
         let (mut text, mut parameters) = (Vec::new(), Vec::new());
-        for (part, (x, unit)) in self.parts.iter().zip([("x", ["N/m", "m"]), ("v", ["N*s/m", "m/s"])]) {
-            let knots =
-                (1..SIDE).map(|k| Parameter::new(&format!("{x}_{k}"), part.at[SIDE - 1 + k], unit[1]));
-            parameters.extend(knots);
+        let names = [("x", ["N/m", "m"]), ("v", ["N*s/m", "m/s"])];
+        for (part, (x, unit)) in self.parts.iter().zip(names).filter(|(part, _)| part.acts()) {
+            // Knots are shares of the farthest: parameters of a formula are few.
+            parameters.push(Parameter::new(&format!("{x}_r"), part.at[BOTH - 1], unit[1]));
             for (side, sign, letter) in [(-1.0, "-", 'n'), (1.0, "", 'p')] {
                 for (k, bend) in part.bends(side).into_iter().enumerate() {
                     let name = format!("{x}{letter}_{k}");
                     parameters.push(Parameter::new(&name, bend, unit[0]));
                     text.push(match k {
                         0 => format!("{name}*max({sign}{x},0)"),
-                        _ => format!("{name}*max({sign}{x}-{x}_{k},0)"),
+                        _ => format!("{name}*max({sign}{x}-{}*{x}_r,0)", KNOTS[k - 1]),
                     });
                 }
             }

@@ -88,9 +88,20 @@ impl Hypothesis {
         }
     }
 
-    /// The wall with these uncertainties and a force without a formula.
+    /// The wall with these uncertainties and a force without a formula, whose forces at the knots are to be found.
     pub fn of_curve(base: &WallParameters, scales: &Scales, nuisances: &[Nuisance], curve: Curve) -> Self {
-        Self { curve: Some(curve), ..Self::new(base, scales, nuisances, &[Addition::Curve]) }
+        let mut hypothesis = Self::new(base, scales, nuisances, &[Addition::Curve]);
+        hypothesis
+            .unknowns
+            .extend(curve.knots().enumerate().map(|(i, knot)| Unknown::of_knot(i, &curve, knot)));
+        hypothesis.curve = Some(curve);
+        hypothesis
+    }
+
+    /// The force without a formula with these values.
+    pub fn curve_with(&self, values: &[f64]) -> Option<Curve> {
+        let own = values.get(self.nuisances..)?;
+        self.curve.map(|curve| curve.with_forces(own, None))
     }
 
     /// The wall with these uncertainties and a law of the user's own, whose numbers are to be found.
@@ -245,7 +256,7 @@ impl Hypothesis {
     /// Laws and forces without a formula as formulas for the wall file; `None` where one is refused.
     pub fn formulas(&self, values: &[f64]) -> Option<Vec<Formula>> {
         let laws = self.laws(values).iter().map(Law::formulas).collect::<Option<Vec<_>>>()?;
-        let curves = self.curve.iter().map(Curve::formula).collect::<Option<Vec<_>>>()?;
+        let curves = self.curve_with(values).iter().map(Curve::formula).collect::<Option<Vec<_>>>()?;
         Some([laws.concat(), curves].concat())
     }
 

@@ -1,7 +1,8 @@
 //! The numbers to be found: their bounds, what was known of them before the tests, and the size that would matter.
 
+use crate::diagnose::formula::Curve;
 use crate::experiment::TestData;
-use crate::limits::{PRIOR_REACH, WIDE_PRIOR};
+use crate::limits::{MOST_OF_LAW, PRIOR_REACH, WIDE_PRIOR};
 use mrbd_formula::Parameter;
 use mrbd_kernel::model::{Quantity, RockingWall, Wall, WallParameters};
 
@@ -104,6 +105,25 @@ impl Unknown {
             upper: ends[0].max(ends[1]),
             prior_sd: None,
             slot: Slot::Written(index),
+        }
+    }
+
+    /// The force at a knot (part, knot) of a curve, the number with this index of the hypothesis' only addition. A curve of
+    /// velocity never feeds the wall.
+    pub(super) fn of_knot(index: usize, curve: &Curve, (p, k): (usize, usize)) -> Self {
+        let part = &curve.parts[p];
+        let most_n = MOST_OF_LAW * part.largest_n();
+        let may_push = |side: f64| p == 0 || part.at[k] * side < 0.0;
+        Self {
+            key: format!("force_n at {:.4} {}", part.at[k], ["m", "m/s"][p]),
+            unit: "N",
+            start: 0.0,
+            scale: part.largest_n(),
+            lower: if may_push(-1.0) { -most_n } else { 0.0 },
+            upper: if may_push(1.0) { most_n } else { 0.0 },
+            prior_sd: None,
+            measure: Measure::Itself,
+            slot: Slot::Added(0, index),
         }
     }
 

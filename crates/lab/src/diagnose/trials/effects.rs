@@ -12,7 +12,7 @@ use super::{FittedHypothesis, Trials, against, kinds, untouched};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
 use crate::limits::{
-    ANSWER_ROUNDS, ANSWER_SHARES, BESIDE_THE_BEST, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME,
+    ANSWER_ROUNDS, ANSWER_SHARES, BESIDE_THE_BEST, LAW_SHARES, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME,
     PAIRS_WITHOUT_A_NAME, REFITTED_FROM, STATES_FOR_WALL, WORTH_A_ROUND, WORTH_POLISH, WORTH_TRYING_AGAIN,
 };
 use mrbd_kernel::model::Role;
@@ -236,9 +236,12 @@ impl<P: Progress> Trials<'_, P> {
     }
 }
 
-/// The values with one added number after the other moved; of an addition of more than two, all of them together.
+/// The values with one added number after the other moved; of an effect of more than two, all of them together.
 fn starts(best: &FittedHypothesis) -> Vec<Vec<f64>> {
     let h = &best.hypothesis;
+    if h.additions.iter().all(|a| matches!(a, Addition::Formula(_))) {
+        return starts_of_law(best);
+    }
     let of =
         |index: usize| (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index)).collect::<Vec<_>>();
     let together = |numbers: Vec<usize>| match numbers.len() {
@@ -254,6 +257,17 @@ fn starts(best: &FittedHypothesis) -> Vec<Vec<f64>> {
     };
     let sets = (0..h.additions.len()).flat_map(|index| together(of(index)));
     sets.flat_map(|numbers| ANSWER_SHARES.map(|share| moved(&numbers, share))).collect()
+}
+
+/// The values with one number of a law after the other moved, by shares of itself: those of shapes do not start from nothing.
+fn starts_of_law(best: &FittedHypothesis) -> Vec<Vec<f64>> {
+    let h = &best.hypothesis;
+    let moved = |i: usize, share: f64| {
+        let mut values = best.fit.values.clone();
+        values[i] = h.unknowns[i].within(share * values[i]);
+        values
+    };
+    (h.nuisances..h.unknowns.len()).flat_map(|i| LAW_SHARES.map(|share| moved(i, share))).collect()
 }
 
 #[cfg(test)]

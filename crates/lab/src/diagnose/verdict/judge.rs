@@ -8,9 +8,10 @@ use super::worth_naming::{could_show, leaves_noise, place, worth_two};
 use super::{OtherLaw, Remainder, Verdict};
 use super::{name_of_number, names, names_of_all};
 use crate::Progress;
-use crate::diagnose::discovery::{Discovered, OpenGap};
+use crate::diagnose::discovery::{Discovered, OpenGap, is_of_catalogue};
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::force::{acts_at_top, force_points};
+use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
 use crate::diagnose::trials::{
     Data, FirstFits, FittedHypothesis, Trials, WallFits, against, best_answer, closes, does_something,
@@ -168,7 +169,9 @@ impl<P: Progress> Gap<'_, P> {
 
     /// One effect or two by name, or the place of what is missing.
     fn with_effects(self, singles: Vec<FittedHypothesis>, gain: f64) -> Found {
-        let singles = self.trials.with_imitations(self.trials.with_far_refined(singles), self.error);
+        let early = self.told_early(&singles);
+        let singles = if early.is_some() { singles } else { self.trials.with_far_refined(singles) };
+        let singles = self.trials.with_imitations(singles, self.error);
         if self.only_other_impacts(&singles) {
             return self.other_impacts(singles);
         }
@@ -194,13 +197,27 @@ impl<P: Progress> Gap<'_, P> {
         let (answer, tried) = self.with_pairs(one, singles);
         let Some(answer) = answer else {
             let found = beds.and_then(|beds| beds.leaving_little(self.trials, &self.wall, &tried));
-            let found = found.or_else(|| on_beds_last(self.trials, &self.wall, &tried));
-            return found.unwrap_or_else(|| self.placed(None, tried));
+            if let Some(found) = found {
+                return found;
+            }
+            let discovered = early.or_else(|| self.discovered(&tried, &[]));
+            // A force that is told along the direction of the top is none of joints that give, and these take long to fit.
+            if discovered.as_ref().is_some_and(|one| self.is_told_at_top(one)) {
+                return self.placed_by(discovered, None, tried);
+            }
+            let found = on_beds_last(self.trials, &self.wall, &tried);
+            return found.unwrap_or_else(|| self.placed_by(discovered, None, tried));
         };
         let answer = Answer { after: self.trials.refined(answer.after), ..answer };
         let other_law = OtherLaw::beside(&self.trials.data, &answer.after);
         if other_law.speaks() {
             return self.placed(Some(other_law), tried);
+        }
+        // What is left at impacts is none of a law's: no exponent is to take it up.
+        let kin =
+            if answer.between_impacts { Vec::new() } else { self.trials.kin_of_wrong_name(&answer.after) };
+        if !kin.is_empty() {
+            return self.beyond_a_wrong_name(&answer.after, &kin, other_law, tried);
         }
         let better = if answer.between_impacts { None } else { self.better_formula(&answer.after, &tried) };
         let tried = self.trials.ordered(tried);
@@ -213,6 +230,48 @@ impl<P: Progress> Gap<'_, P> {
         }
     }
 
+    /// A law of one atom outside the catalogue that leaves noise where every effect misses many windows: none of these needs to be
+    /// fitted once more.
+    fn told_early(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
+        let answers = singles.iter().filter(|t| kinds(t).is_some());
+        let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()))?;
+        if !follows.fit.is_far() {
+            return None;
+        }
+        let found = self.looked_for(singles, &[], false)?;
+        let laws = found.equals.iter().flat_map(|t| t.hypothesis.laws(&t.fit.values));
+        let is_none_of_it = !laws.into_iter().any(|law| is_of_catalogue(&law));
+        (is_none_of_it && self.is_told_at_top(&found)).then_some(found)
+    }
+
+    /// Whether the best law found leaves noise and acts at the top, and the measured force lies along that direction.
+    fn is_told_at_top(&self, discovered: &Discovered) -> bool {
+        let Some(best) = discovered.equals.first() else { return false };
+        best.hypothesis.additions[0].place() == "top" && leaves_noise(best) && self.acts_at_top()
+    }
+
+    /// Whether what the wall as given lacks lies along the direction of the top.
+    fn acts_at_top(&self) -> bool {
+        let physics = self.wall.before.hypothesis.physics(&self.wall.before.fit.values);
+        physics.is_some_and(|physics| acts_at_top(&force_points(self.trials.data.fit.tests, &physics)))
+    }
+
+    /// A name whose exponent set free does clearly better is none: a law outside the catalogue that does as much better, or the
+    /// place.
+    fn beyond_a_wrong_name(
+        self,
+        named: &FittedHypothesis,
+        kin: &[Law],
+        other_law: OtherLaw,
+        tried: Vec<FittedHypothesis>,
+    ) -> Found {
+        let mut discovered = self.discovered(&tried, kin);
+        if let Some(discovered) = &mut discovered {
+            discovered.equals.retain(|law| self.gain(named, law) > WORTH_A_NAME);
+        }
+        self.placed_by(discovered, Some(other_law), tried)
+    }
+
     /// A law outside the catalogue that leaves noise where a name leaves more, and is worth as much beside it as a second
     /// effect must be: the name only imitates it.
     fn better_formula(
@@ -223,7 +282,7 @@ impl<P: Progress> Gap<'_, P> {
         if leaves_noise(named) {
             return None;
         }
-        let discovered = self.discovered(tried)?;
+        let discovered = self.discovered(tried, &[])?;
         let formula = self.formula(&discovered)?;
         let better = leaves_noise(&formula.after) && worth_two(&self.trials.data, named, &formula.after);
         better.then_some((discovered, formula))
@@ -382,7 +441,17 @@ impl<P: Progress> Gap<'_, P> {
 
     /// No law of the catalogue follows: one outside it that does, or where the force is missing.
     fn placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
-        let discovered = self.discovered(&tried);
+        let discovered = self.discovered(&tried, &[]);
+        self.placed_by(discovered, other_law, tried)
+    }
+
+    /// The same where laws outside the catalogue were looked for.
+    fn placed_by(
+        self,
+        discovered: Option<Discovered>,
+        other_law: Option<OtherLaw>,
+        tried: Vec<FittedHypothesis>,
+    ) -> Found {
         match discovered.as_ref().and_then(|discovered| self.formula(discovered)) {
             Some(answer) => {
                 let tried = self.trials.ordered(tried);
@@ -392,19 +461,24 @@ impl<P: Progress> Gap<'_, P> {
         }
     }
 
-    /// Laws outside the catalogue.
-    fn discovered(&self, tried: &[FittedHypothesis]) -> Option<Discovered> {
+    /// Laws outside the catalogue, some of which windows speak of already.
+    fn discovered(&self, tried: &[FittedHypothesis], kin: &[Law]) -> Option<Discovered> {
+        self.looked_for(tried, kin, true)
+    }
+
+    /// The same; `in_full` with laws of two atoms and curves.
+    fn looked_for(&self, tried: &[FittedHypothesis], kin: &[Law], in_full: bool) -> Option<Discovered> {
         let (trials, recalibrated) = (self.trials, &self.wall.recalibrated);
         let nearest = tried.iter().chain([recalibrated]);
         let nearest = nearest.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)));
-        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error };
+        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error, in_full, kin };
         let worth = |one: &FittedHypothesis, two: &FittedHypothesis| worth_two(&trials.data, one, two);
         trials.discover(&gap, worth, |law| !OtherLaw::beside(&trials.data, law).speaks())
     }
 
     /// The answer that laws outside the catalogue make, if one holds.
     fn formula(&self, discovered: &Discovered) -> Option<Answer> {
-        let after = discovered.equals.first()?.clone();
+        let after = self.trials.refined(discovered.equals.first()?.clone());
         let verdict = if discovered.equals.len() == 1 { Verdict::Formula } else { Verdict::FormulaClass };
         let others = discovered.equals.iter().filter(|_| verdict == Verdict::FormulaClass);
         let equivalent =
@@ -415,11 +489,10 @@ impl<P: Progress> Gap<'_, P> {
     /// Where the force is missing, if that shows.
     fn only_placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
-        let measured = || {
-            let physics = self.wall.before.hypothesis.physics(&self.wall.before.fit.values)?;
-            acts_at_top(&force_points(self.trials.data.fit.tests, &physics)).then_some("top")
-        };
-        let place = measured().or_else(|| place(&self.trials.data, &self.wall.recalibrated, &tried));
+        let place = self
+            .acts_at_top()
+            .then_some("top")
+            .or_else(|| place(&self.trials.data, &self.wall.recalibrated, &tried));
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
         let tried = self.trials.ordered(tried);
         let after = self.wall.recalibrated.clone();

@@ -1,0 +1,264 @@
+//! Laws of which an effect of the catalogue is the case of one exponent: a name must not stand where another exponent does
+//! clearly better.
+
+use super::by_windows::{LOOK_STEPS, Start, beside};
+use super::equals::difference;
+use super::points::Points;
+use super::search::Equations;
+use crate::Progress;
+use crate::diagnose::fit::nats;
+use crate::diagnose::formula::{Atom, Law, Shape, Side, Site};
+use crate::diagnose::hypothesis::{Addition, Hypothesis};
+use crate::diagnose::trials::{FittedHypothesis, Trials, against, refit, shared_states};
+use crate::limits::{OTHER_FORCE, WORTH_A_NAME};
+use mrbd_kernel::model::{EffectKind, Joint};
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+/// Exponents of displacement and of velocity at which damping that grows with displacement is looked at.
+const OPENINGS: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, 2.0], [2.0, 1.0], [2.0, 2.0]];
+/// Exponents from which that of a name is looked for: near impacts that the noise decides a fit from that of the name may
+/// stay in its valley.
+const EXPONENTS: [f64; 4] = [0.5, 1.5, 2.0, 4.0];
+
+impl<P: Progress> Trials<'_, P> {
+    /// Laws beside a name of which an effect is clearly a wrong case: its exponent set free, in the windows, gains what a
+    /// name must and makes another force, and the tests held out are followed no worse. Empty where the name stands.
+    pub fn kin_of_wrong_name(&self, named: &FittedHypothesis) -> Vec<Law> {
+        let wall = self.hypothesis(&self.experiment.nuisances, &[]);
+        let powers = (0..named.hypothesis.additions.len()).filter_map(|index| power(named, index));
+        let powers = powers.collect::<Vec<_>>();
+        if powers.is_empty() {
+            return Vec::new();
+        }
+        let Some(points) = Points::new(self.data.fit.tests, &wall) else { return Vec::new() };
+        self.progress.begin("the name with its exponent free", powers.len());
+        let kin = |power: Power| {
+            let freed = self.freed(named, &power, &points);
+            self.progress.advance(1);
+            freed
+        };
+        powers.into_iter().find_map(kin).unwrap_or_default()
+    }
+
+    /// The laws that do better than one effect of a name, if its exponent set free does.
+    fn freed(&self, named: &FittedHypothesis, power: &Power, points: &Points) -> Option<Vec<Law>> {
+        let law = Law::of(power.atom(points.reach[power.site as usize]));
+        let equations = Equations::even(points);
+        let of_name = exponents(law).map(|other| (as_large(other, &law, points), None));
+        let of_points = exponents(law).filter_map(|other| equations.fitted(&other)).filter_map(|found| {
+            let steps = equations.wall_steps(&found.law)?;
+            Some((found.law, Some(steps)))
+        });
+        let all = of_name.chain(of_points).collect::<Vec<_>>();
+        let look = |(start, steps): &(Law, Option<DVector<f64>>)| {
+            self.start_beside(named, power.index, start, steps.as_ref())
+        };
+        let found = all.par_iter().filter_map(|one| Some((one.0.first.numbers[0], look(one)?)));
+        let starts = nearest_on_either_side(power.exponent, found.collect());
+        let fit = |start: Start| {
+            let found = refit(&self.data, start.hypothesis, named, &start.values)?;
+            Some(shared_states(&self.data, &found, &[named]))
+        };
+        let found = starts.into_par_iter().filter_map(fit).collect::<Vec<_>>();
+        let found = self.ordered(found).into_iter().next()?;
+        let free = *found.hypothesis.laws(&found.fit.values).first()?;
+        let [before, after] = [named, &found].map(|t| t.against(&self.data));
+        let better = against(&self.data, named) - against(&self.data, &found) > WORTH_A_NAME
+            && after[1] <= before[1]
+            && difference(points, &law, &free) > OTHER_FORCE;
+        better.then(|| with_openings(free, points))
+    }
+
+    /// A law in the place of an effect, with steps of the wall's numbers where points tell them, and how well windows follow it
+    /// so, their states fitted.
+    fn start_beside(
+        &self,
+        named: &FittedHypothesis,
+        index: usize,
+        law: &Law,
+        steps: Option<&DVector<f64>>,
+    ) -> Option<Start> {
+        let mut additions = named.hypothesis.additions.clone();
+        additions[index] = Addition::Formula(*law);
+        let hypothesis = self.hypothesis(&self.experiment.nuisances, &additions);
+        let mut values = values_beside(&hypothesis, named, index, law);
+        if let Some(steps) = steps.filter(|steps| steps.len() == hypothesis.nuisances) {
+            let wall = beside(&hypothesis, steps).collect::<Vec<_>>();
+            values[..wall.len()].copy_from_slice(&wall);
+        }
+        let states = named.fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
+        let fit = self.data.fit.states(&hypothesis, &values, &states, LOOK_STEPS, false)?;
+        Some(Start { nats: nats(&fit.windows), hypothesis, values })
+    }
+}
+
+/// A law with other exponents.
+fn exponents(law: Law) -> impl Iterator<Item = Law> {
+    let grid = law.first.shape.numbers()[0].grid;
+    let others = EXPONENTS.into_iter().filter(move |n| grid[0] <= *n && *n <= grid[grid.len() - 1]);
+    others.map(move |n| Law::of(Atom { numbers: [n, 0.0], ..law.first }))
+}
+
+/// Of starts with their exponents the best with less than the own and the best with more.
+fn nearest_on_either_side(own: f64, found: Vec<(f64, Start)>) -> Vec<Start> {
+    let (less, more): (Vec<_>, Vec<_>) = found.into_iter().partition(|(n, _)| *n < own);
+    let best = |side: Vec<(f64, Start)>| {
+        side.into_iter().map(|(_, start)| start).min_by(|a, b| a.nats.total_cmp(&b.nats))
+    };
+    [less, more].into_iter().filter_map(best).collect()
+}
+
+/// A law of one atom, of the size that brings its force nearest to that of another over what was excited.
+fn as_large(law: Law, other: &Law, points: &Points) -> Law {
+    let unit = Atom { size: 1.0, ..law.first };
+    let both = |motion: [f64; 3]| [unit.force(motion), other.first.force(motion)];
+    let sum = |[own, with]: [f64; 2], [one, other]: [f64; 2]| [own + one * one, with + one * other];
+    let [own, with] = points.excited(unit.site).map(both).fold([0.0; 2], sum);
+    Law::of(Atom { size: with / own, ..unit })
+}
+
+/// Exponents of the catalogue nearer than this are its own.
+const NEAR_EXPONENT: f64 = 0.15;
+
+/// Whether a law of one atom is a power that the catalogue has, or nearly.
+pub fn is_of_catalogue(law: &Law) -> bool {
+    let own: &[f64] = match law.first.shape {
+        Shape::Drag => &[0.0, 1.0],
+        Shape::Spring => &[3.0],
+        Shape::OneSidedSpring(_) => &[1.0],
+        _ => &[],
+    };
+    law.second.is_none() && own.iter().any(|n| (law.first.numbers[0] - n).abs() < NEAR_EXPONENT)
+}
+
+/// Values of a hypothesis in which a law stands for an effect of another.
+fn values_beside(h: &Hypothesis, named: &FittedHypothesis, index: usize, law: &Law) -> Vec<f64> {
+    let mut values = h.values_from(&named.hypothesis, &named.fit.values);
+    let own = (0..values.len()).filter(|i| h.unknowns[*i].belongs_to(index));
+    for (i, value) in own.zip(law.values()) {
+        values[i] = h.unknowns[i].within(value);
+    }
+    values
+}
+
+/// A law, and beside a damper those that grow with displacement, of about its force.
+fn with_openings(free: Law, points: &Points) -> Vec<Law> {
+    let opening = |numbers: [f64; 2]| {
+        as_large(Law::of(Atom { shape: Shape::Opening, numbers, ..free.first }), &free, points)
+    };
+    let openings = OPENINGS.into_iter().filter(|_| free.first.shape == Shape::Drag).map(opening);
+    std::iter::once(free).chain(openings).collect()
+}
+
+/// An effect that is a power of displacement or of velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Power {
+    /// Which addition it is.
+    index: usize,
+    site: Site,
+    shape: Shape,
+    /// Its exponent in the catalogue.
+    exponent: f64,
+    /// N/m^n, N (s/m)^n, or the same of moments and rotations.
+    coefficient: f64,
+}
+
+impl Power {
+    fn atom(&self, reach: [f64; 2]) -> Atom {
+        let of = reach[usize::from(self.shape == Shape::Drag)];
+        Atom {
+            site: self.site,
+            shape: self.shape,
+            numbers: [self.exponent, 0.0],
+            size: self.coefficient * of.powf(self.exponent),
+            reach,
+            is_exact: false,
+        }
+    }
+}
+
+/// What power an addition of a fitted hypothesis is; `None` for another effect. Friction is a power of velocity at its end:
+/// nothing lies beyond, and what nearly jumps is not fitted.
+fn power(named: &FittedHypothesis, index: usize) -> Option<Power> {
+    let h = &named.hypothesis;
+    let addition = &h.additions[index];
+    let Addition::Effect(variant) = addition else { return None };
+    let (site, shape, exponent) = match (variant.kind, variant.choice) {
+        (EffectKind::CubicStiffness, _) => (Site::Top, Shape::Spring, 3.0),
+        (EffectKind::ViscousDamping, _) => (Site::Top, Shape::Drag, 1.0),
+        (EffectKind::OneSidedSpring, Some("positive")) => {
+            (Site::Top, Shape::OneSidedSpring(Side::Positive), 1.0)
+        }
+        (EffectKind::OneSidedSpring, Some("negative")) => {
+            (Site::Top, Shape::OneSidedSpring(Side::Negative), 1.0)
+        }
+        (EffectKind::JointDamping, _) => match addition.joint()? {
+            Joint::Ground => (Site::Ground, Shape::Drag, 1.0),
+            Joint::Crack => (Site::Crack, Shape::Drag, 1.0),
+        },
+        _ => return None,
+    };
+    let number = (0..h.unknowns.len()).find(|i| h.unknowns[*i].belongs_to(index))?;
+    let coefficient = h.unknowns[number].number(named.fit.values[number]);
+    Some(Power { index, site, shape, exponent, coefficient })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::twin::{drag, points_with, tests_of, wall_with};
+    use super::*;
+    use crate::diagnose::fit::Fit;
+    use crate::diagnose::hypothesis::example::starter_with;
+
+    /// An effect of the starter's wall with this first number.
+    fn named(name: &str, value: f64) -> FittedHypothesis {
+        let of = |values| Fit { values, windows: Vec::new(), cost: 0.0, covariance: None };
+        FittedHypothesis { hypothesis: starter_with(&[name]), fit: of(vec![value]), held_out: of(vec![]) }
+    }
+
+    #[test]
+    fn analytic_a_power_of_the_catalogue_is_its_law_with_that_exponent() {
+        let motion = [0.03, -0.2, 0.05];
+        let force = |name: &str, value: f64| {
+            let power = power(&named(name, value), 0).expect("a power");
+            power.atom([0.05, 0.3]).force(motion)
+        };
+        // A few roundings of some tens of newtons.
+        let same = |one: f64, other: f64| assert!((one - other).abs() < 1e-10, "{one} {other}");
+        same(force("cubic_stiffness", 2e6), -2e6 * 0.03_f64.powi(3));
+        same(force("viscous_damping", 700.0), 700.0 * 0.2);
+        same(force("one_sided_spring.positive", 900.0), -900.0 * 0.03);
+        same(force("one_sided_spring.negative", 900.0), 0.0);
+        same(force("joint_damping.ground", 50.0), 50.0 * 0.2);
+        assert_eq!(power(&named("gap", 0.01), 0), None);
+    }
+
+    #[test]
+    fn analytic_powers_near_those_of_the_catalogue_are_its_own() {
+        assert!(is_of_catalogue(&drag(0.0, 300.0)) && is_of_catalogue(&drag(1.1, 300.0)));
+        assert!(!is_of_catalogue(&drag(0.5, 300.0)) && !is_of_catalogue(&drag(2.0, 300.0)));
+        let spring = |n: f64| Law::of(Atom { shape: Shape::Spring, ..drag(n, 300.0).first });
+        assert!(is_of_catalogue(&spring(2.9)) && !is_of_catalogue(&spring(1.0)));
+    }
+
+    #[test]
+    fn analytic_damping_that_grows_with_displacement_is_looked_at_with_the_force_of_the_damper() {
+        let law = drag(1.0, 300.0);
+        let points = points_with(&law, |_| 1.0);
+        let kin = with_openings(law, &points);
+        assert_eq!(kin.len(), 1 + OPENINGS.len());
+        for one in &kin[1..] {
+            let dot = |f: &dyn Fn([f64; 3]) -> f64| points.excited(Site::Top).map(f).sum::<f64>();
+            let own = dot(&|m| one.first.force(m).powi(2));
+            let with = dot(&|m| one.first.force(m) * law.first.force(m));
+            // The nearest force of that shape: what it leaves is square to it.
+            assert!((with / own - 1.0).abs() < 1e-9 && one.first.size > 0.0, "{one:?}");
+        }
+        // A spring has none.
+        let spring = Law::of(Atom { shape: Shape::Spring, ..law.first });
+        assert_eq!(with_openings(spring, &points), [spring]);
+        // The points of a twin are there: the tests move.
+        assert!(tests_of(&wall_with(""), 3e-5).len() > 1);
+    }
+}
