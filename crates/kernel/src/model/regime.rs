@@ -10,7 +10,8 @@ use super::contact::Contact;
 use super::geometry::Pair;
 use super::joint_forces::Reactions;
 use super::laws::PiecewiseLaws;
-use super::rocking::{FORCE_ROUNDING, RockingWall, State};
+use super::next_contact::FORCE_ROUNDING;
+use super::rocking::{RockingWall, State};
 use super::vector::Vector;
 use super::wall::G_M_S2;
 
