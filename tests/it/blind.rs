@@ -248,6 +248,25 @@ fn verified_where_nothing_is_hidden_on_stiff_corners_nothing_is_missing() {
 }
 
 #[test]
+fn verified_a_gap_that_the_floor_stands_for_beside_a_bed_is_named() {
+    // Alone the bed is found five times too soft, and k_d 20 %.
+    let case = cases::beds::draw("beds3", 13);
+    let found = said_of(&case);
+    assert_eq!(found["verdict"], "named", "{found:#}");
+    let effects = found["effects"].as_array().expect("effects");
+    let value = |name: &str, key: &str| {
+        let effect = effects.iter().find(|effect| effect["name"] == name);
+        effect.expect("it is named")["parameters"][key].as_f64().expect("a number")
+    };
+    let [Hidden::CompliantJoint { stiffness_pa_per_m, .. }, Hidden::Gap { slack_m }] = case.hidden[..] else {
+        panic!("a bed and a gap")
+    };
+    // 10 % and 5 % are the targets for the median of such errors.
+    assert!((value("compliant_joint.ground", "stiffness_pa_per_m") / stiffness_pa_per_m - 1.0).abs() < 0.1);
+    assert!((value("gap", "half_width_m") / slack_m - 1.0).abs() < 0.05);
+}
+
+#[test]
 fn verified_impacts_of_a_row_of_springs_get_no_name() {
     // They keep 5 % more at the crack than those of sharp edges, and factors of that size close the gap.
     let found = said_of(&cases::nulls::draw("nulls3", 19));
