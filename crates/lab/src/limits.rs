@@ -317,7 +317,7 @@ limits! {
 limits! {
     /// What formulations of a stiff contact part by.
     IMPACTS:
-    /// Error over all windows that may be left at impacts, over the largest rotation.
+    /// Error that may be left at impacts over all windows, under a name over those of each test, over the largest rotation.
     ///
     /// Free bodies on corners of 1e10 N/m and 4e6 N s/m leave 1.2e-4 beside a right name, and 2.7e-4 where nothing is hidden.
     LEFT_AT_IMPACTS: f64 = 5e-4, "share";

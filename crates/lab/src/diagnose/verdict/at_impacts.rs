@@ -4,7 +4,7 @@
 //! of the motion. None of that is an effect that a wall lacks. So a law is named by what it leaves between impacts, where it
 //! leaves little at them; and impacts that keep as much as those of another formulation get no name.
 
-use super::remainder::model_error_rad;
+use super::remainder::{model_error_rad, most_error_rad};
 use crate::Progress;
 use crate::diagnose::fit::nats;
 use crate::diagnose::hypothesis::Addition;
@@ -32,7 +32,8 @@ pub fn named_between<'t, P: Progress>(
     tried: &'t [FittedHypothesis],
     simpler: &FittedHypothesis,
 ) -> Option<NamedBetween<'t>> {
-    let may = tried.iter().filter(|t| !has_impacts(t) && leaves_little(trials, t)).collect::<Vec<_>>();
+    let may =
+        tried.iter().filter(|t| !has_impacts(t) && leaves_little_of_each(trials, t)).collect::<Vec<_>>();
     let cut = BetweenImpacts::cut(&trials.data, best_answer(may.iter().copied())?)?;
     let against = |t: &'t FittedHypothesis| {
         let left = cut.left(&trials.data, t).filter(leave_noise)?;
@@ -106,6 +107,12 @@ pub fn keeps_as_another_formulation(tried: &FittedHypothesis) -> bool {
 pub fn leaves_little<P: Progress>(trials: &Trials<P>, tried: &FittedHypothesis) -> bool {
     let most_rad = LEFT_AT_IMPACTS * trials.experiment.scales.rotation_rad;
     model_error_rad(&trials.data, tried).is_none_or(|left_rad| left_rad < most_rad)
+}
+
+/// The same over the windows of each test: one that a name misses by more speaks against it, however many others it follows.
+fn leaves_little_of_each<P: Progress>(trials: &Trials<P>, tried: &FittedHypothesis) -> bool {
+    let most_rad = LEFT_AT_IMPACTS * trials.experiment.scales.rotation_rad;
+    most_error_rad(&trials.data, tried).is_none_or(|left_rad| left_rad < most_rad)
 }
 
 fn has_impacts(tried: &FittedHypothesis) -> bool {

@@ -135,14 +135,32 @@ fn by_swing(data: &Data, without: &FittedHypothesis, with: &FittedHypothesis) ->
 ///
 /// Without the windows followed worst, as the windowed error.
 pub fn model_error_rad(data: &Data, tried: &FittedHypothesis) -> Option<f64> {
+    error_rad(fitted(data, tried))
+}
+
+/// The largest of these errors over the tests, each by itself; `None` where none is more than noise.
+pub fn most_error_rad(data: &Data, tried: &FittedHypothesis) -> Option<f64> {
+    let of_test = |test: usize| error_rad(fitted(data, tried).filter(|(window, ..)| window.test == test));
+    (0..data.fit.tests.len()).filter_map(of_test).max_by(f64::total_cmp)
+}
+
+/// Windows of tests to fit and of those held out, each with how it is followed and the mean square of its noise, rad².
+fn fitted<'t>(
+    data: &'t Data,
+    tried: &'t FittedHypothesis,
+) -> impl Iterator<Item = (&'t Window, &'t WindowFit, f64)> {
     let noise_rad_2 = |window: &Window| {
         let [one, two] = data.fit.tests[window.test].noise_rad;
         0.5 * (one * one + two * two)
     };
     let windows = data.fit.windows.iter().chain(data.held_out.windows);
     let fits = tried.fit.windows.iter().chain(&tried.held_out.windows);
-    let mut all =
-        windows.zip(fits).map(|(w, fit)| (fit.reduced() - 1.0) * noise_rad_2(w)).collect::<Vec<_>>();
+    windows.zip(fits).map(move |(window, fit)| (window, fit, noise_rad_2(window)))
+}
+
+fn error_rad<'t>(fitted: impl Iterator<Item = (&'t Window, &'t WindowFit, f64)>) -> Option<f64> {
+    let left = |(_, fit, noise_rad_2): (_, &WindowFit, f64)| (fit.reduced() - 1.0) * noise_rad_2;
+    let mut all = fitted.map(left).collect::<Vec<_>>();
     all.sort_by(f64::total_cmp);
     let kept = all.len() - (LEFT_OUT * all.len() as f64).floor() as usize;
     let mean = all[..kept].iter().sum::<f64>() / kept as f64;
