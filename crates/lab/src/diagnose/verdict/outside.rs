@@ -1,0 +1,140 @@
+//! Laws outside the catalogue: where no effect follows, where one only nearly does, and the place or the curve where none is found.
+
+use super::judge::{Answer, Found, Gap};
+use super::worth_naming::{leaves_noise, place, worth_two};
+use super::{OtherLaw, Verdict};
+use crate::Progress;
+use crate::diagnose::discovery::{Discovered, OpenGap, is_of_catalogue};
+use crate::diagnose::force::{acts_at_top, force_points};
+use crate::diagnose::formula::Law;
+use crate::diagnose::trials::{FittedHypothesis, against, kinds};
+use crate::limits::WORTH_A_NAME;
+
+/// The place of a missing force with the curve that it is, where one holds.
+fn with_curve(placed: Found) -> Found {
+    let curve = placed.discovered.as_ref().and_then(|discovered| discovered.curve.clone());
+    match curve.filter(|_| placed.place == Some("top")) {
+        Some(after) => Found { verdict: Verdict::Curve, after, ..placed },
+        None => placed,
+    }
+}
+
+impl<P: Progress> Gap<'_, P> {
+    /// A law of one atom outside the catalogue that leaves noise where every effect misses many windows: none of these needs to be
+    /// fitted once more.
+    pub(super) fn told_early(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
+        let answers = singles.iter().filter(|t| kinds(t).is_some());
+        let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()))?;
+        if !follows.fit.is_far() {
+            return None;
+        }
+        let found = self.looked_for(singles, &[], false)?;
+        let laws = found.equals.iter().flat_map(|t| t.hypothesis.laws(&t.fit.values));
+        let is_none_of_it = !laws.into_iter().any(|law| is_of_catalogue(&law));
+        (is_none_of_it && self.is_told_at_top(&found)).then_some(found)
+    }
+
+    /// Whether the best law found leaves noise and acts at the top, and the measured force lies along that direction.
+    pub(super) fn is_told_at_top(&self, discovered: &Discovered) -> bool {
+        let Some(best) = discovered.equals.first() else { return false };
+        best.hypothesis.additions[0].place() == "top" && leaves_noise(best) && self.acts_at_top()
+    }
+
+    /// Whether what the wall as given lacks lies along the direction of the top.
+    fn acts_at_top(&self) -> bool {
+        let physics = self.wall.before.hypothesis.physics(&self.wall.before.fit.values);
+        physics.is_some_and(|physics| acts_at_top(&force_points(self.trials.data.fit.tests, &physics)))
+    }
+
+    /// A name whose exponent set free does clearly better is none: a law outside the catalogue that does as much better, or the
+    /// place.
+    pub(super) fn beyond_a_wrong_name(
+        self,
+        named: &FittedHypothesis,
+        kin: &[Law],
+        other_law: OtherLaw,
+        tried: Vec<FittedHypothesis>,
+    ) -> Found {
+        let mut discovered = self.discovered(&tried, kin);
+        if let Some(discovered) = &mut discovered {
+            discovered.equals.retain(|law| self.gain(named, law) > WORTH_A_NAME);
+        }
+        self.placed_by(discovered, Some(other_law), tried)
+    }
+
+    /// A law outside the catalogue that leaves noise where a name leaves more, and is worth as much beside it as a second
+    /// effect must be: the name only imitates it.
+    pub(super) fn better_formula(
+        &self,
+        named: &FittedHypothesis,
+        tried: &[FittedHypothesis],
+    ) -> Option<(Discovered, Answer)> {
+        if leaves_noise(named) {
+            return None;
+        }
+        let discovered = self.discovered(tried, &[])?;
+        let formula = self.formula(&discovered)?;
+        let better = leaves_noise(&formula.after) && worth_two(&self.trials.data, named, &formula.after);
+        better.then_some((discovered, formula))
+    }
+
+    /// No law of the catalogue follows: one outside it that does, or where the force is missing.
+    pub(super) fn placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
+        let discovered = self.discovered(&tried, &[]);
+        self.placed_by(discovered, other_law, tried)
+    }
+
+    /// The same where laws outside the catalogue were looked for.
+    pub(super) fn placed_by(
+        self,
+        discovered: Option<Discovered>,
+        other_law: Option<OtherLaw>,
+        tried: Vec<FittedHypothesis>,
+    ) -> Found {
+        match discovered.as_ref().and_then(|discovered| self.formula(discovered)) {
+            Some(answer) => {
+                let tried = self.trials.ordered(tried);
+                Found { discovered, other_law, ..self.found(answer, tried) }
+            }
+            None => with_curve(Found { discovered, ..self.only_placed(other_law, tried) }),
+        }
+    }
+
+    /// Laws outside the catalogue, some of which windows speak of already.
+    pub(super) fn discovered(&self, tried: &[FittedHypothesis], kin: &[Law]) -> Option<Discovered> {
+        self.looked_for(tried, kin, true)
+    }
+
+    /// The same; `in_full` with laws of two atoms and curves.
+    fn looked_for(&self, tried: &[FittedHypothesis], kin: &[Law], in_full: bool) -> Option<Discovered> {
+        let (trials, recalibrated) = (self.trials, &self.wall.recalibrated);
+        let nearest = tried.iter().chain([recalibrated]);
+        let nearest = nearest.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)));
+        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error, in_full, kin };
+        let worth = |one: &FittedHypothesis, two: &FittedHypothesis| worth_two(&trials.data, one, two);
+        trials.discover(&gap, worth, |law| !OtherLaw::beside(&trials.data, law).speaks())
+    }
+
+    /// The answer that laws outside the catalogue make, if one holds.
+    fn formula(&self, discovered: &Discovered) -> Option<Answer> {
+        let after = self.trials.refined(discovered.equals.first()?.clone());
+        let verdict = if discovered.equals.len() == 1 { Verdict::Formula } else { Verdict::FormulaClass };
+        let others = discovered.equals.iter().filter(|_| verdict == Verdict::FormulaClass);
+        let equivalent =
+            others.flat_map(|t| t.hypothesis.laws(&t.fit.values)).map(|law| law.name()).collect();
+        Some(Answer { equivalent, ..Answer::of(verdict, after) })
+    }
+
+    /// Where the force is missing, if that shows.
+    fn only_placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
+        // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
+        let place = self
+            .acts_at_top()
+            .then_some("top")
+            .or_else(|| place(&self.trials.data, &self.wall.recalibrated, &tried));
+        let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
+        let tried = self.trials.ordered(tried);
+        let after = self.wall.recalibrated.clone();
+        Found { place, other_law, ..self.found(Answer::of(verdict, after), tried) }
+    }
+}
