@@ -9,8 +9,13 @@ use super::{laws, score, twins};
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden.
-const SETS: [(&str, Draw); 3] =
-    [("fresh11", cases::draw::draw), ("beds3", cases::beds::draw), ("nulls3", cases::nulls::draw)];
+const SETS: [(&str, Draw); 5] = [
+    ("fresh11", cases::draw::draw),
+    ("beds3", cases::beds::draw),
+    ("nulls3", cases::nulls::draw),
+    ("beds4", cases::beds::draw),
+    ("nulls4", cases::nulls::draw),
+];
 
 /// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.
 fn recorded(set: &str) -> Vec<score::Row> {
@@ -66,7 +71,7 @@ fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
 }
 
 /// Recorded sets of laws, in the order in which they were answered.
-const SETS_OF_LAWS: [&str; 2] = ["laws1", "laws2"];
+const SETS_OF_LAWS: [&str; 3] = ["laws1", "laws2", "laws3"];
 
 #[test]
 fn regress_recorded_laws_are_what_is_drawn_under_their_numbers() {
