@@ -4,9 +4,9 @@ use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{
     Bed, Contact, Effect, G_M_S2, Pivot, RockingWall, State, Vector, Wall, WallParameters,
 };
-use mrbd_kernel::simulate::{History, Shaking, simulate, simulate_observed};
+use mrbd_kernel::simulate::{History, Shaking, simulate};
 
-use super::{TIGHT, block, released, table_wall, wall};
+use super::{TIGHT, block, late_at_upright_s, released, table_wall, wall};
 
 fn bed_at(joint: &str, stiffness_pa_per_m: f64, damping_s: f64) -> Effect {
     Effect::with_parameters(&format!("compliant_joint.{joint}"), &[stiffness_pa_per_m, damping_s])
@@ -98,23 +98,7 @@ fn analytic_the_quarter_period_is_the_quadrature_of_the_energy() {
             let contact = Contact { ground: bed.pivot(theta), crack: Pivot::Closed };
             rocking.energy_j(contact, &State { theta: [theta; 2], omega: [omega; 2] })
         };
-        let released_j = energy(theta_0, 0.0);
-        // θ = θ_0 (1 - u²) takes the singularity at the turning point away.
-        let rate = |u: f64| {
-            let theta = theta_0 * (1.0 - u * u);
-            let half_mass = energy(theta, 1.0) - energy(theta, 0.0);
-            2.0 * theta_0 * u * (half_mass / (released_j - energy(theta, 0.0))).sqrt()
-        };
-        let pieces = 20_000;
-        let quarter_s = (0..pieces).map(|i| rate((f64::from(i) + 0.5) / f64::from(pieces))).sum::<f64>()
-            / f64::from(pieces);
-        let mut history = History::new(quarter_s / 500.0);
-        let free = Shaking { tail_s: quarter_s, ..Shaking::default() };
-        simulate_observed(&bedded, &free, TIGHT, &mut history);
-        let last = history.rows.last().expect("rows");
-        let speed = (released_j / (energy(0.0, 1.0) - energy(0.0, 0.0))).sqrt();
-        // Along the tangent, from a row that is at most a five-hundredth of the time away.
-        let late_s = last.theta_rad[0] / speed - (quarter_s - last.time_s);
+        let [late_s, quarter_s] = late_at_upright_s(&bedded, theta_0, energy, 1.0);
         assert!(late_s.abs() < 1e-5 * quarter_s, "{k:e}: {late_s} s of {quarter_s}");
     }
 }

@@ -5,11 +5,9 @@ use mrbd_kernel::model::{
     Contact, CrushingJoint, Effect, G_M_S2, JointLaw, Pivot, RockingWall, RoundedEdges, State,
     TrilinearJoint, Wall,
 };
-use mrbd_kernel::simulate::{
-    History, Shaking, Simulator, Start, simulate, simulate_observed, simulate_sequence,
-};
+use mrbd_kernel::simulate::{History, Shaking, Simulator, Start, simulate, simulate_sequence};
 
-use super::{TIGHT, block, released, table_wall, wall};
+use super::{TIGHT, block, late_at_upright_s, released, table_wall, wall};
 
 /// The strip of the paper's Table 1 without anything on its top: its width, m, and weight, N.
 const WIDTH_M: f64 = 0.291;
@@ -227,23 +225,7 @@ fn analytic_quarter_periods_are_the_quadrature_of_the_energy() {
             let contact = Contact { ground: side, crack: Pivot::Closed };
             rocking.energy_j(contact, &State { theta: [theta; 2], omega: [omega; 2] })
         };
-        let released_j = energy(theta_0, 0.0);
-        // θ = θ_0 (1 - u²) takes the singularity at the turning point away.
-        let rate = |u: f64| {
-            let theta = theta_0 * (1.0 - u * u);
-            let half_mass = energy(theta, 1.0) - energy(theta, 0.0);
-            2.0 * theta_0 * u * (half_mass / (released_j - energy(theta, 0.0))).sqrt()
-        };
-        let pieces = 20_000;
-        let quarter_s = (0..pieces).map(|i| rate((f64::from(i) + 0.5) / f64::from(pieces))).sum::<f64>()
-            / f64::from(pieces);
-        let mut history = History::new(quarter_s / 500.0);
-        let free = Shaking { tail_s: quarter_s * 0.9999, ..Shaking::default() };
-        simulate_observed(&bedded, &free, TIGHT, &mut history);
-        let last = history.rows.last().expect("rows");
-        let speed = (released_j / (energy(0.0, 1.0) - energy(0.0, 0.0))).sqrt();
-        // Along the tangent, from a row that is at most a five-hundredth of the time away.
-        let late_s = last.theta_rad[0] / speed - (quarter_s - last.time_s);
+        let [late_s, quarter_s] = late_at_upright_s(&bedded, theta_0, energy, 0.9999);
         assert!(late_s.abs() < 1e-5 * quarter_s, "{effect:?}: {late_s} s of {quarter_s}");
     }
 }

@@ -104,15 +104,17 @@ pub fn keeps_as_another_formulation(tried: &FittedHypothesis) -> bool {
 }
 
 /// Whether what a hypothesis leaves over all windows is what formulations of a stiff contact part by.
-pub fn leaves_little<P: Progress>(trials: &Trials<P>, tried: &FittedHypothesis) -> bool {
-    let most_rad = LEFT_AT_IMPACTS * trials.experiment.scales.rotation_rad;
-    model_error_rad(&trials.data, tried).is_none_or(|left_rad| left_rad < most_rad)
+fn leaves_little<P: Progress>(trials: &Trials<P>, tried: &FittedHypothesis) -> bool {
+    is_little(trials, model_error_rad(&trials.data, tried))
 }
 
 /// The same over the windows of each test: one that a name misses by more speaks against it, however many others it follows.
 fn leaves_little_of_each<P: Progress>(trials: &Trials<P>, tried: &FittedHypothesis) -> bool {
-    let most_rad = LEFT_AT_IMPACTS * trials.experiment.scales.rotation_rad;
-    most_error_rad(&trials.data, tried).is_none_or(|left_rad| left_rad < most_rad)
+    is_little(trials, most_error_rad(&trials.data, tried))
+}
+
+fn is_little<P: Progress>(trials: &Trials<P>, left_rad: Option<f64>) -> bool {
+    left_rad.is_none_or(|left_rad| left_rad < LEFT_AT_IMPACTS * trials.experiment.scales.rotation_rad)
 }
 
 fn has_impacts(tried: &FittedHypothesis) -> bool {
