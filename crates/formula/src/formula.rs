@@ -11,7 +11,7 @@ use crate::expression::{Expression, Function};
 use crate::jump::{Jump, jumps};
 use crate::parse::parse;
 use crate::program::{Program, State};
-use crate::range::{Range, check_finite};
+use crate::range::{Range, check_values};
 use crate::switch::Branches;
 use crate::unit::dimension_of;
 
@@ -26,11 +26,14 @@ pub enum Place {
     Ground,
     /// The same at the crack.
     Crack,
+    /// At impacts, on the speed `u` (m/s) at which the far edge of the joint that closes comes down, the rate `w` (rad/s)
+    /// of the rotation across it and the weight `N` (N) that it carries, all positive: a factor on the coefficient C_l.
+    Impacts,
 }
 
 impl Place {
     /// Every place.
-    pub const ALL: [Place; 3] = [Place::Top, Place::Ground, Place::Crack];
+    pub const ALL: [Place; 4] = [Place::Top, Place::Ground, Place::Crack, Place::Impacts];
 
     /// Its name in wall files.
     pub fn name(self) -> &'static str {
@@ -38,6 +41,7 @@ impl Place {
             Place::Top => "top",
             Place::Ground => "ground",
             Place::Crack => "crack",
+            Place::Impacts => "impacts",
         }
     }
 
@@ -51,6 +55,7 @@ impl Place {
         match self {
             Place::Top => "force_n",
             Place::Ground | Place::Crack => "moment_n_m",
+            Place::Impacts => "factor",
         }
     }
 
@@ -59,6 +64,7 @@ impl Place {
         match self {
             Place::Top => ["x", "v", "x_max"],
             Place::Ground | Place::Crack => ["phi", "w", "N"],
+            Place::Impacts => ["u", "w", "N"],
         }
     }
 
@@ -66,6 +72,7 @@ impl Place {
         match self {
             Place::Top => [Dimension::LENGTH, Dimension::VELOCITY, Dimension::LENGTH],
             Place::Ground | Place::Crack => [Dimension::NONE, Dimension::RATE, Dimension::FORCE],
+            Place::Impacts => [Dimension::VELOCITY, Dimension::RATE, Dimension::FORCE],
         }
     }
 
@@ -73,6 +80,7 @@ impl Place {
         match self {
             Place::Top => Dimension::FORCE,
             Place::Ground | Place::Crack => Dimension::MOMENT,
+            Place::Impacts => Dimension::NONE,
         }
     }
 }
@@ -105,7 +113,7 @@ const KEYWORDS: [&str; 35] = [
     "lambda", "nonlocal", "not", "or", "pass", "raise", "return", "try", "while", "with", "yield",
 ];
 
-/// A law of force or moment as a formula: its units are right, and every name is known.
+/// A law of a force, of a moment or of impacts as a formula: its units are right, and every name is known.
 #[derive(Debug, Clone)]
 pub struct Formula {
     place: Place,
@@ -176,7 +184,7 @@ impl Formula {
         &self.program
     }
 
-    /// Force or moment at a state, N or N m: what acts on the wall.
+    /// Force or moment at a state, N or N m: what acts on the wall. At impacts a factor.
     pub fn value(&self, state: State) -> f64 {
         self.program.value(state, &Branches::FREE)
     }
@@ -199,16 +207,19 @@ impl Formula {
         self.expression.has(self.place.variables()[variable])
     }
 
-    /// Refuses a formula that is not finite over a range, or jumps where no motion could go on. Says of each
-    /// switch what it does.
+    /// Refuses a formula that is not finite over a range, or no factor from 0 to 1 at impacts, or jumps where no motion
+    /// could go on. Says of each switch what it does.
     ///
     /// # Errors
     /// The subexpression, the reason and the range.
     pub fn check(&self, range: &Range) -> Result<Vec<Jump>, FormulaError> {
         let values = self.parameters.iter().map(|p| (p.name.as_str(), p.value)).collect();
-        let names = self.place.variables();
-        check_finite(&self.expression, names, &values, range)?;
-        jumps(&self.program, names, range)
+        check_values(&self.expression, self.place, &values, range)?;
+        match self.place {
+            // An impact asks once: nothing has to be followed through a jump.
+            Place::Impacts => Ok(vec![Jump::None; self.program.switches.len()]),
+            _ => jumps(&self.program, self.place.variables(), range),
+        }
     }
 }
 
@@ -223,7 +234,7 @@ fn check_names(expression: &Expression, parameters: &[Parameter]) -> Result<(), 
         return Err(FormulaError::new(None, found, format!("at most {MOST_PARAMETERS}")));
     }
     for (i, Parameter { name, value, .. }) in parameters.iter().enumerate() {
-        let variables = [Place::Top, Place::Ground].map(Place::variables).concat();
+        let variables = Place::ALL.map(Place::variables).concat();
         let functions = Function::ALL.map(Function::name);
         let refused = |found: &str, allowed: &str| Err(FormulaError::of_parameter(name, found, allowed));
         if !is_name(name) {

@@ -1,4 +1,4 @@
-//! Is a formula finite at every state that can be reached? Shown by intervals, not by trying states.
+//! Has a formula a possible value at every state that can be reached? Shown by intervals, not by trying states.
 //!
 //! The range is halved where an interval is too wide to tell. What cannot be shown in so many halves is refused.
 
@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use crate::error::FormulaError;
 use crate::expression::{Expression, Function, Operator};
+use crate::formula::Place;
 use crate::interval::Interval;
 use crate::number::Number;
 use crate::program::{State, whole_exponent};
@@ -25,6 +26,26 @@ const MOST_HALVINGS: usize = 40;
 const MOST_PARTS: usize = 4000;
 /// A force or moment larger than this is no law of a wall, N or N m.
 const MOST_VALUE: f64 = 1e15;
+/// Intervals are rounded outwards: a factor that is 1 somewhere is found this much above it, and one that is 0 below.
+const ROUNDINGS: f64 = 1e-9;
+
+impl Place {
+    /// The values that a formula may have, what others are, and how they are told.
+    fn possible(self) -> (Interval, String, String) {
+        match self {
+            Place::Top | Place::Ground | Place::Crack => (
+                Interval::new(-MOST_VALUE, MOST_VALUE),
+                format!("beyond {MOST_VALUE:e}"),
+                format!("forces and moments within {MOST_VALUE:e}"),
+            ),
+            Place::Impacts => (
+                Interval::new(-ROUNDINGS, 1.0 + ROUNDINGS),
+                "below 0 or above 1".to_owned(),
+                "a factor from 0 to 1: what is kept at any speed belongs into the coefficients".to_owned(),
+            ),
+        }
+    }
+}
 
 impl Range {
     /// The range as intervals.
@@ -53,23 +74,25 @@ struct Doubt {
 
 struct Search<'a> {
     expression: &'a Expression,
+    place: Place,
     variables: [&'static str; 3],
     values: &'a BTreeMap<&'a str, f64>,
     whole: &'a Range,
     parts: usize,
 }
 
-/// Refuses an expression that is not shown to be finite everywhere in a range.
+/// Refuses an expression that is not shown to be finite everywhere in a range, and a value that its place may have.
 ///
 /// # Errors
 /// The subexpression, the reason, and the range.
-pub fn check_finite(
+pub fn check_values(
     expression: &Expression,
-    variables: [&'static str; 3],
+    place: Place,
     values: &BTreeMap<&str, f64>,
     range: &Range,
 ) -> Result<(), FormulaError> {
-    let mut search = Search { expression, variables, values, whole: range, parts: 0 };
+    let variables = place.variables();
+    let mut search = Search { expression, place, variables, values, whole: range, parts: 0 };
     search.part(range, MOST_HALVINGS).map_err(|doubt| {
         let over: Vec<_> = (0..3)
             .filter(|i| expression.has(variables[*i]))
@@ -88,14 +111,7 @@ fn written(value: f64) -> f64 {
 impl Search<'_> {
     fn part(&mut self, range: &Range, halvings: usize) -> Result<(), Doubt> {
         self.parts += 1;
-        let doubt = match self.of(self.expression, range.intervals()) {
-            Ok(value) if value.abs().high <= MOST_VALUE => return Ok(()),
-            Ok(_) => Doubt {
-                found: format!("`{}`, which may be beyond {MOST_VALUE:e}", self.expression),
-                allowed: format!("forces and moments within {MOST_VALUE:e}"),
-            },
-            Err(doubt) => doubt,
-        };
+        let Err(doubt) = self.value(range.intervals()) else { return Ok(()) };
         let varies =
             (0..3).any(|i| self.whole.high[i] > self.whole.low[i] && self.expression.has(self.variables[i]));
         if halvings == 0 || self.parts >= MOST_PARTS || !varies {
@@ -103,10 +119,20 @@ impl Search<'_> {
         }
         // A state at which it fails needs no halves.
         let middle = [0, 1, 2].map(|i| Interval::constant(0.5 * (range.low[i] + range.high[i])));
-        self.of(self.expression, middle)?;
+        self.value(middle)?;
         let [first, second] = range.halves(self.whole);
         self.part(&first, halvings - 1)?;
         self.part(&second, halvings - 1)
+    }
+
+    /// Whether the value is shown to be a possible one.
+    fn value(&self, over: State<Interval>) -> Result<(), Doubt> {
+        let value = self.of(self.expression, over)?;
+        let (possible, beyond, allowed) = self.place.possible();
+        if value.low >= possible.low && value.high <= possible.high {
+            return Ok(());
+        }
+        Err(Doubt { found: format!("`{}`, which may be {beyond}", self.expression), allowed })
     }
 
     fn of(&self, e: &Expression, over: State<Interval>) -> Result<Interval, Doubt> {

@@ -27,7 +27,7 @@ struct PlaceEntry {
 }
 
 const LAW: &str = "what acts on the wall: a spring is -k*x";
-const DESCRIPTION: &str = "A force at the top or a moment at a joint as arithmetic of what moves there. Units are checked, kinks are \
+const DESCRIPTION: &str = "A force at the top, a moment at a joint or a factor at impacts as arithmetic of what moves there. Units are checked, kinks are \
                            met exactly, and a jump against the motion at v = 0 is friction. What Python reads, it reads \
                            the same way; a comparison is 0 or 1. The acceleration a stands for a mass: `carriage_mass` has it.";
 const OPERATORS: &str = "+ - * / ** < <= > >=";
@@ -39,11 +39,17 @@ impl FormulaEntry {
         let places = Place::ALL.map(|place| PlaceEntry {
             place: place.name(),
             key: place.key(),
-            gives: if place == Place::Top { "a force, N" } else { "a moment, N m" },
-            variables: if place == Place::Top {
-                &["x m", "v m/s"]
-            } else {
-                &["phi rad", "w rad/s", "N the weight on the joint, N"]
+            gives: match place {
+                Place::Top => "a force, N",
+                Place::Ground | Place::Crack => "a moment, N m",
+                Place::Impacts => "a factor from 0 to 1 on the coefficient C_l",
+            },
+            variables: match place {
+                Place::Top => &["x m", "v m/s", "x_max the largest abs(x) so far, m"],
+                Place::Ground | Place::Crack => &["phi rad", "w rad/s", "N the weight on the joint, N"],
+                Place::Impacts => {
+                    &["u speed of the edge that comes down, m/s", "w rad/s", "N the weight on the joint, N"]
+                }
             },
         });
         Self {
@@ -59,7 +65,8 @@ impl FormulaEntry {
 
     /// As text.
     pub fn for_people(&self) -> String {
-        let mut lines = vec![format!("{} — at the top or at a joint", self.name), indented(self.description)];
+        let mut lines =
+            vec![format!("{} — at the top, at a joint or at impacts", self.name), indented(self.description)];
         lines.push(format!("  {}", self.law));
         let of_place = |p: &PlaceEntry| {
             format!("  place = \"{}\": {} gives {} of {}", p.place, p.key, p.gives, p.variables.join(", "))

@@ -255,7 +255,7 @@ impl RockingWall {
     ) -> Pair {
         let restitution = self.wall().parameters().restitution;
         let Some(change) = change else { return omega };
-        let c_l = self.coefficients[change.index()];
+        let c_l = self.coefficients[change.index()] * self.factor_at_impact(collision);
         let u = match restitution.law {
             // Eq. 7 of the paper.
             ImpactLaw::Whole => [0.0, 0.0],

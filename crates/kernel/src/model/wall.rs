@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::bed::{Bed, Carries, JointLaw, law_at};
 use super::effect::{self, EffectSums, Lanes, Reading};
-use super::formula::{FormulaLaw, checked};
+use super::formula::{FormulaLaw, ImpactFactors, checked};
 use super::parameters::WallParameters;
 
 /// Acceleration of gravity, m/s².
@@ -40,8 +40,10 @@ pub struct Wall {
     pub(crate) joint_laws: [Option<JointLaw>; 2],
     /// The sums of the effects.
     pub(crate) effects: EffectSums,
-    /// The laws of the formulas.
+    /// The laws of motion among the formulas ...
     pub(crate) formulas: Vec<FormulaLaw>,
+    /// ... and those of impacts.
+    pub(crate) impact_factors: ImpactFactors,
 }
 
 impl Wall {
@@ -75,7 +77,6 @@ impl Wall {
             let carries = Carries { width_m: width_m[j], length_m: p.length_m, load_n: above_kg[j] * G_M_S2 };
             joint_laws[j] = Some(carries.law(said).map_err(|refusal| refusal.at(&parameters, j))?);
         }
-        let formulas = Vec::new();
         let mut wall = Self {
             height_m,
             mass_kg,
@@ -85,10 +86,12 @@ impl Wall {
             joint_laws,
             effects,
             parameters,
-            formulas,
+            formulas: Vec::new(),
+            impact_factors: ImpactFactors::default(),
         };
         wall.check_beds()?;
         wall.formulas = checked(&wall)?;
+        wall.impact_factors = ImpactFactors::of(&wall)?;
         Ok(wall)
     }
 

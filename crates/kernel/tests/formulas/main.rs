@@ -1,5 +1,6 @@
 //! Laws written as formulas: the same runs as the laws of the catalogue, exact kinks, energy accounted for.
 
+mod impacts;
 mod memory;
 
 use mrbd_formula::{Formula, Parameter, Place};

@@ -90,7 +90,8 @@ impl<'de> Visitor<'de> for LawVisitor {
 }
 
 /// Keys of a formula in wall files.
-const FORMULA_KEYS: &str = "`place`, `force_n` at the top or `moment_n_m` at a joint, `parameters`";
+const FORMULA_KEYS: &str =
+    "`place`, `force_n` at the top, `moment_n_m` at a joint or `factor` at impacts, `parameters`";
 
 /// What of a formula is wrong.
 fn refused(found: impl Into<String>, allowed: impl Into<String>) -> EffectError {
@@ -106,13 +107,14 @@ fn formula_from_items(mut items: Items) -> Result<Formula, EffectError> {
                 .ok_or_else(|| refused(format!("`{word}` for `place`"), format!("one of {known}")))?
         }
         Some(other) => return Err(refused(format!("{other} for `place`"), "a word")),
-        None => return Err(refused("no `place`", "`top`, `ground` or `crack`")),
+        None => return Err(refused("no `place`", "`top`, `ground`, `crack` or `impacts`")),
     };
     let text = match take(place.key()) {
         Some(Item::Word(text)) => text,
         Some(other) => return Err(refused(format!("{other} for `{}`", place.key()), "a formula in quotes")),
         None => {
-            let allowed = format!("this key with a formula at the {}", place.name());
+            let the = if place == Place::Impacts { "" } else { "the " };
+            let allowed = format!("this key with a formula at {the}{}", place.name());
             return Err(refused(format!("no `{}`", place.key()), allowed));
         }
     };

@@ -11,16 +11,17 @@ use super::laws::{FormulaLaw, joint_of};
 /// Speeds up to this many times that of a fall from the wall's own height. A wall that stands is far slower.
 const FALLS: f64 = 2.0;
 
-/// The laws of the formulas of a wall, checked over all that the wall can reach before it counts as collapsed.
+/// The laws of motion among the formulas of a wall, checked over all that the wall can reach before it counts as collapsed.
 ///
 /// # Errors
 /// [`ImpossibleWall`] with the key of the formula.
 pub(in crate::model) fn checked(wall: &Wall) -> Result<Vec<FormulaLaw>, ImpossibleWall> {
     let formulas = wall.parameters().formulas.iter().enumerate();
-    formulas.map(|(i, formula)| law(wall, formula).map_err(|e| refused(i, formula, e))).collect()
+    let of_motion = formulas.filter(|(_, formula)| formula.place() != Place::Impacts);
+    of_motion.map(|(i, formula)| law(wall, formula).map_err(|e| refused(i, formula, e))).collect()
 }
 
-fn refused(i: usize, formula: &Formula, error: FormulaError) -> ImpossibleWall {
+pub(super) fn refused(i: usize, formula: &Formula, error: FormulaError) -> ImpossibleWall {
     let key = Cow::Owned(format!("formulas.{i}.{}", formula.place().key()));
     ImpossibleWall { key, found: error.found_at(), allowed: error.allowed }
 }
@@ -71,5 +72,11 @@ pub(super) fn reach(wall: &Wall, place: Place) -> Range {
         Place::Top => symmetric(h1 * r1.sin() + h2 * r2.sin() + wall.parameters().thickness_m, v, 0.0),
         Place::Ground => symmetric(r1, v / h1, ground_n),
         Place::Crack => symmetric(r1 + r2, v / h1 + v / h2, crack_n),
+        // A joint closes at some rate, whichever joint it is.
+        Place::Impacts => {
+            let (upper, [b1, b2]) = (if wall.is_cracked() { v / h2 } else { 0.0 }, wall.width_m);
+            let rate = v / h1 + upper;
+            Range { low: [0.0, 0.0, crack_n], high: [rate * b1.max(b2), rate, ground_n] }
+        }
     }
 }

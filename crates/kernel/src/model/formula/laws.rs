@@ -8,10 +8,10 @@ use super::super::contact::Joint;
 use super::super::geometry::Pair;
 use super::super::regime::Side;
 
-/// The joint of a place.
+/// The joint of a place, where it is at one.
 pub(super) fn joint_of(place: Place) -> Option<Joint> {
     match place {
-        Place::Top => None,
+        Place::Top | Place::Impacts => None,
         Place::Ground => Some(Joint::Ground),
         Place::Crack => Some(Joint::Crack),
     }

@@ -7,12 +7,16 @@
 //!
 //! A jump against the motion at rest is friction. It holds the top as Coulomb's does, within the two sides of
 //! the jump.
+//!
+//! At impacts a formula is no force: it is a factor on a coefficient, of the speed at which a joint closes.
 
+mod at_impacts;
 mod check;
 mod lanes;
 mod laws;
 mod switches;
 
+pub(crate) use at_impacts::ImpactFactors;
 pub(in crate::model) use check::checked;
 pub(crate) use lanes::FormulaRow;
 pub(in crate::model) use lanes::{FormulaLanes, angles};

@@ -1,0 +1,54 @@
+//! Coefficients of impacts that depend on how fast a joint closes.
+//!
+//! The coefficients of Table 2 are constants: of two impacts with the same change of pattern, both keep the same share.
+//! Measured ones need not: what a faster impact crushes is lost. Such a law is a formula, a factor on C_l.
+
+use std::sync::Arc;
+
+use mrbd_formula::{Branches, Formula, Place, Program};
+
+use super::super::geometry::Pair;
+use super::super::impact::Collision;
+use super::super::rocking::{RockingWall, opening};
+use super::super::wall::{ImpossibleWall, Wall};
+use super::check::{reach, refused};
+
+/// The factors of a wall that are formulas.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct ImpactFactors(Vec<Arc<Program>>);
+
+impl ImpactFactors {
+    /// Of the formulas of a wall at impacts, checked at every speed that it can reach.
+    ///
+    /// # Errors
+    /// [`ImpossibleWall`] with the key of the formula.
+    pub fn of(wall: &Wall) -> Result<Self, ImpossibleWall> {
+        let formulas = wall.parameters().formulas.iter().enumerate();
+        let at_impacts = formulas.filter(|(_, formula)| formula.place() == Place::Impacts);
+        let factor = |(i, formula): (usize, &Formula)| match formula.check(&reach(wall, Place::Impacts)) {
+            Ok(_) => Ok(Arc::clone(formula.program())),
+            Err(error) => Err(refused(i, formula, error)),
+        };
+        at_impacts.map(factor).collect::<Result<_, _>>().map(Self)
+    }
+}
+
+impl RockingWall {
+    /// By what the formulas scale the coefficient of an impact; 1 without any. Where both joints touch at once, the one whose
+    /// edge comes down faster counts.
+    #[inline]
+    pub(in crate::model) fn factor_at_impact(&self, collision: &Collision) -> f64 {
+        let ImpactFactors(factors) = &self.wall().impact_factors;
+        if factors.is_empty() {
+            return 1.0;
+        }
+        let omega: Pair = collision.v_before.theta;
+        let closing = |joint| {
+            let rate_rad_s = opening(joint, omega).abs();
+            [self.width_m(joint) * rate_rad_s, rate_rad_s, self.wall().weights_n()[joint as usize]]
+        };
+        let touching = self.joints().filter(|joint| collision.touching.at(*joint)).map(closing);
+        let fastest = touching.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0; 3]);
+        factors.iter().map(|factor| factor.value(fastest, &Branches::FREE)).product()
+    }
+}
