@@ -126,9 +126,10 @@ blind-calibrations: ## twins for mrbd calibrate, made, calibrated and scored: FI
 	cargo test --release --locked --quiet --test blind -- --calibrations --first $(FIRST) --cases $(CASES) --set $(SET) \
 		$(if $(RECORDED),--recorded $(RECORDED))
 
-blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: FIRST=0 CASES=40 SET=tune; LAWS=1: of laws in no catalogue; BEDS=1: of joints that give; NULLS=1: of nothing; CORNERS=1: on stiff corners
+blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: FIRST=0 CASES=40 SET=tune; LAWS=1: of laws in no catalogue; BEDS=1: of joints that give; NULLS=1: of nothing; CORNERS=1: on stiff corners; IMPACTS=1: of impacts that keep less the faster they are
 	cargo test --release --locked --quiet --test blind -- --first $(FIRST) --cases $(CASES) --set $(SET) \
-		$(if $(LAWS),--laws) $(if $(BEDS),--beds) $(if $(NULLS),--nulls) $(if $(CORNERS),--corners) $(if $(RECORDED),--recorded $(RECORDED))
+		$(if $(LAWS),--laws) $(if $(BEDS),--beds) $(if $(NULLS),--nulls) $(if $(CORNERS),--corners) \
+		$(if $(IMPACTS),--impacts) $(if $(RECORDED),--recorded $(RECORDED))
 
 lint: ## formatting and lints, warnings denied
 	cargo fmt --all --check

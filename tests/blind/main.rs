@@ -43,6 +43,9 @@ struct Options {
     /// Cases of free bodies on stiff corners.
     #[arg(long, conflicts_with_all = ["laws", "beds", "nulls"])]
     corners: bool,
+    /// Cases of impacts that keep the less the faster they are.
+    #[arg(long, conflicts_with_all = ["laws", "beds", "nulls", "corners"])]
+    impacts: bool,
     /// How many cases.
     #[arg(long, default_value_t = 40)]
     cases: u64,
@@ -134,6 +137,7 @@ impl Options {
             Self { beds: true, .. } => cases::beds::draw,
             Self { nulls: true, .. } => cases::nulls::draw,
             Self { corners: true, .. } => cases::corners::draw,
+            Self { impacts: true, .. } => cases::impacts::draw,
             _ => cases::draw::draw,
         }
     }

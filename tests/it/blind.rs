@@ -124,6 +124,7 @@ fn analytic_effects_mean_the_same_in_both_simulators() {
         (soft, Hidden::JointDamping { joint: Joint::Ground, coefficient_n_m_s_per_rad: 2000.0 }),
         (stiff, Hidden::JointDamping { joint: Joint::Crack, coefficient_n_m_s_per_rad: 2000.0 }),
         (soft, Hidden::ImpactDissipation { factors: [0.9, 0.9, 0.85, 0.9, 0.9, 0.9, 1.0, 1.0] }),
+        (soft, Hidden::ImpactFading { fading_s_per_m: 2.0 }),
     ];
     let record = sine(1.4, 0.8);
     let still = vec![0.0; record.len()];

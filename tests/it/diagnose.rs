@@ -126,6 +126,15 @@ fn analytic_twin_whose_impacts_keep_less_is_named_with_what_they_keep() {
     assert!((first - factors[0]).abs() < 0.05 * (1.0 - factors[0]), "{first}");
 }
 
+#[test]
+fn analytic_twin_whose_fast_impacts_keep_less_than_slow_ones_is_named_with_how_much() {
+    let named = named_in_a_twin(&[("impact_fading", &[2.0])], |theta| theta);
+    let [(name, fading)] = &named[..] else { panic!("{named:?}") };
+    assert_eq!(name, "impact_fading");
+    // The target for the median of such errors is 5 %.
+    assert!((fading / 2.0 - 1.0).abs() < 0.05, "{fading}");
+}
+
 fn its_force_is_measured(found: &Value) {
     let force = &found["missing_force"];
     let of = |when: &str, key: &str| force[when][key].as_f64().expect("a number");

@@ -34,6 +34,7 @@ fn published_every_kind_that_scripts_rely_on_is_there() {
         "crushing_joint",
         "rounded_edges",
         "impact_dissipation",
+        "impact_fading",
         "joint_damping",
         "vertical_ground_motion",
         "record_gain",

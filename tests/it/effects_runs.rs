@@ -35,7 +35,7 @@ fn drags(effect: &Effect) -> bool {
     match effect.entry().role {
         Role::Friction | Role::Memory => true,
         Role::Mass | Role::Damper | Role::Spring | Role::Corners | Role::Bed | Role::JointLaw => false,
-        Role::Impact | Role::GroundMotion | Role::Sensor => false,
+        Role::Impact | Role::ImpactSpeed | Role::GroundMotion | Role::Sensor => false,
     }
 }
 

@@ -148,6 +148,11 @@ pub fn any_of_all_effects(rng: &mut ChaCha8Rng, wall: &WallParameters) -> Vec<Ef
     if !has_bed && of_rivals.random_bool(0.5) {
         effects.extend(any_rival(&mut of_rivals, wall, &effects));
     }
+    let mut of_impacts = rng.clone();
+    of_impacts.set_stream(rng.get_stream() + (1 << 34));
+    if of_impacts.random_bool(0.5) {
+        effects.push(effect("impact_fading", &[of_impacts.random_range(0.0..3.0)]));
+    }
     effects
 }
 

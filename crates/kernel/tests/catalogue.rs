@@ -92,7 +92,8 @@ fn analytic_every_effect_acts_where_its_role_says() {
         let expected = match effect.entry().role {
             Role::Sensor => (false, true),
             Role::Mass | Role::Damper | Role::Friction | Role::Spring | Role::Memory => (true, false),
-            Role::Corners | Role::Bed | Role::JointLaw | Role::Impact | Role::GroundMotion => (true, false),
+            Role::Corners | Role::Bed | Role::JointLaw | Role::GroundMotion => (true, false),
+            Role::Impact | Role::ImpactSpeed => (true, false),
         };
         assert_eq!((moves, reads), expected, "{effect:?}: (moves the wall, changes the reading)");
     }
@@ -216,7 +217,7 @@ fn place(entry: &EffectEntry) -> Place {
     match entry.role {
         Role::Mass | Role::Damper | Role::Friction | Role::Spring | Role::Memory => entry.place,
         Role::Corners | Role::Bed | Role::JointLaw => Place::Joint,
-        Role::Impact => Place::Impacts,
+        Role::Impact | Role::ImpactSpeed => Place::Impacts,
         Role::GroundMotion => Place::GroundMotion,
         Role::Sensor => Place::Sensor,
     }

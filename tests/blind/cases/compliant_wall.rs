@@ -45,6 +45,7 @@ pub fn wall(numbers: &WallNumbers) -> CompliantWall {
         beds: [None; 2],
         joint_laws: [Vec::new(), Vec::new()],
         coefficients: numbers.coefficients,
+        fading_s_per_m: 0.0,
         loose: None,
     }
 }
@@ -76,6 +77,7 @@ fn add(wall: &mut CompliantWall, effect: &Hidden, numbers: &WallNumbers) {
         Hidden::ImpactDissipation { factors } => {
             wall.coefficients.iter_mut().zip(factors).for_each(|(c, factor)| *c *= factor);
         }
+        Hidden::ImpactFading { fading_s_per_m } => wall.fading_s_per_m += fading_s_per_m,
         Hidden::CompliantJoint { joints, stiffness_pa_per_m, damping_s } => {
             for joint in joints.indices() {
                 let stiffness_n_per_m2 = stiffness_pa_per_m * numbers.length_m;

@@ -85,6 +85,10 @@ pub enum Hidden {
     ImpactDissipation {
         factors: [f64; 8],
     },
+    /// C_l exp(-b u) at the speed u of an impact.
+    ImpactFading {
+        fading_s_per_m: f64,
+    },
     /// A bed of springs in place of sharp edges.
     CompliantJoint {
         joints: Joints,
@@ -180,6 +184,12 @@ pub fn hidden(name: &'static str, scale: &Scale, rng: &mut ChaCha8Rng) -> Hidden
             let factors = [0; 8].map(|_| 1.0 - 0.1 * size * rng.random_range(0.5..1.5));
             Hidden::ImpactDissipation { factors }
         }
+        // At the speed of the largest swing a fifth less is kept.
+        "impact_fading" => {
+            let frequency_rad_s = (wall.stiffness_n_per_m / wall.mass_kg).sqrt();
+            let speed_m_s = wall.widths_m[0] * scale.rotation_rad * frequency_rad_s;
+            Hidden::ImpactFading { fading_s_per_m: 0.2 * size / speed_m_s }
+        }
         "joint_damping" => {
             let arm_m = 0.5 * wall.widths_m[joint as usize];
             let coefficient = 0.2 * size * wall.weight_n() * arm_m;
@@ -225,7 +235,7 @@ impl Hidden {
             Hidden::CornerIndentation { joint, .. } | Hidden::JointDamping { joint, .. } => joint.name(),
             Hidden::CompliantJoint { joints: Joints::Both, .. } => "joint",
             Hidden::CompliantJoint { joints, .. } => joints.name(),
-            Hidden::ImpactDissipation { .. } => "impacts",
+            Hidden::ImpactDissipation { .. } | Hidden::ImpactFading { .. } => "impacts",
             Hidden::VerticalGroundMotion { .. } | Hidden::RecordGain { .. } | Hidden::RecordLag { .. } => {
                 "ground motion"
             }
@@ -253,6 +263,7 @@ impl Hidden {
             Hidden::YieldingSpring { force_n, .. } => ("yielding_spring", Some(("yield_force_n", force_n))),
             Hidden::CornerIndentation { depth_m, .. } => ("corner_indentation", Some(("depth_m", depth_m))),
             Hidden::ImpactDissipation { .. } => ("impact_dissipation", None),
+            Hidden::ImpactFading { fading_s_per_m: b } => ("impact_fading", Some(("fading_s_per_m", b))),
             Hidden::JointDamping { coefficient_n_m_s_per_rad: c, .. } => {
                 ("joint_damping", Some(("coefficient_n_m_s_per_rad", c)))
             }

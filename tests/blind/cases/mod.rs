@@ -9,6 +9,7 @@
 //! | [`beds`] | the same of walls whose joints give |
 //! | [`nulls`] | the same with nothing hidden, of every formulation |
 //! | [`corners`] | the same of free bodies on stiff corners, with what was once missed there |
+//! | [`impacts`] | the same of impacts that keep the less the faster they are |
 //! | [`walls`] | the walls of the cases |
 //! | [`hidden`] | the effects with their sizes |
 //! | [`compliant_wall`], [`own_wall`] | the true wall for each simulator |
@@ -21,6 +22,7 @@ pub mod corners;
 pub mod draw;
 pub mod folder;
 pub mod hidden;
+pub mod impacts;
 pub mod kind;
 pub mod nulls;
 pub mod own_wall;

@@ -46,6 +46,9 @@ pub fn true_wall(case: &Case) -> String {
             Hidden::ImpactDissipation { factors } => {
                 numbers.coefficients.iter_mut().zip(factors).for_each(|(c, factor)| *c *= factor);
             }
+            Hidden::ImpactFading { fading_s_per_m: b } => {
+                effects.push(table("impact_fading", &[("fading_s_per_m", b)]));
+            }
             // These act on the ground motion and on what is read.
             Hidden::VerticalGroundMotion { .. }
             | Hidden::RecordGain { .. }

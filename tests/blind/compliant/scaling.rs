@@ -23,6 +23,7 @@ const OPEN_ABOVE_RAD: f64 = 2e-5;
 #[derive(Debug, Clone)]
 pub struct Scaling {
     coefficients: [f64; 8],
+    fading_s_per_m: f64,
     wait_s: f64,
     /// Signs of the joints before the impact under way, or now.
     signs: [i8; 2],
@@ -34,12 +35,15 @@ pub struct Scaling {
 struct Impact {
     over_s: f64,
     touched: [bool; 2],
+    /// At which the fastest edge came down, m/s.
+    speed_m_s: f64,
 }
 
 impl Scaling {
     pub fn new(bodies: &Bodies) -> Self {
         Self {
             coefficients: bodies.wall.coefficients,
+            fading_s_per_m: bodies.wall.fading_s_per_m,
             wait_s: WAITING * bodies.corners[0].impact_s(),
             signs: [0; 2],
             pressed: [[true; 2]; 2],
@@ -49,7 +53,7 @@ impl Scaling {
 
     /// Looks at the end of a step; scales the velocities and says so where an impact is over.
     pub fn look(&mut self, bodies: &Bodies, time_s: f64, state: &mut State) -> bool {
-        if self.coefficients == [1.0; 8] {
+        if self.coefficients == [1.0; 8] && self.fading_s_per_m == 0.0 {
             return false;
         }
         let pose = Pose::new(&state.q, &state.v);
@@ -63,7 +67,10 @@ impl Scaling {
             };
             if closing {
                 let over_s = time_s + self.wait_s;
-                self.under_way.get_or_insert(Impact { over_s, touched: [false; 2] }).touched[joint] = true;
+                let new = Impact { over_s, touched: [false; 2], speed_m_s: 0.0 };
+                let impact = self.under_way.get_or_insert(new);
+                impact.touched[joint] = true;
+                impact.speed_m_s = impact.speed_m_s.max(speed_m_s(bodies, joint, state));
             }
         }
         self.pressed = pressed;
@@ -84,13 +91,20 @@ impl Scaling {
         let from = self.signs;
         self.signs = signs_after(state);
         let Some(change) = change(from, self.signs) else { return false };
-        let coefficient = self.coefficients[change];
+        let coefficient = self.coefficients[change] * (-self.fading_s_per_m * impact.speed_m_s).exp();
         let stuck = sticking(bodies, from, impact.touched, state);
         let before = state.v.fixed_rows::<6>(0).into_owned();
         let after = stuck + coefficient * (before - stuck);
         state.v.fixed_rows_mut::<6>(0).copy_from(&after);
         coefficient != 1.0
     }
+}
+
+/// At which the edge of a joint comes down, m/s.
+fn speed_m_s(bodies: &Bodies, joint: usize, state: &State) -> f64 {
+    let [left, right] = bodies.wall.corner_x_m[joint];
+    let rates = [state.v[2], state.v[5] - state.v[2]];
+    (right - left) * rates[joint].abs()
 }
 
 /// The corner a joint turns about, 0 where both are pressed; none while the joint is in the air.

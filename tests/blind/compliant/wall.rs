@@ -44,6 +44,8 @@ pub struct CompliantWall {
     pub joint_laws: [Vec<Atom>; 2],
     /// C_1 … C_8, applied by the law `contact`.
     pub coefficients: [f64; 8],
+    /// b of the factor exp(-b u) on all of them at the speed u of an impact, s/m.
+    pub fading_s_per_m: f64,
     /// A mass that lies loose on the top.
     pub loose: Option<LooseMass>,
 }

@@ -121,6 +121,7 @@ impl PiecewiseLaws {
             indentation_m: _,
             joints: _,
             impact_factors: _,
+            impact_fading_s_per_m: _,
             ground: _,
             reading: _,
         } = *effects;

@@ -18,6 +18,14 @@ fn analytic_a_constant_factor_is_the_effect_of_the_catalogue_to_the_bit() {
     assert_eq!(format!("{:?}", run(&written)), format!("{:?}", run(&named)));
 }
 
+#[test]
+fn analytic_the_catalogues_fading_is_its_formula_to_the_bit() {
+    let fading = Effect::with_parameters("impact_fading", &[0.8]).expect("an effect");
+    let named = Wall::new(WallParameters { effects: vec![fading], ..table_wall() }).expect("a wall");
+    let written = with_formulas(&[fades()], table_wall());
+    assert_eq!(format!("{:?}", run(&written)), format!("{:?}", run(&named)));
+}
+
 /// C_6: a wall that rocks as one block passes from one corner to the other, 3a to 3b.
 #[test]
 fn analytic_the_coefficient_is_that_of_the_edge_that_comes_down() {

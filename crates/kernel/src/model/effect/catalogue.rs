@@ -50,6 +50,7 @@ catalogue! {
     CrushingJoint => joint::CRUSHING_JOINT,
     RoundedEdges => joint::ROUNDED_EDGES,
     ImpactDissipation => structural::IMPACT_DISSIPATION,
+    ImpactFading => structural::IMPACT_FADING,
     VerticalGroundMotion => signal::VERTICAL_GROUND_MOTION,
     RecordGain => signal::RECORD_GAIN,
     RecordLag => signal::RECORD_LAG,

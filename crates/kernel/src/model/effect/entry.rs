@@ -42,10 +42,19 @@ pub enum Role {
     JointLaw,
     /// Factors on the coefficients C_l of impacts.
     Impact,
+    /// A factor on them that depends on the speed.
+    ImpactSpeed,
     /// Another ground motion than the recorded one.
     GroundMotion,
     /// Another reading of the same motion.
     Sensor,
+}
+
+impl Role {
+    /// Whether it acts at impacts, and between them not at all.
+    pub fn is_at_impacts(self) -> bool {
+        matches!(self, Role::Impact | Role::ImpactSpeed)
+    }
 }
 
 /// Whether walls with an effect may step side by side, in the lanes of vector registers.
@@ -98,6 +107,8 @@ pub enum Quantity {
     Ratio,
     /// A factor on a coefficient C_l of impacts.
     ImpactFactor,
+    /// By what share, per speed of an impact, a coefficient C_l is less, s/m.
+    ImpactFading,
 }
 
 impl Quantity {
@@ -115,6 +126,7 @@ impl Quantity {
             Quantity::Strength => "Pa",
             Quantity::Rotation | Quantity::JointRotation => "rad",
             Quantity::Time => "s",
+            Quantity::ImpactFading => "s/m",
             Quantity::Ratio | Quantity::ImpactFactor | Quantity::MomentShare => "",
         }
     }

@@ -307,3 +307,29 @@ pub(super) static IMPACT_DISSIPATION: EffectEntry = EffectEntry {
         sums.impact_factors.iter_mut().enumerate().for_each(|(l, factor)| *factor *= effect.value(l));
     },
 };
+
+pub(super) static IMPACT_FADING: EffectEntry = EffectEntry {
+    name: "impact_fading",
+    place: Place::Impacts,
+    role: Role::ImpactSpeed,
+    lanes: Lanes::Known,
+    choice: None,
+    parameters: &[EffectParameter {
+        key: "fading_s_per_m",
+        quantity: Quantity::ImpactFading,
+        neutral: 0.0,
+        optional: false,
+        least: 0.0,
+        most: 100.0,
+        example: 2.0,
+        meaning: "b: slow impacts keep a share b u less at a speed u",
+    }],
+    may_repeat: true,
+    law: "C_l exp(-b u) in place of C_l, u = b_i |φ̇| the speed at which the edge of the closing joint comes down",
+    description: "Impacts that keep the less the faster they are, as where edges crush.",
+    fingerprint: "none between impacts",
+    at_impacts: "ratio of the velocities after and before, smaller at larger speeds",
+    confused_with: &["impact_dissipation", "joint_damping", "viscous_damping"],
+    told_by: "free rocking from a large and from a small rotation, from impact to impact",
+    add: |effect, sums| sums.impact_fading_s_per_m += effect.value(0),
+};

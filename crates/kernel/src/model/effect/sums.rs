@@ -33,6 +33,8 @@ pub(crate) struct EffectSums {
     pub joints: [Option<SaidOfJoint>; 2],
     /// Factors on C_1 … C_8.
     pub impact_factors: [f64; 8],
+    /// b of the factor exp(-b u) on all of them at a speed u of an impact, s/m.
+    pub impact_fading_s_per_m: f64,
     /// What becomes of the record.
     pub ground: GroundChange,
     /// What becomes of the rotations when they are read.
@@ -122,6 +124,7 @@ impl EffectSums {
         indentation_m: [0.0; 2],
         joints: [None; 2],
         impact_factors: [1.0; 8],
+        impact_fading_s_per_m: 0.0,
         ground: GroundChange::NONE,
         reading: Reading::TRUE,
         lanes: Lanes::Known,

@@ -1,7 +1,8 @@
 //! Coefficients of impacts that depend on how fast a joint closes.
 //!
 //! The coefficients of Table 2 are constants: of two impacts with the same change of pattern, both keep the same share.
-//! Measured ones need not: what a faster impact crushes is lost. Such a law is a formula, a factor on C_l.
+//! Measured ones need not: what a faster impact crushes is lost. Such a law is a factor on C_l, the catalogue's exp(-b u)
+//! or a formula.
 
 use std::sync::Arc;
 
@@ -34,12 +35,13 @@ impl ImpactFactors {
 }
 
 impl RockingWall {
-    /// By what the formulas scale the coefficient of an impact; 1 without any. Where both joints touch at once, the one whose
-    /// edge comes down faster counts.
+    /// By what the speed scales the coefficient of an impact; 1 where it does not matter. Where both joints touch at once, the
+    /// one whose edge comes down faster counts.
     #[inline]
     pub(in crate::model) fn factor_at_impact(&self, collision: &Collision) -> f64 {
         let ImpactFactors(factors) = &self.wall().impact_factors;
-        if factors.is_empty() {
+        let fading_s_per_m = self.wall().effects.impact_fading_s_per_m;
+        if factors.is_empty() && fading_s_per_m == 0.0 {
             return 1.0;
         }
         let omega: Pair = collision.v_before.theta;
@@ -49,6 +51,7 @@ impl RockingWall {
         };
         let touching = self.joints().filter(|joint| collision.touching.at(*joint)).map(closing);
         let fastest = touching.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0; 3]);
-        factors.iter().map(|factor| factor.value(fastest, &Branches::FREE)).product()
+        let written: f64 = factors.iter().map(|factor| factor.value(fastest, &Branches::FREE)).product();
+        libm::exp(-fading_s_per_m * fastest[0]) * written
     }
 }

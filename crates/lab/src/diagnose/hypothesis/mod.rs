@@ -7,8 +7,8 @@ mod unknown;
 
 pub use addition::{ACTING, Addition};
 pub use addition::{beds, candidates};
-pub use unknown::Nuisance;
 pub use unknown::Scales;
+pub use unknown::{FADES, Nuisance};
 pub use unknown::{Measure, Unknown};
 pub use unknown::{WALL_NUMBERS, WallNumber, wall_number};
 

@@ -160,6 +160,11 @@ impl Unknown {
         value.clamp(self.lower, self.upper)
     }
 
+    /// Whether it tells how much less faster impacts keep.
+    pub fn fades(&self) -> bool {
+        self.unit == Quantity::ImpactFading.unit()
+    }
+
     /// Whether it is the softness of a bed.
     pub fn is_softness(&self) -> bool {
         self.measure == Measure::Softness
@@ -309,6 +314,9 @@ pub struct Scales {
     pub sensor_gain_sd: Option<f64>,
 }
 
+/// At a fading of the size that matters, impacts at the speed of the largest swing keep exp of minus this: a quarter less.
+pub const FADES: f64 = 0.3;
+
 impl Scales {
     /// Of a wall in its tests.
     pub fn of(wall: &Wall, tests: &[TestData]) -> Self {
@@ -358,6 +366,7 @@ impl Scales {
             Quantity::Rotation => 0.1 * self.rotation_rad,
             Quantity::Time => 0.05 / self.frequency_rad_s,
             Quantity::Ratio | Quantity::ImpactFactor => 1.0,
+            Quantity::ImpactFading => FADES / (self.width_m * self.rotation_rad * self.frequency_rad_s),
         }
     }
 }

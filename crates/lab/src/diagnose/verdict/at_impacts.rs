@@ -7,7 +7,7 @@
 use super::remainder::{model_error_rad, most_error_rad};
 use crate::Progress;
 use crate::diagnose::fit::nats;
-use crate::diagnose::hypothesis::Addition;
+use crate::diagnose::hypothesis::{Addition, FADES};
 use crate::diagnose::trials::{
     BetweenImpacts, FittedHypothesis, Trials, best_answer, does_something, kinds, leave_noise,
 };
@@ -89,7 +89,16 @@ pub fn worth_two_between<P: Progress>(
 /// Whether a hypothesis has impacts, and all that they are told to keep is what those of another formulation may keep.
 pub fn keeps_as_another_formulation(tried: &FittedHypothesis) -> bool {
     let h = &tried.hypothesis;
-    let sd = |i: usize| tried.fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)].max(0.0).sqrt());
+    // What is kept changes by this much with a number.
+    let share = |i: usize| if h.unknowns[i].fades() { FADES / h.unknowns[i].scale } else { 1.0 };
+    let sd = |i: usize| {
+        let of_number = tried.fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)].max(0.0).sqrt());
+        share(i) * of_number
+    };
+    let kept = |i: usize| match h.unknowns[i].fades() {
+        true => (-share(i) * tried.fit.values[i]).exp(),
+        false => tried.fit.values[i],
+    };
     let is_factor = |i: &usize| {
         let impacts =
             |(index, addition): (usize, _)| is_impacts(addition) && h.unknowns[*i].belongs_to(index);
@@ -98,7 +107,7 @@ pub fn keeps_as_another_formulation(tried: &FittedHypothesis) -> bool {
     let [least, most] = KEPT_AT_IMPACTS;
     let inside = |i: usize| {
         let unsure = SIGNIFICANT_SD * sd(i);
-        (least - unsure..=most + unsure).contains(&tried.fit.values[i])
+        (least - unsure..=most + unsure).contains(&kept(i))
     };
     has_impacts(tried) && (h.nuisances..h.unknowns.len()).filter(is_factor).all(inside)
 }
@@ -122,7 +131,7 @@ fn has_impacts(tried: &FittedHypothesis) -> bool {
 }
 
 fn is_impacts(addition: &Addition) -> bool {
-    addition.role() == Some(Role::Impact)
+    addition.role().is_some_and(Role::is_at_impacts)
 }
 
 fn sum(sides: &[f64; 2]) -> f64 {
@@ -158,5 +167,23 @@ mod tests {
         assert!(!kept(&["impact_dissipation"], less, 1e-3));
         assert!(kept(&["impact_dissipation"], less, 0.2), "not told");
         assert!(!kept(&["impact_dissipation"], [1.2, 1.0, 1.0, 1.0, 1.0, 1.0], 1e-3), "more than any");
+    }
+
+    #[test]
+    fn analytic_impacts_that_fade_by_less_than_those_of_springs_are_no_effect() {
+        let hypothesis = starter_with(&["impact_fading"]);
+        let last = hypothesis.unknowns.len() - 1;
+        // Of what the fastest keep a share is lost.
+        let fading = |share: f64| -(1.0 - share).ln() / FADES * hypothesis.unknowns[last].scale;
+        let faded = |share: f64| {
+            let mut values = vec![0.0; last + 1];
+            values[last] = fading(share);
+            let covariance = Some(DMatrix::zeros(last + 1, last + 1));
+            let fit = Fit { values, windows: Vec::new(), cost: 0.0, covariance };
+            let hypothesis = hypothesis.clone();
+            keeps_as_another_formulation(&FittedHypothesis { hypothesis, held_out: fit.clone(), fit })
+        };
+        assert!(faded(0.005));
+        assert!(!faded(0.05));
     }
 }

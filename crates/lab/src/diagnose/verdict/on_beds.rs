@@ -15,7 +15,6 @@ use crate::limits::{
     BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
     REMAINDER_TAKEN, WORTH_A_NAME,
 };
-use mrbd_kernel::model::Role;
 
 /// The verdict where joints that give are the answer, or part of it; `None` where they are not.
 pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found> {
@@ -118,7 +117,7 @@ impl BedsBeside {
 
 /// Whether a single addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.
 fn is_effect(single: &FittedHypothesis) -> bool {
-    single.hypothesis.additions[0].role().is_some_and(|role| role != Role::Impact)
+    single.hypothesis.additions[0].role().is_some_and(|role| !role.is_at_impacts())
 }
 
 /// Why joints that give, alone or with an effect, may be named.

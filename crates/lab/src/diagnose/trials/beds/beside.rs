@@ -48,7 +48,7 @@ impl<P: Progress> Trials<'_, P> {
         let most = (1.0 - BESIDE_BEDS_ASKED_FOR) * excess(&few.left(&alone.fit));
         let is_effect = |t: &&FittedHypothesis| {
             let role = t.hypothesis.additions[0].role();
-            role.is_some_and(|role| role != Role::Impact)
+            role.is_some_and(|role| !role.is_at_impacts())
                 && t.hypothesis.unknowns.len() == t.hypothesis.nuisances + 1
         };
         let begun = rivals.iter().filter(is_effect).filter_map(|effect| Probe::new(self, effect, None));
@@ -118,7 +118,7 @@ impl<P: Progress> Trials<'_, P> {
         let first = few.of(bed);
         let data = Data { fit: few.problem(), held_out: few.nothing() };
         // Coefficients of impact do nothing on a bed.
-        let is_effect = |a: &Addition| a.role().is_some_and(|role| role != Role::Impact);
+        let is_effect = |a: &Addition| a.role().is_some_and(|role| !role.is_at_impacts());
         let effects = candidates(self.experiment.wall.parameters()).into_iter().filter(is_effect);
         let hypothesis = |additions: &[Addition]| self.hypothesis(&self.experiment.nuisances, additions);
         let looked_at = seconds(&data, &first, &effects.collect::<Vec<_>>(), hypothesis);
