@@ -48,7 +48,7 @@ impl FormulaEntry {
                 Place::Top => &["x m", "v m/s", "x_max the largest abs(x) so far, m"],
                 Place::Ground | Place::Crack => &["phi rad", "w rad/s", "N the weight on the joint, N"],
                 Place::Impacts => {
-                    &["u speed of the edge that comes down, m/s", "w rad/s", "N the weight on the joint, N"]
+                    &["u the speed of the edge that comes down, m/s", "w rad/s", "N the weight on the joint, N"]
                 }
             },
         });
@@ -74,7 +74,7 @@ impl FormulaEntry {
         lines.extend(self.places.iter().map(of_place));
         lines.push(format!("  operators {}; functions {}", self.operators, self.functions.join(" ")));
         lines.push(indented(&format!("Told by itself by {}.", self.told_by)));
-        lines.push("  In a wall file (several add up):\n".to_owned());
+        lines.push("  In a wall file (several add up, factors multiply):\n".to_owned());
         // The example is a formula, as the test below shows.
         let text = example().ok().and_then(|law| toml::to_string(&Example { effects: [law] }).ok());
         lines.push(lines_of(&text.unwrap_or_default()));
