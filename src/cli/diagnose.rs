@@ -85,6 +85,9 @@ fn in_words(summary: &Summary) -> String {
         _ => "windowed error: no window in which the wall moves".to_owned(),
     });
     lines.extend(summary.hypotheses.iter().map(own_in_words));
+    lines.extend(summary.unfinished.iter().map(|(law, fits)| {
+        format!("not fitted to the end, and no answer for that: {law} ({fits} fits needed more work than one may have)")
+    }));
     lines.join("\n")
 }
 

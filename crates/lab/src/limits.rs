@@ -218,6 +218,12 @@ limits! {
     ANSWER_SHARES: [f64; 6] = [0.7, 0.87, 0.96, 1.04, 1.15, 1.4], "share";
     /// Shares of itself from which each number of a law outside the catalogue is fitted again.
     LAW_SHARES: [f64; 2] = [0.93, 1.07], "share";
+    /// Gain below which two such fits have come to one place by their first steps, and go on as one.
+    ///
+    /// Where windows are linear; chosen below [`EQUIVALENT`]. States of some windows that differ part them by as much.
+    ONE_PLACE: f64 = 10.0, "ln of likelihood";
+    /// Places from which such fits are ended.
+    ANSWER_FINISHED: usize = 3, "";
     /// Times that an answer is fitted again from about itself.
     ANSWER_ROUNDS: usize = 3, "";
     /// Gain that is worth another time.
@@ -454,6 +460,11 @@ limits! {
     /// Nothing holds a joint that is open, and a moment that jumps at rest is refused of a wall file. Chosen: one that nearly jumps
     /// is taken to be what once kept a look at eight pairs from ending; with this limit it took 1.3 s.
     LEAST_AT_JOINTS: f64 = 0.5, "";
+    /// What one fit of a law, a curve or an answer may work, for each number that it looks for: evaluations of the equations of
+    /// motion for each second of the windows fitted.
+    ///
+    /// A fit that needs more ends, is none of the answers, and is told under `unfinished`.
+    FIT_WORK: f64 = 2e5, "1/s";
     /// The best of these are told among the rivals.
     LAWS_TOLD: usize = 4, "";
     /// Largest size of a law in windows, over that found over points.

@@ -293,7 +293,7 @@ impl Likelihood<'_> {
     }
 
     fn problem<'w>(&'w self, windows: &'w [Window]) -> Problem<'w> {
-        Problem { tests: self.tests, windows }
+        Problem { tests: self.tests, windows, budget: None }
     }
 
     /// The best fit in windows from vectors; `None` if none of them makes a wall.

@@ -318,7 +318,7 @@ pub fn windowed_errors(experiment: &Experiment, wall: &Wall) -> [Option<f64>; 2]
 /// Windowed error of a wall as it is in some tests; `None` where nothing moves.
 fn error_in(tests: &[TestData], wall: &Wall, scales: &Scales) -> Option<f64> {
     let windows = windows(tests);
-    let all = Problem { tests, windows: &windows };
+    let all = Problem { tests, windows: &windows, budget: None };
     let data = Data { fit: all, held_out: Problem { windows: &[], ..all } };
     let h = Hypothesis::new(wall.parameters(), scales, &[], &[]);
     windowed_error(&untouched(&data, h)?.fit.windows).filter(|error| *error > 0.0)

@@ -37,7 +37,8 @@ use answer::Findings;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use trials::{
-    Data, FirstFits, Trials, WallFits, gain_misread, opened_as_given, opened_windows, reads_better, set_gain,
+    Data, FirstFits, Trials, Unfinished, WallFits, gain_misread, opened_as_given, opened_windows,
+    reads_better, set_gain,
 };
 pub use verdict::Verdict;
 use verdict::{Found, judge, on_beds};
@@ -58,10 +59,12 @@ pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Dia
 /// # Errors
 /// As [`diagnose`].
 pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Result<Findings<'e>> {
-    let mut flow = Flow { experiment, progress, tests: experiment.tests.clone() };
+    let mut flow =
+        Flow { experiment, progress, tests: experiment.tests.clone(), unfinished: Unfinished::default() };
     let (windows, found) = flow.answered()?;
     let own = flow.trials(&windows).own_hypotheses(&found.before);
-    Ok(Findings { experiment, tests: flow.tests, windows, found, own })
+    let unfinished = flow.unfinished.all();
+    Ok(Findings { experiment, tests: flow.tests, windows, found, own, unfinished })
 }
 
 /// An experiment, with its tests as they are read so far.
@@ -69,6 +72,7 @@ struct Flow<'e, P> {
     experiment: &'e Experiment,
     progress: &'e P,
     tests: Vec<TestData>,
+    unfinished: Unfinished,
 }
 
 impl<P: Progress> Flow<'_, P> {
@@ -137,7 +141,7 @@ impl<P: Progress> Flow<'_, P> {
 
     /// Where hypotheses are tried.
     fn trials<'a>(&'a self, windows: &'a [Vec<Window>; 2]) -> Trials<'a, P> {
-        let Self { experiment, progress, tests } = self;
-        Trials { experiment, data: Data::new(tests, windows), progress }
+        let Self { experiment, progress, tests, unfinished } = self;
+        Trials { experiment, data: Data::new(tests, windows), progress, unfinished }
     }
 }

@@ -180,7 +180,7 @@ impl Pair<'_> {
     fn fitted(&self, row: &NextShaking, made: &SimulatedTest) -> Option<NextShaking> {
         let old = &self.findings.windows[0];
         let windows = [&old[..], &made.windows].concat();
-        let problem = Problem { tests: &made.tests, windows: &windows };
+        let problem = Problem { tests: &made.tests, windows: &windows, budget: None };
         let second = self.second;
         let new = states(made, second, &second.fit.values)?;
         let x = second.fit.windows.iter().chain(&new.windows).map(|w| w.x.clone()).collect::<Vec<_>>();
@@ -214,6 +214,6 @@ impl Pair<'_> {
 
 /// The states of the windows of a simulated test under a hypothesis.
 fn states(made: &SimulatedTest, tried: &FittedHypothesis, values: &[f64]) -> Option<Fit> {
-    let problem = Problem { tests: &made.tests, windows: &made.windows };
+    let problem = Problem { tests: &made.tests, windows: &made.windows, budget: None };
     problem.states(&tried.hypothesis, values, &problem.measured_states(), 4, true)
 }

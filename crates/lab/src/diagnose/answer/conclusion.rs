@@ -46,6 +46,8 @@ impl Findings<'_> {
             curves: self.force_curves(),
             equivalent_formulas: self.equivalent_formulas(),
             stability: found.discovered.as_ref().and_then(|found| found.stability),
+            refused: self.refused_laws(),
+            unfinished: self.unfinished.clone(),
             equivalent: found.equivalent.clone(),
             wall: wall_fits(&found.after),
             tests: self.test_errors(physics),

@@ -77,14 +77,20 @@ impl Findings<'_> {
     }
 
     fn formula(&self, law: &Law, written: &Written, values: &[f64], intervals: &[[f64; 2]]) -> FoundEffect {
+        let names = written.parameters.iter().map(|p| p.name.clone());
+        let interval = names.zip(law.intervals(written, values, intervals)).collect();
+        FoundEffect { interval, ..self.without_intervals(written) }
+    }
+
+    /// A formula with its numbers alone.
+    pub(super) fn without_intervals(&self, written: &Written) -> FoundEffect {
         let named = || written.parameters.iter();
-        let ends = law.intervals(written, values, intervals);
         FoundEffect {
             kind: Some(FORMULA.to_owned()),
             name: Some(FORMULA.to_owned()),
             place: written.site.name().to_owned(),
             parameters: named().map(|p| (p.name.clone(), p.value)).collect(),
-            interval: named().map(|p| p.name.clone()).zip(ends).collect(),
+            interval: BTreeMap::new(),
             written_as: None,
             sets_in_over_m: None,
             formula: Some(written.text.clone()),

@@ -5,14 +5,17 @@
 //! | [`Findings`] | fitted hypotheses and the windows they were fitted to, before anything is said of them |
 //! | [`summary`] | the types of `diagnosis.json`, written, read and scored as one struct |
 //! | [`rows`] | the rows of the tables beside it, and how they follow from the findings |
-//! | `conclusion`, `own`, `formulas`, `updated_wall` | how the summary and the updated wall file follow from the findings |
+//! | `conclusion`, `own`, `formulas`, `refused`, `updated_wall` | how the summary and the updated wall file follow from the findings |
 
 mod conclusion;
 mod formulas;
 mod own;
+mod refused;
 pub mod rows;
 pub mod summary;
 mod updated_wall;
+
+use std::collections::BTreeMap;
 
 use super::experiment::Experiment;
 use super::trials::{Data, FittedHypothesis};
@@ -23,7 +26,7 @@ use rows::ForceBeforeAfter;
 pub use rows::Tables;
 pub use summary::{
     Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, ForceCurve, ForceSize,
-    FoundEffect, KIND, MissingForce, OwnHypothesis, Rival, Stages, Summary, TestErrors, WallFit,
+    FoundEffect, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, Stages, Summary, TestErrors, WallFit,
     WindowCounts,
 };
 
@@ -80,6 +83,8 @@ pub struct Findings<'e> {
     pub found: Found,
     /// Laws of the user's own, in the order of the experiment.
     pub own: Vec<Option<FittedHypothesis>>,
+    /// Of which hypotheses how many fits ended because they had worked as much as they may.
+    pub unfinished: BTreeMap<String, usize>,
 }
 
 impl Findings<'_> {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::diagnose::certainty::{Confused, NextTests};
-use crate::diagnose::discovery::Stability;
+use crate::diagnose::discovery::{Guard, Stability};
 use crate::diagnose::verdict::{OtherLaw, Remainder, Verdict};
 use crate::experiment::Purpose;
 use mrbd_kernel::model::Pair;
@@ -36,6 +36,12 @@ pub struct Summary {
     /// How sure the form of a formula is; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stability: Option<Stability>,
+    /// Laws outside the catalogue, and names, that were refused though they fit, with what refused each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub refused: Vec<RefusedLaw>,
+    /// Of which laws how many fits ended because they had worked as much as they may: none of these is an answer.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub unfinished: BTreeMap<String, usize>,
     /// Kinds, or numbers of the wall, that these tests cannot tell apart.
     pub equivalent: Vec<String>,
     /// Uncertain numbers of the wall as the answer has them.
@@ -156,6 +162,25 @@ pub struct FoundEffect {
     /// What the tests excited of its variables: `x_m` and `v_m_s` at the top, `phi_rad` and `w_rad_s` at joints.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub range: BTreeMap<String, [f64; 2]>,
+}
+
+/// A law that was refused.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RefusedLaw {
+    /// Its formulas with their places, or the names of effects.
+    pub name: String,
+    /// Its formulas with their numbers, without intervals; empty for a name.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub effects: Vec<FoundEffect>,
+    /// Uncertain numbers of the wall beside it, by key.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub wall: BTreeMap<String, f64>,
+    /// What refused it. [`Guard::Bend`] and [`Guard::Trend`] are asked of a law alone that at most one other guard refuses, and
+    /// whose windows are followed.
+    pub guards: Vec<Guard>,
+    /// Windowed error, in standard deviations of the noise; absent where points alone have seen it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub windowed_error: Option<FitHeldOut<Option<f64>>>,
 }
 
 /// A force on the wall against one quantity, straight between knots, and nothing at rest.

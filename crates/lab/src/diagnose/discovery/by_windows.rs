@@ -1,25 +1,22 @@
 //! Laws found over points, fitted to windows with their impacts: these alone judge.
 
-use super::curve::curve_of;
 use super::equals::{law_of, simplest_of_equals};
 use super::guards::{holds_in_each_test, lies_inside};
 use super::points::Points;
+use super::refused::{Guard, Refused};
 use super::search::{Candidate, Searched, search};
 use super::stability::Stability;
 use crate::Progress;
-use crate::diagnose::certainty::covariance;
-use crate::diagnose::experiment::Experiment;
-use crate::diagnose::fit::{WindowFit, nats, windowed_error};
-use crate::diagnose::formula::{BOTH, Law, Site, nearest_exact};
+use crate::diagnose::fit::nats;
+use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    Data, FittedHypothesis, Trials, against, closes, does_something, refit, shared_states,
+    Data, FittedHypothesis, Trials, against, closes_held_out, does_something, finished_first_fit, first_fit,
+    follows_to_noise, judged, refit, shared_states,
 };
-use crate::experiment::Window;
 use crate::limits::{
-    CURVE_SHRINKS, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS,
+    LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, NEAR_BEST_SHARE, WORTH_A_NAME, WORTH_WINDOWS,
 };
-use mrbd_kernel::model::Wall;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -30,12 +27,16 @@ pub struct Discovered {
     pub equals: Vec<FittedHypothesis>,
     /// The best laws that were fitted to windows, in order.
     pub tried: Vec<FittedHypothesis>,
+    /// Laws that were refused, and what refused them.
+    pub refused: Vec<Refused>,
     /// A force without a formula, where no law holds and it does.
     pub curve: Option<FittedHypothesis>,
     /// How sure the form of these is, over points.
     pub stability: Option<Stability>,
     /// By site: least and largest displacement and velocity that were excited.
     pub excited: [[[f64; 2]; 2]; 3],
+    /// Laws of one atom, as far as they were fitted to windows.
+    pub(super) singles: Vec<Fitted>,
 }
 
 impl Discovered {
@@ -43,6 +44,14 @@ impl Discovered {
     pub fn at(&self, site: Site) -> [[f64; 2]; 2] {
         self.excited[site as usize]
     }
+}
+
+/// A law fitted to windows.
+#[derive(Debug, Clone)]
+pub(super) struct Fitted {
+    pub law: FittedHypothesis,
+    /// Whether its fit ended by itself, and not because it had worked as much as it may.
+    pub is_done: bool,
 }
 
 /// A gap that the catalogue does not close.
@@ -58,18 +67,21 @@ pub struct OpenGap<'t> {
     pub in_full: bool,
     /// Laws that windows speak of already: they are tried whatever points say.
     pub kin: &'t [Law],
+    /// What was found before, without laws of two atoms: laws of one atom are not fitted again.
+    pub before: Option<&'t Discovered>,
+}
+
+/// What a law is asked beside its fit.
+pub trait AskedOfLaws {
+    /// Whether a law of two atoms is worth it beside the best of one.
+    fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool;
+    /// Which of [`Guard::Bend`] and [`Guard::Trend`] speak against a law.
+    fn other_law(&self, law: &FittedHypothesis) -> Vec<Guard>;
 }
 
 impl<P: Progress> Trials<'_, P> {
     /// Looks for a law outside the catalogue that closes a gap. `None` where points say nothing of one.
-    ///
-    /// A law of two atoms must be worth it beside the best of one: `worth_two` tells.
-    pub fn discover(
-        &self,
-        gap: &OpenGap,
-        worth_two: impl Fn(&FittedHypothesis, &FittedHypothesis) -> bool,
-        holds: impl Fn(&FittedHypothesis) -> bool,
-    ) -> Option<Discovered> {
+    pub fn discover(&self, gap: &OpenGap, asked: &impl AskedOfLaws) -> Option<Discovered> {
         let wall = self.hypothesis(&self.experiment.nuisances, &[]);
         let points = Points::new(self.data.fit.tests, &wall)?;
         let searched = search(&points)?;
@@ -77,21 +89,28 @@ impl<P: Progress> Trials<'_, P> {
         if best < WORTH_WINDOWS && gap.kin.is_empty() {
             return None;
         }
-        let mut tried = self.laws_in_windows(gap, &searched, gap.kin, &searched.singles, "laws of one atom");
-        let may_be = |t: &&FittedHypothesis| self.may_be(gap, &searched, t);
-        let one = tried.iter().filter(may_be).cloned().collect::<Vec<_>>();
-        let mut closing = one;
+        let mut refused = self.refused_over_points(&searched, &searched.singles);
+        let singles = self.singles_in_windows(gap, &searched);
+        let mut closing = Vec::new();
+        let mut judge = |fitted: &[Fitted], simpler: Option<&FittedHypothesis>| {
+            for one in fitted {
+                match self.guards(gap, &searched, one, simpler, asked) {
+                    guards if guards.is_empty() => closing.push(one.law.clone()),
+                    guards => refused.push(Refused::in_windows(&one.law, guards)),
+                }
+            }
+            closing.is_empty()
+        };
+        let is_open = judge(&singles, None);
+        let mut tried = singles.iter().map(|fitted| fitted.law.clone()).collect::<Vec<_>>();
         let single = searched.singles.first().map_or(0.0, |c| c.evidence);
-        if gap.in_full
-            && closing.is_empty()
-            && searched.pairs.first().is_some_and(|pair| pair.evidence > single)
-        {
+        if gap.in_full && is_open && searched.pairs.first().is_some_and(|pair| pair.evidence > single) {
             let simpler = tried.first().unwrap_or(gap.recalibrated).clone();
             let pairs = self.laws_in_windows(gap, &searched, &[], &searched.pairs, "laws of two atoms");
-            closing = pairs.iter().filter(may_be).filter(|two| worth_two(&simpler, two)).cloned().collect();
-            tried.extend(pairs);
+            judge(&pairs, Some(&simpler));
+            refused.extend(self.refused_over_points(&searched, &searched.pairs));
+            tried.extend(pairs.into_iter().map(|fitted| fitted.law));
         }
-        let closing = closing.into_iter().filter(|t| holds(t)).collect();
         let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
         let mut tried = self.ordered(tried);
         let curve =
@@ -102,46 +121,84 @@ impl<P: Progress> Trials<'_, P> {
         Some(Discovered {
             equals,
             tried,
+            refused,
             curve,
             stability,
             excited: Site::ALL.map(|site| points.range(site)),
+            singles,
         })
     }
 
-    /// A force without a formula, with the numbers of the wall that points give it, where windows say that it is one: more
-    /// than the nearest of the catalogue, and than the best law, though that was refused. A memory is no curve, but looks like
-    /// one.
-    fn curve(
+    /// Laws of one atom, fitted to windows: those that were fitted before, and kin.
+    fn singles_in_windows(&self, gap: &OpenGap, searched: &Searched) -> Vec<Fitted> {
+        let Some(before) = gap.before else {
+            return self.laws_in_windows(gap, searched, gap.kin, &searched.singles, "laws of one atom");
+        };
+        // What follows best by now has states that these laws have not tried.
+        let sharing = |fitted: &Fitted| Fitted {
+            law: shared_states(&self.data, &fitted.law, &[gap.nearest]),
+            ..fitted.clone()
+        };
+        let mut singles = before.singles.par_iter().map(sharing).collect::<Vec<_>>();
+        if !gap.kin.is_empty() {
+            singles.extend(self.laws_in_windows(gap, searched, gap.kin, &[], "laws of one atom"));
+        }
+        self.in_order(singles)
+    }
+
+    /// What speaks against a law that was fitted to windows; nothing where it closes the gap with numbers that mean something.
+    ///
+    /// What is left over is asked only where nothing else speaks against it, or one thing alone and that not the windows fitted:
+    /// a guard counts where no other refuses the law.
+    fn guards(
         &self,
         gap: &OpenGap,
         searched: &Searched,
-        law: Option<&FittedHypothesis>,
-    ) -> Option<FittedHypothesis> {
-        let (curve, steps) = curve_of(&searched.equations)?;
-        self.progress.begin("a force without a formula", 1);
-        let Experiment { wall, scales, nuisances, .. } = self.experiment;
-        let hypothesis = Hypothesis::of_curve(wall.parameters(), scales, nuisances, curve);
-        let forces = curve.knots().map(|(p, k)| curve.parts[p].force_n[k]);
-        let values = beside(&hypothesis, &steps).chain(forces).collect::<Vec<_>>();
-        let within = values.iter().zip(&hypothesis.unknowns).map(|(value, u)| u.within(*value));
-        let values = within.collect::<Vec<_>>();
-        let found = refit(&self.data, hypothesis, gap.nearest, &values);
-        self.progress.advance(1);
-        let found = found.filter(|found| {
-            let against = |tried: &FittedHypothesis| against_inside(&self.data, wall, found, tried);
-            let best = law.map_or(f64::INFINITY, against);
-            let gain = against(gap.nearest).min(best) - against(found);
-            gain >= WORTH_A_NAME && shrinks(&self.data, wall, gap.recalibrated, found)
-        });
-        found.map(|found| told(&self.data, found))
-    }
-
-    /// Whether a law that was fitted to windows closes the gap, with numbers that mean something.
-    fn may_be(&self, gap: &OpenGap, searched: &Searched, tried: &FittedHypothesis) -> bool {
+        Fitted { law: tried, is_done }: &Fitted,
+        simpler: Option<&FittedHypothesis>,
+        asked: &impl AskedOfLaws,
+    ) -> Vec<Guard> {
         let gain = against(&self.data, gap.recalibrated) - against(&self.data, tried);
         let laws = tried.hypothesis.laws(&tried.fit.values);
-        let sound = |law: &Law| lies_inside(law) && holds_in_each_test(&searched.equations, law);
-        closes(tried, gap.error) && does_something(tried) && gain >= WORTH_A_NAME && laws.iter().all(sound)
+        let all = |holds: &dyn Fn(&Law) -> bool| laws.iter().all(holds);
+        let speaks = [
+            (Guard::Work, !is_done),
+            (Guard::Gap, !follows_to_noise(tried, gap.error)),
+            (Guard::HeldOut, !closes_held_out(tried)),
+            (Guard::Size, !does_something(tried)),
+            (Guard::Evidence, gain < WORTH_A_NAME),
+            (Guard::InsideRange, !all(&lies_inside)),
+            (Guard::LeftOutTests, !all(&|law| holds_in_each_test(&searched.equations, law))),
+            (Guard::SecondAtom, simpler.is_some_and(|one| !asked.is_worth_two(one, tried))),
+        ];
+        let mut guards =
+            speaks.into_iter().filter(|(_, speaks)| *speaks).map(|(guard, _)| guard).collect::<Vec<_>>();
+        if guards.len() < 2 && !guards.contains(&Guard::Gap) {
+            guards.extend(asked.other_law(tried));
+        }
+        guards
+    }
+
+    /// The best laws over points that are not tried in windows, and what refused them.
+    fn refused_over_points(&self, searched: &Searched, laws: &[Candidate]) -> Vec<Refused> {
+        let of_points = |c: &Candidate| {
+            let speaks = [
+                (Guard::InsideRange, !lies_inside(&c.law)),
+                (Guard::LeftOutTests, !holds_in_each_test(&searched.equations, &c.law)),
+            ];
+            speaks.into_iter().filter(|(_, speaks)| *speaks).map(|(guard, _)| guard).collect::<Vec<_>>()
+        };
+        let is_worth = |c: &&Candidate| c.evidence > WORTH_WINDOWS;
+        let judged = laws.iter().filter(is_worth).take(LAWS_IN_WINDOWS).map(|c| (c, of_points(c)));
+        let best = searched.singles.first().map_or(0.0, |c| c.evidence).max(WORTH_WINDOWS);
+        let of_one = laws.first().is_some_and(|c| c.law.second.is_none());
+        let feeding = searched.feeding.iter().filter(|c| of_one && c.evidence > best);
+        let all = judged.chain(feeding.map(|c| (c, vec![Guard::Passivity])));
+        let refused = |(c, guards): (&Candidate, Vec<Guard>)| {
+            let (hypothesis, values) = self.of_points(searched, &c.law)?;
+            Some(Refused { hypothesis, values, guards, errors: None })
+        };
+        all.filter(|(_, guards)| !guards.is_empty()).filter_map(refused).collect()
     }
 
     /// Laws that are known to be near and the best of those found over points, fitted to windows; the first of these with
@@ -153,7 +210,7 @@ impl<P: Progress> Trials<'_, P> {
         kin: &[Law],
         laws: &[Candidate],
         what: &str,
-    ) -> Vec<FittedHypothesis> {
+    ) -> Vec<Fitted> {
         let sound = |c: &&Candidate| {
             c.evidence > WORTH_WINDOWS
                 && lies_inside(&c.law)
@@ -170,46 +227,113 @@ impl<P: Progress> Trials<'_, P> {
         let mut starts = laws.par_iter().filter_map(look).collect::<Vec<_>>();
         starts.sort_by(|a, b| a.nats.total_cmp(&b.nats));
         starts.truncate(LAWS_FITTED);
-        self.progress.begin(what, starts.len());
-        let fit = |start: &Start| {
-            let found = refit(&self.data, start.hypothesis.clone(), gap.nearest, &start.values);
-            self.progress.advance(1);
-            found
-        };
-        let free = self.ordered(starts.par_iter().filter_map(fit).collect());
+        let free = self.finished_if_near(gap, starts, what);
         let exact = self.exactly(&free);
-        self.ordered([free, exact].concat())
+        self.in_order([free, exact].concat())
+    }
+
+    /// Laws fitted from where they start: all of them coarsely, and to the end those that are near the best by then.
+    fn finished_if_near(&self, gap: &OpenGap, starts: Vec<Start>, what: &str) -> Vec<Fitted> {
+        self.progress.begin(what, starts.len());
+        let first = |start: Start| {
+            let name = law_name(&start.hypothesis, &start.values);
+            let coarse = |data: &Data| {
+                let fit = first_fit(data, &start.hypothesis, gap.nearest, &start.values)?;
+                judged(data, start.hypothesis.clone(), fit, gap.nearest, false)
+            };
+            let found = self.within_budget(&name, start.values.len(), coarse);
+            // A fit without an end is told as it began.
+            let unfinished = || {
+                let fit = self.data.fit.states(
+                    &start.hypothesis,
+                    &start.values,
+                    &gap.nearest.states(),
+                    0,
+                    false,
+                )?;
+                judged(&self.data, start.hypothesis.clone(), fit, gap.nearest, false)
+            };
+            match found {
+                Some(law) => Some(Fitted { law, is_done: true }),
+                None => Some(Fitted { law: unfinished()?, is_done: false }),
+            }
+        };
+        let begun = starts.into_par_iter().filter_map(first).collect::<Vec<_>>();
+        let against = |law: &FittedHypothesis| against(&self.data, law);
+        let best = begun.iter().map(|fitted| against(&fitted.law)).fold(f64::INFINITY, f64::min);
+        let limit = best + NEAR_BEST.max(NEAR_BEST_SHARE * best);
+        let finish = |begun: Fitted| {
+            let name = law_name(&begun.law.hypothesis, &begun.law.fit.values);
+            let found = (begun.is_done && against(&begun.law) < limit).then(|| {
+                let FittedHypothesis { hypothesis, fit, .. } = &begun.law;
+                let finish =
+                    |data: &Data| finished_first_fit(data, hypothesis.clone(), fit.clone(), gap.nearest);
+                self.within_budget(&name, fit.values.len(), finish)
+            });
+            self.progress.advance(1);
+            match found {
+                // Too far behind, or without an end before.
+                None => begun,
+                Some(None) => Fitted { is_done: false, ..begun },
+                Some(Some(law)) => Fitted { law, is_done: true },
+            }
+        };
+        self.in_order(begun.into_par_iter().map(finish).collect())
+    }
+
+    /// Fitted laws in the order of what speaks against them.
+    fn in_order(&self, mut fitted: Vec<Fitted>) -> Vec<Fitted> {
+        let of = |fitted: &Fitted| against(&self.data, &fitted.law);
+        fitted.sort_by(|a, b| of(a).total_cmp(&of(b)));
+        self.ordered(fitted.iter().map(|fitted| fitted.law.clone()).collect());
+        fitted
     }
 
     /// The best of fitted laws once more, with exact exponents where theirs are near.
-    fn exactly(&self, free: &[FittedHypothesis]) -> Vec<FittedHypothesis> {
-        let Some(best) = free.first().map(|best| against(&self.data, best)) else { return Vec::new() };
-        let near = free.iter().filter(|t| against(&self.data, t) < best + NEAR_BEST);
-        let exact = near.filter_map(|t| Some((t, exact_law(t)?))).collect::<Vec<_>>();
+    fn exactly(&self, free: &[Fitted]) -> Vec<Fitted> {
+        let Some(best) = free.first().map(|best| against(&self.data, &best.law)) else { return Vec::new() };
+        let near = free.iter().filter(|t| t.is_done && against(&self.data, &t.law) < best + NEAR_BEST);
+        let exact = near.filter_map(|t| Some((&t.law, exact_law(&t.law)?))).collect::<Vec<_>>();
         self.progress.begin("laws with exact exponents", exact.len());
         let fit = |(from, law): &(&FittedHypothesis, Law)| {
             let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
             let own = from.fit.values.iter().take(h.nuisances).copied();
             let values = own.chain(law.values()).collect::<Vec<_>>();
+            let name = law_name(&h, &values);
             // Near impacts that the noise decides a fit may end in another valley than the one it set out from.
-            let found = refit(&self.data, h, from, &values);
-            let found = found.map(|found| shared_states(&self.data, &found, &[from]));
+            let found = self.within_budget(&name, values.len(), |data| {
+                let found = refit(data, h, from, &values)?;
+                Some(shared_states(data, &found, &[from]))
+            });
             self.progress.advance(1);
-            found
+            // What the same law with free exponents is judged by stays.
+            Some(Fitted { law: found?, is_done: true })
         };
         exact.par_iter().filter_map(fit).collect()
     }
 
-    /// A law with the numbers that points give it and the wall, and how well windows follow it so, their states fitted.
-    fn start_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<Start> {
+    /// A law with the numbers that points give it and the wall.
+    fn of_points(&self, searched: &Searched, law: &Law) -> Option<(Hypothesis, Vec<f64>)> {
         let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
         let steps = searched.equations.wall_steps(law)?;
         let values = beside(&hypothesis, &steps).chain(law.values()).zip(&hypothesis.unknowns);
         let values = values.map(|(value, unknown)| unknown.within(value)).collect::<Vec<_>>();
-        let states = gap.nearest.fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
-        let fit = self.data.fit.states(&hypothesis, &values, &states, LOOK_STEPS, false)?;
+        Some((hypothesis, values))
+    }
+
+    /// The same, and how well windows follow it so, their states fitted.
+    fn start_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<Start> {
+        let (hypothesis, values) = self.of_points(searched, law)?;
+        let look =
+            |data: &Data| data.fit.states(&hypothesis, &values, &gap.nearest.states(), LOOK_STEPS, false);
+        let fit = self.within_budget(&law.name(), values.len(), look)?;
         Some(Start { nats: nats(&fit.windows), hypothesis, values })
     }
+}
+
+/// The law of a hypothesis by its formula.
+fn law_name(h: &Hypothesis, values: &[f64]) -> String {
+    h.laws(values).iter().map(Law::name).collect::<Vec<_>>().join(" + ")
 }
 
 /// The wall's numbers after steps in standard deviations of what was known.
@@ -219,63 +343,6 @@ pub(super) fn beside<'h>(
 ) -> impl Iterator<Item = f64> + use<'h> {
     let own = hypothesis.unknowns.iter().take(hypothesis.nuisances).zip(steps.iter());
     own.map(|(unknown, step)| unknown.within(unknown.start + step * unknown.prior_sd.unwrap_or(0.0)))
-}
-
-/// A fitted curve with its forces and their standard deviations.
-fn told(data: &Data, found: FittedHypothesis) -> FittedHypothesis {
-    let h = &found.hypothesis;
-    let covariance = covariance(data, &found);
-    let sd = |i: usize| covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].sqrt());
-    let sd_n = (h.nuisances..h.unknowns.len()).map(sd).collect::<Vec<_>>();
-    let curve = h.curve.map(|curve| curve.with_forces(&found.fit.values[h.nuisances..], Some(&sd_n)));
-    let mut told = found;
-    told.hypothesis.curve = curve;
-    told
-}
-
-/// Which windows held out stay where a curve is told: beyond its last knot nothing is known.
-fn inside(data: &Data, wall: &Wall, curve: &FittedHypothesis) -> Vec<bool> {
-    let p = wall.parameters();
-    let crack_m = p.crack_height_m.unwrap_or(p.height_m);
-    let reach = curve.hypothesis.curve.map_or(f64::INFINITY, |curve| curve.parts[0].at[BOTH - 1]);
-    let stays = |window: &Window| {
-        let theta = &data.held_out.tests[window.test].theta_rad[window.samples.clone()];
-        theta.iter().all(|[one, two]| {
-            let x = crack_m * one + (p.height_m - crack_m) * two;
-            // What was not read goes nowhere.
-            !x.is_finite() || x.abs() <= reach
-        })
-    };
-    data.held_out.windows.iter().map(stays).collect()
-}
-
-/// The windows held out of a hypothesis that stay where a curve is told.
-fn held_out_inside(
-    data: &Data,
-    wall: &Wall,
-    curve: &FittedHypothesis,
-    of: &FittedHypothesis,
-) -> Vec<WindowFit> {
-    let both = of.held_out.windows.iter().zip(inside(data, wall, curve));
-    both.filter(|(_, inside)| *inside).map(|(window, _)| window.clone()).collect()
-}
-
-/// What speaks against a hypothesis in the windows fitted and in those held out in which a curve is told.
-fn against_inside(data: &Data, wall: &Wall, curve: &FittedHypothesis, of: &FittedHypothesis) -> f64 {
-    of.against(data)[0] + nats(&held_out_inside(data, wall, curve, of))
-}
-
-/// Whether a curve takes away most of the squared error above noise that the wall leaves, in the tests fitted and, where it is
-/// told, in those held out.
-fn shrinks(data: &Data, given: &Wall, wall: &FittedHypothesis, found: &FittedHypothesis) -> bool {
-    let excess = |error: f64| (error * error - 1.0).max(0.0);
-    let errors = |of: &FittedHypothesis| {
-        [windowed_error(&of.fit.windows), windowed_error(&held_out_inside(data, given, found, of))]
-    };
-    errors(wall).into_iter().zip(errors(found)).all(|errors| match errors {
-        (Some(before), Some(after)) => excess(after) <= (1.0 - CURVE_SHRINKS) * excess(before),
-        (before, _) => before.is_none(),
-    })
 }
 
 /// Steps of the states of windows at a first look.

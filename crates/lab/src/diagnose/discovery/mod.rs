@@ -7,23 +7,27 @@
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
 //! | `guards` | what refuses a law that fits |
 //! | `kin` | a name whose exponent, set free, does clearly better |
-//! | `curve` | a force without a formula |
+//! | [`Guard`] | the same by name, with the laws that each refused |
+//! | `curve`, `curve_in_windows` | a force without a formula |
 //! | `equals` | laws that the tests cannot tell apart |
 //! | [`Stability`] | how sure the form of a law is |
 
 mod by_windows;
 mod curve;
+mod curve_in_windows;
 mod equals;
 mod guards;
 mod kin;
 mod points;
+mod refused;
 mod search;
 mod stability;
 #[cfg(test)]
 mod twin;
 
-pub use by_windows::{Discovered, OpenGap};
+pub use by_windows::{AskedOfLaws, Discovered, OpenGap};
 pub use kin::is_of_catalogue;
 pub use points::Points;
+pub use refused::{Guard, Refused};
 pub use search::{Candidate, Searched, search};
 pub use stability::{Stability, UnseenGain};

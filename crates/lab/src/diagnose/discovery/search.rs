@@ -223,6 +223,8 @@ pub struct Searched<'p> {
     pub singles: Vec<Candidate>,
     /// Two.
     pub pairs: Vec<Candidate>,
+    /// Of one atom those that would gain, but feed the wall or jump: the best of each kind.
+    pub feeding: Vec<Candidate>,
     /// The equations in which they were weighed.
     pub equations: Equations<'p>,
 }
@@ -240,7 +242,8 @@ pub fn search(points: &Points) -> Option<Searched<'_>> {
         ordered(refined.collect())
     };
     let (singles, pairs) = (refine(scan.singles()), refine(at_one_place(scan.pairs())));
-    Some(Searched { singles, pairs, equations })
+    let feeding = scan.feeding();
+    Some(Searched { singles, pairs, feeding, equations })
 }
 
 impl<'p> Equations<'p> {
@@ -337,6 +340,18 @@ impl<'e, 'p> Scan<'e, 'p> {
     fn single(&self, i: usize) -> Option<Candidate> {
         let (sizes, gain) = single(self.gram[(i, i)], self.pull[i])?;
         self.equations.candidate(Law::of(self.atom(i, sizes[0])), gain)
+    }
+
+    /// Those of one atom whose size may not be.
+    fn feeding(&self) -> Vec<Candidate> {
+        let one = |i: usize| {
+            let (sizes, gain) = single(self.gram[(i, i)], self.pull[i])?;
+            let law = Law::of(self.atom(i, sizes[0]));
+            let allowed = law.first.may_be(law.first.size);
+            (!allowed)
+                .then(|| (self.kinds[i], Candidate { evidence: self.equations.evidence(&law, gain), law }))
+        };
+        best_of_each((0..self.atoms.len()).filter_map(one))
     }
 
     fn pair(&self, i: usize, k: usize) -> Option<Candidate> {

@@ -1,11 +1,13 @@
 //! Tests of a simulated wall with a law that is known, for tests of what finds it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::points::Points;
+use crate::diagnose::experiment::Experiment;
 use crate::diagnose::formula::{Atom, Law, Shape, Site};
 use crate::diagnose::hypothesis::{Hypothesis, Nuisance, Scales, wall_number};
-use crate::experiment::{Manner, Purpose, Sampled, TestData, rest_offset_rad};
+use crate::diagnose::trials::{Data, Trials, Unfinished};
+use crate::experiment::{Manner, Purpose, Sampled, TestData, Window, rest_offset_rad, windows};
 use mrbd_files::parse_wall;
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::Wall;
@@ -32,9 +34,49 @@ pub fn known(tests: &[TestData]) -> Hypothesis {
 /// The same with stiffness to a share.
 pub fn known_to(stiffness: f64, tests: &[TestData]) -> Hypothesis {
     let wall = wall_with("");
+    Hypothesis::new(wall.parameters(), &Scales::of(&wall, tests), &nuisances(stiffness), &[])
+}
+
+fn nuisances(stiffness: f64) -> [Nuisance; 2] {
     let number = |(key, sd): (&str, f64)| Nuisance::Number(wall_number(key).expect("a number"), sd);
-    let nuisances = [("stiffness_n_per_m", stiffness), ("mass_kg", 0.01)].map(number);
-    Hypothesis::new(wall.parameters(), &Scales::of(&wall, tests), &nuisances, &[])
+    [("stiffness_n_per_m", stiffness), ("mass_kg", 0.01)].map(number)
+}
+
+/// An experiment on a wall: two tests to fit and one held out, in which it rocks farther.
+pub struct Twin {
+    experiment: Experiment,
+    windows: [Vec<Window>; 2],
+    unfinished: Unfinished,
+}
+
+impl Twin {
+    /// The wall is known but for its effects, which are hidden.
+    pub fn new(hidden: &Wall, noise_rad: f64) -> Self {
+        let mut tests = tests_of(hidden, noise_rad);
+        tests.remove(2);
+        tests[2].purpose = Purpose::HoldOut;
+        let (fit, held_out) = windows(&tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
+        let wall = wall_with("");
+        let experiment = Experiment {
+            path: PathBuf::new(),
+            wall_path: PathBuf::new(),
+            wall_table: toml::Table::new(),
+            nuisances: nuisances(0.02).to_vec(),
+            hypotheses: Vec::new(),
+            whole: Vec::new(),
+            scales: Scales::of(&wall, &tests),
+            inputs: Vec::new(),
+            wall,
+            tests,
+        };
+        Self { experiment, windows: [fit, held_out], unfinished: Unfinished::default() }
+    }
+
+    /// Where hypotheses of it are tried.
+    pub fn trials(&self) -> Trials<'_, ()> {
+        let Self { experiment, windows, unfinished } = self;
+        Trials { experiment, data: Data::new(&experiment.tests, windows), progress: &(), unfinished }
+    }
 }
 
 /// Four tests of a wall, read with white noise.

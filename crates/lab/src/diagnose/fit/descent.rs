@@ -31,6 +31,8 @@ pub const LAST: Patience = Patience { steps: 10, little: 1.0, little_share: 0.0,
 pub const FINE: Patience = Patience { sides: Sides::OneWhereClear, ..LAST };
 /// To tell what is far from the truth.
 pub const COARSE: Patience = Patience { steps: 5, little_share: 2e-3, ..FINE };
+/// To tell which of several starts come to one place.
+pub const FIRST: Patience = Patience { steps: 2, ..FINE };
 /// Share of the gain not worth another step that a step must promise, for windows to be simulated for it.
 const WORTH_TRYING: f64 = 0.1;
 /// Damping of a step (Levenberg and Marquardt): first, factor, tries.
@@ -86,6 +88,9 @@ impl Problem<'_> {
         fit.cost = cost(h, &fit, loss);
         let mut damping = FIRST_DAMPING;
         for _ in 0..patience.steps {
+            if self.is_spent() {
+                break;
+            }
             let Some(linear) = self.linearised(h, &fit, known.take(), patience.sides) else { return fit };
             let linear = &known.insert(linear).windows;
             let (a, g) = normal_equations(h, &fit, linear, loss);
@@ -123,7 +128,7 @@ impl Problem<'_> {
         loss: Loss,
     ) -> Option<Fit> {
         let NumbersStep { values, change, .. } = step;
-        let replay = Replay::new(self.tests, &h.physics(&values)?);
+        let replay = self.replay(&h.physics(&values)?);
         let follow = |these: &[(InState, &Linear)]| followed(&replay, these, &change);
         let these = self.states_of(fit).into_iter().zip(linear).collect::<Vec<_>>();
         let windows = in_chunks(&these, follow);

@@ -185,7 +185,7 @@ impl Problem<'_> {
         changes: &[f64],
         sides: Sides,
     ) -> Option<Vec<Linear>> {
-        let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
+        let replay = self.replay(&h.physics(&fit.values)?);
         let neighbours = |(i, change): (usize, &f64)| self.sides(h, fit, i, *change);
         let neighbours = changes.iter().enumerate().map(neighbours).collect::<Option<Vec<_>>>()?;
         let linear = |these: &[(InState, Option<DMatrix<f64>>)]| {
@@ -226,7 +226,7 @@ impl Problem<'_> {
     fn neighbour(&self, h: &Hypothesis, fit: &Fit, i: usize, change: f64) -> Option<Neighbour<'_>> {
         let mut values = fit.values.clone();
         values[i] += change;
-        let replay = Replay::new(self.tests, &h.physics(&values)?);
+        let replay = self.replay(&h.physics(&values)?);
         Some(Neighbour { replay, change, coefficient: h.coefficient_of(i) })
     }
 }
@@ -312,7 +312,7 @@ pub(super) mod tests {
     fn analytic_slopes_of_one_side_are_those_of_both_where_windows_are_clear() {
         let (tests, h) = swaying();
         let windows = crate::experiment::windows(&tests);
-        let problem = Problem { tests: &tests, windows: &windows };
+        let problem = Problem { tests: &tests, windows: &windows, budget: None };
         let fit = problem.states(&h, &h.start(), &problem.measured_states(), 0, false).expect("a wall");
         let [both, one] = [Sides::Both, Sides::OneWhereClear]
             .map(|sides| problem.linear(&h, &fit, &first_changes(&h), sides).expect("a wall"));

@@ -98,7 +98,7 @@ mod tests {
     fn analytic_only_windows_that_moved_are_made_linear_again() {
         let (tests, h) = swaying();
         let windows = crate::experiment::windows(&tests);
-        let problem = Problem { tests: &tests, windows: &windows };
+        let problem = Problem { tests: &tests, windows: &windows, budget: None };
         let mut fit = problem.states(&h, &h.start(), &problem.measured_states(), 0, false).expect("a wall");
         let first = problem.linearised(&h, &fit, None, Sides::Both).expect("a wall");
         let before = first.windows.iter().map(|linear| linear.jp.clone()).collect::<Vec<_>>();
@@ -122,7 +122,7 @@ mod tests {
     fn analytic_a_jacobian_by_the_state_serves_for_one_step_more() {
         let (tests, h) = swaying();
         let windows = crate::experiment::windows(&tests);
-        let problem = Problem { tests: &tests, windows: &windows };
+        let problem = Problem { tests: &tests, windows: &windows, budget: None };
         let mut fit = problem.states(&h, &h.start(), &problem.measured_states(), 0, false).expect("a wall");
         let first = problem.linearised(&h, &fit, None, Sides::OneWhereClear).expect("a wall");
         let jacobian = |of: &Linearised, k: usize| of.windows[k].jx.clone();

@@ -11,8 +11,10 @@
 //! | `linearised` | the same of all windows, and what of it is still known after a step |
 //! | `window_fit` | the state at the start of a window |
 //! | `replay` | a window simulated from a state |
+//! | [`Budget`] | how much a fit may work |
 //! | `loss` | what a window costs, and how well windows are followed |
 
+mod budget;
 mod descent;
 mod linear;
 mod linearised;
@@ -20,10 +22,11 @@ mod loss;
 mod replay;
 mod window_fit;
 
-use super::hypothesis::Hypothesis;
+use super::hypothesis::{Hypothesis, Physics};
 use crate::experiment::{TestData, Window};
 use crate::limits::MOST_MISSED;
-use descent::{COARSE, FINE, LAST, cost};
+pub use budget::Budget;
+use descent::{COARSE, FINE, FIRST, LAST, cost};
 pub use linear::WindowSlopes;
 use linearised::Linearised;
 pub use loss::{Loss, more_poor_held_out_sd, nats, poor_share, windowed_error};
@@ -52,6 +55,15 @@ pub struct Fit {
 }
 
 impl Fit {
+    /// Takes the windows of another fit of about the same values, where they are followed better.
+    pub fn take_better(&mut self, other: Self) {
+        for (mine, new) in self.windows.iter_mut().zip(other.windows) {
+            if new.squares < mine.squares {
+                *mine = new;
+            }
+        }
+    }
+
     /// Squared error over squared noise of every window.
     fn reduced(&self) -> Vec<f64> {
         self.windows.iter().map(WindowFit::reduced).collect()
@@ -84,6 +96,20 @@ pub struct Problem<'a> {
     pub tests: &'a [TestData],
     /// The windows that count.
     pub windows: &'a [Window],
+    /// What a fit to them may work; `None`: as much as it takes.
+    pub budget: Option<&'a Budget>,
+}
+
+impl<'a> Problem<'a> {
+    /// The tests under a hypothesis, its work counted.
+    pub(super) fn replay(&self, physics: &Physics) -> Replay<'a> {
+        Replay::new(self.tests, physics).counted(self.budget)
+    }
+
+    /// Whether a fit has worked as much as it may.
+    pub(super) fn is_spent(&self) -> bool {
+        self.budget.is_some_and(Budget::is_spent)
+    }
 }
 
 impl Problem<'_> {
@@ -95,7 +121,7 @@ impl Problem<'_> {
     /// How the residuals of each window change with its state, for the values and states of a fit; `None` if there is no
     /// such wall.
     pub fn chords(&self, h: &Hypothesis, fit: &Fit) -> Option<Vec<DMatrix<f64>>> {
-        let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
+        let replay = self.replay(&h.physics(&fit.values)?);
         let chords = |these: &[InState]| {
             let at = At::all(&replay, owned(these));
             state_jacobians(&replay, &at.iter().collect::<Vec<_>>())
@@ -111,7 +137,7 @@ impl Problem<'_> {
     /// The states of a fit moved by one step with the Jacobians of another hypothesis nearby, where that helps. It is
     /// a cheap look at what values would do. `None` if there is no such wall.
     pub fn glance(&self, h: &Hypothesis, values: &[f64], from: &Fit, chords: &[DMatrix<f64>]) -> Option<Fit> {
-        let replay = Replay::new(self.tests, &h.physics(values)?);
+        let replay = self.replay(&h.physics(values)?);
         let look = |these: &[(InState, &DMatrix<f64>)]| {
             let (states, chords): (Vec<_>, Vec<_>) = these.iter().copied().unzip();
             let mut all = At::all(&replay, owned(&states));
@@ -139,7 +165,7 @@ impl Problem<'_> {
         steps: usize,
         thorough: bool,
     ) -> Option<Fit> {
-        let replay = Replay::new(self.tests, &h.physics(values)?);
+        let replay = self.replay(&h.physics(values)?);
         let these = self.windows.iter().zip(x.iter().map(|x| &x[..])).collect::<Vec<_>>();
         let windows = in_chunks(&these, |these| fit_windows(&replay, owned(these), steps));
         let mut found = Fit { values: values.to_vec(), windows, cost: 0.0, covariance: None };
@@ -154,6 +180,9 @@ impl Problem<'_> {
     /// model far from the truth need not be near them. Others are tried unless the model misses most windows: it
     /// cannot be in the wrong minimum of each.
     fn search(&self, replay: &Replay, found: &mut Fit, steps: usize) {
+        if self.is_spent() {
+            return;
+        }
         self.retried(found, |poor| {
             let measured = poor.iter().map(|(window, _)| (*window, window.measured.clone()));
             fit_windows(replay, measured.collect(), steps)
@@ -167,7 +196,7 @@ impl Problem<'_> {
     /// those that the other follows better.
     pub fn borrow_states(&self, h: &Hypothesis, own: &mut Fit, from: &Fit) {
         let Some(physics) = h.physics(&own.values) else { return };
-        let replay = Replay::new(self.tests, &physics);
+        let replay = self.replay(&physics);
         let may_help = |k: &usize| {
             let [mine, other] = [&own.windows[*k], &from.windows[*k]];
             mine.is_poor() || other.squares + LITTLE < mine.squares
@@ -205,9 +234,31 @@ impl Problem<'_> {
 
     /// Fits numbers and states to the end, from a coarse fit.
     pub fn fit_finely(&self, h: &Hypothesis, coarse: Fit) -> Option<Fit> {
-        let mut fit = coarse;
+        self.fit_under(h, coarse, &Loss::NARROWING)
+    }
+
+    /// The first part of such a fit: enough to tell where it goes.
+    pub fn fit_first(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
+        self.fit_under(h, start, &Loss::NARROWING[..1])
+    }
+
+    /// The first steps of such a fit: enough to tell which of several starts come to one place.
+    pub fn step_first(&self, h: &Hypothesis, start: Fit) -> Fit {
+        let mut fit = self.descend(h, start, Loss::MIDDLE, FIRST, &mut None);
+        fit.cost = cost(h, &fit, Loss::Likelihood);
+        fit
+    }
+
+    /// The rest of it.
+    pub fn fit_on(&self, h: &Hypothesis, first: Fit) -> Option<Fit> {
+        self.fit_under(h, first, &Loss::NARROWING[1..])
+    }
+
+    /// Fits numbers and states under one loss after the other.
+    fn fit_under(&self, h: &Hypothesis, start: Fit, losses: &[Loss]) -> Option<Fit> {
+        let mut fit = start;
         let mut known = None;
-        for loss in Loss::NARROWING {
+        for &loss in losses {
             let patience = if loss == Loss::Likelihood { LAST } else { FINE };
             fit = self.descend(h, fit, loss, patience, &mut known);
             // Other valleys are looked for once the numbers are about right.
@@ -219,7 +270,7 @@ impl Problem<'_> {
 
     /// The states fitted once more, where what is known of the windows promises something.
     fn again(&self, h: &Hypothesis, fit: Fit, known: Option<&Linearised>, thorough: bool) -> Option<Fit> {
-        let replay = Replay::new(self.tests, &h.physics(&fit.values)?);
+        let replay = self.replay(&h.physics(&fit.values)?);
         let states = self.states_of(&fit);
         let windows = match known {
             Some(known) => {

@@ -4,6 +4,7 @@
 //! the top. What is kept is how far the spring is stretched, not where its plastic displacement lies. A fitted state differs
 //! from the measured one by noise. A spring so stiff that it yields within that noise would start at either limit by chance.
 
+use super::Budget;
 use crate::diagnose::hypothesis::Physics;
 use crate::experiment::{Freedom, Sampled, TestData, Window, held_state};
 use mrbd_formula::Formula;
@@ -33,6 +34,8 @@ pub struct Replay<'a> {
     simulators: Vec<Simulator>,
     /// By test.
     pasts: Vec<TopPast>,
+    /// What its windows work is taken off here.
+    budget: Option<&'a Budget>,
 }
 
 impl<'a> Replay<'a> {
@@ -44,7 +47,13 @@ impl<'a> Replay<'a> {
         };
         let simulators = tests.iter().map(simulator).collect::<Vec<_>>();
         let pasts = tests.iter().map(|test| TopPast::new(test, physics)).collect();
-        Self { tests, simulators, pasts }
+        Self { tests, simulators, pasts, budget: None }
+    }
+
+    /// The same, its work counted.
+    #[must_use]
+    pub fn counted(self, budget: Option<&'a Budget>) -> Self {
+        Self { budget, ..self }
     }
 
     /// Windows simulated from a state each, side by side, which changes nothing but the time it takes.
@@ -57,7 +66,12 @@ impl<'a> Replay<'a> {
         let mut waiting = asked.iter().zip(&mut runs).enumerate();
         let mut next =
             || waiting.next().map(|(k, ((window, x), sampled))| (k, self.prepared(window, x, sampled)));
-        let mut done = |k: usize, run: Response| changes[k] = run.impacts.table2.map(|count| count > 0);
+        let mut done = |k: usize, run: Response| {
+            if let Some(budget) = self.budget {
+                budget.spend(run.work.evaluations);
+            }
+            changes[k] = run.impacts.table2.map(|count| count > 0);
+        };
         simulate_watched_side_by_side(&mut next, &mut done);
         let left = asked.iter().zip(&runs).map(|((window, _), sampled)| self.left(window, sampled));
         left.zip(changes).map(|(r, changes)| Followed { r, changes }).collect()

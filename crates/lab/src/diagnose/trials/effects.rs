@@ -1,10 +1,6 @@
-//! Effects tried: one by one, in pairs, and an answer once more from about where it was found.
+//! Effects tried: one by one, and in pairs.
 //!
 //! A pair is the best single effects with every other, as far as a first look promises something.
-//!
-//! Windows near an impact that the noise decides have several local minima. The one that a window lies in holds the numbers
-//! of a hypothesis where they are. Fits that start from other numbers find other minima. The best of all of them is the
-//! answer, and its intervals mean something.
 
 use super::imitation::seconds;
 use super::search::{promise, refit, shared_states, try_hypothesis, try_second};
@@ -12,8 +8,8 @@ use super::{FittedHypothesis, Trials, against, kinds, untouched};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
 use crate::limits::{
-    ANSWER_ROUNDS, ANSWER_SHARES, BESIDE_THE_BEST, LAW_SHARES, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME,
-    PAIRS_WITHOUT_A_NAME, REFITTED_FROM, STATES_FOR_WALL, WORTH_A_ROUND, WORTH_POLISH, WORTH_TRYING_AGAIN,
+    BESIDE_THE_BEST, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME, PAIRS_WITHOUT_A_NAME, REFITTED_FROM,
+    STATES_FOR_WALL, WORTH_POLISH, WORTH_TRYING_AGAIN,
 };
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;
@@ -187,87 +183,6 @@ fn sets(bases: &[&FittedHypothesis], answers: &[&FittedHypothesis]) -> Vec<Vec<[
         answers.iter().map(addition).filter(new).map(|two| [*one, two]).collect()
     };
     bases.iter().enumerate().map(of).collect()
-}
-
-impl<P: Progress> Trials<'_, P> {
-    /// Single effects in order. Where even the one that follows the windows best misses many of them, that one is
-    /// refined. What such windows say is at its bound, and a fit ends before the numbers of the right law.
-    pub fn with_far_refined(&self, tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
-        let answers = tried.iter().filter(|t| kinds(t).is_some());
-        let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
-        let Some(far) = follows.filter(|t| t.fit.is_far()).cloned() else { return tried };
-        let refined = self.refined(far);
-        self.best_of_each([tried, vec![refined]].concat())
-    }
-
-    /// The same additions with the numbers and states that speak least against them.
-    pub fn refined(&self, answer: FittedHypothesis) -> FittedHypothesis {
-        let mut best = answer;
-        for _ in 0..ANSWER_ROUNDS {
-            let next = self.once_more(&best);
-            let gain = against(&self.data, &best) - against(&self.data, &next);
-            if gain > 0.0 {
-                best = next;
-            }
-            if gain < WORTH_A_ROUND {
-                break;
-            }
-        }
-        best
-    }
-
-    fn once_more(&self, best: &FittedHypothesis) -> FittedHypothesis {
-        let against = |tried: &FittedHypothesis| against(&self.data, tried);
-        let starts = starts(best);
-        self.progress.begin("the answer, from starts about it", starts.len());
-        let fit = |values: Vec<f64>| {
-            let found = refit(&self.data, best.hypothesis.clone(), best, &values);
-            self.progress.advance(1);
-            found
-        };
-        let mut all = starts.into_par_iter().filter_map(fit).collect::<Vec<_>>();
-        all.push(best.clone());
-        let others = all.iter().collect::<Vec<_>>();
-        let shared = all.par_iter().map(|one| shared_states(&self.data, one, &others)).collect::<Vec<_>>();
-        let lowest = shared.into_iter().min_by(|a, b| against(a).total_cmp(&against(b)));
-        let lowest = lowest.unwrap_or_else(|| best.clone());
-        let again = refit(&self.data, lowest.hypothesis.clone(), &lowest, &lowest.fit.values);
-        again.filter(|again| against(again) < against(&lowest)).unwrap_or(lowest)
-    }
-}
-
-/// The values with one added number after the other moved; of an effect of more than two, all of them together.
-fn starts(best: &FittedHypothesis) -> Vec<Vec<f64>> {
-    let h = &best.hypothesis;
-    if h.additions.iter().all(|a| matches!(a, Addition::Formula(_))) {
-        return starts_of_law(best);
-    }
-    let of =
-        |index: usize| (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index)).collect::<Vec<_>>();
-    let together = |numbers: Vec<usize>| match numbers.len() {
-        0..=2 => numbers.into_iter().map(|i| vec![i]).collect(),
-        _ => vec![numbers],
-    };
-    let moved = |numbers: &[usize], share: f64| {
-        let mut values = best.fit.values.clone();
-        for i in numbers {
-            values[*i] = h.unknowns[*i].with_share(share, values[*i]);
-        }
-        values
-    };
-    let sets = (0..h.additions.len()).flat_map(|index| together(of(index)));
-    sets.flat_map(|numbers| ANSWER_SHARES.map(|share| moved(&numbers, share))).collect()
-}
-
-/// The values with one number of a law after the other moved, by shares of itself: those of shapes do not start from nothing.
-fn starts_of_law(best: &FittedHypothesis) -> Vec<Vec<f64>> {
-    let h = &best.hypothesis;
-    let moved = |i: usize, share: f64| {
-        let mut values = best.fit.values.clone();
-        values[i] = h.unknowns[i].within(share * values[i]);
-        values
-    };
-    (h.nuisances..h.unknowns.len()).flat_map(|i| LAW_SHARES.map(|share| moved(i, share))).collect()
 }
 
 #[cfg(test)]

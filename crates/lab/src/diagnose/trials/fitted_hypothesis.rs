@@ -37,12 +37,17 @@ pub struct Data<'a> {
 impl<'a> Data<'a> {
     /// Windows to fit and held out, of tests.
     pub fn new(tests: &'a [TestData], windows: &'a [Vec<Window>; 2]) -> Self {
-        let problem = |windows: &'a Vec<Window>| Problem { tests, windows };
+        let problem = |windows: &'a Vec<Window>| Problem { tests, windows, budget: None };
         Self { fit: problem(&windows[0]), held_out: problem(&windows[1]) }
     }
 }
 
 impl FittedHypothesis {
+    /// The states of the windows fitted.
+    pub fn states(&self) -> Vec<Vec<f64>> {
+        self.fit.windows.iter().map(|window| window.x.clone()).collect()
+    }
+
     /// Windowed errors: fit, held out.
     pub fn errors(&self) -> [Option<f64>; 2] {
         [windowed_error(&self.fit.windows), windowed_error(&self.held_out.windows)]
@@ -106,11 +111,20 @@ pub fn against(data: &Data, tried: &FittedHypothesis) -> f64 {
 
 /// Whether what a hypothesis leaves is near enough to noise to be the truth, for a gap that was `before`.
 pub fn closes(tried: &FittedHypothesis, before: f64) -> bool {
+    closes_held_out(tried) && follows_to_noise(tried, before)
+}
+
+/// Whether the tests held out are followed as those fitted are.
+pub fn closes_held_out(tried: &FittedHypothesis) -> bool {
+    tried.errors()[1].is_none_or(|error| error < HELD_OUT_ERROR)
+        && more_poor_held_out_sd(&tried.fit.windows, &tried.held_out.windows) < MISSED_HELD_OUT_SD
+}
+
+/// Whether what a hypothesis leaves of all windows is near enough to noise, for a gap that was `before`.
+pub fn follows_to_noise(tried: &FittedHypothesis, before: f64) -> bool {
     let Some(after) = joint_error(tried) else { return false };
-    let held_out = tried.errors()[1].is_none_or(|error| error < HELD_OUT_ERROR)
-        && more_poor_held_out_sd(&tried.fit.windows, &tried.held_out.windows) < MISSED_HELD_OUT_SD;
     let left = (after * after - 1.0) / (before * before - 1.0).max(f64::MIN_POSITIVE);
-    held_out && !too_many_poor(&all_windows(tried)) && (after < NOISE_AFTER || left < LEFT_OF_GAP)
+    !too_many_poor(&all_windows(tried)) && (after < NOISE_AFTER || left < LEFT_OF_GAP)
 }
 
 /// Whether what is left of windows to fit and held out is noise, as where an effect is named.

@@ -4,7 +4,9 @@
 //! | --- | --- |
 //! | `search` | one hypothesis: where its fit may start, the fit, and whether it is worth fitting to the end |
 //! | `fitted_hypothesis` | what came of it: whether it follows the tests within noise, closes a gap, does something |
-//! | `effects` | the wall as given, its own numbers, effects one by one and in pairs, an answer fitted again |
+//! | `effects` | the wall as given, its own numbers, effects one by one and in pairs |
+//! | `refinement` | an answer fitted again from about where it was found |
+//! | [`Unfinished`] | fits that ended because they had worked as much as they may |
 //! | `beds` | joints that give |
 //! | `between_impacts` | what hypotheses leave of windows up to the first impact, where formulations of contact are alike |
 //! | `joint_laws` | other laws of joints beside a bed |
@@ -22,27 +24,33 @@ mod imitation;
 mod joint_laws;
 mod own;
 mod patterns;
+mod refinement;
 mod search;
+mod unfinished;
 
 pub use beds::{excess, own_error, widened};
 pub use between_impacts::BetweenImpacts;
 pub use effects::{FirstFits, WallFits};
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
-    against, all_windows, best_answer, closes, does_something, is_noise, joint_error, kinds, leave_noise,
-    nearly_closes,
+    against, all_windows, best_answer, closes, closes_held_out, does_something, follows_to_noise, is_noise,
+    joint_error, kinds, leave_noise, nearly_closes,
 };
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub use joint_laws::crushes;
 pub use patterns::{gain_misread, reads_better, set_gain};
 pub use patterns::{opened_as_given, opened_under, opened_windows};
-pub use search::{refit, shared_states, untouched, with_values};
+#[cfg(test)]
+pub use search::try_hypothesis;
+pub use search::{finished_first_fit, first_fit, judged, refit, shared_states, untouched, with_values};
+pub use unfinished::Unfinished;
 
 use rayon::prelude::*;
 
 use crate::diagnose::experiment::Experiment;
+use crate::diagnose::fit::{Budget, Problem};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance};
-use crate::limits::{NEAR_BEST, NEAR_BEST_SHARE, POLISHED, WORTH_POLISH};
+use crate::limits::{FIT_WORK, NEAR_BEST, NEAR_BEST_SHARE, POLISHED, WORTH_POLISH};
 use crate::{Progress, Tried};
 use search::{Coarse, worth_finishing};
 use search::{finish, try_coarsely};
@@ -58,9 +66,28 @@ pub struct Trials<'a, P> {
     pub data: Data<'a>,
     /// Told how far it is.
     pub progress: &'a P,
+    /// Told which fits ended before they were done.
+    pub unfinished: &'a Unfinished,
 }
 
 impl<P: Progress> Trials<'_, P> {
+    /// A fit of so many numbers within what one may work; `None` where it ends before it is done, which is told.
+    pub fn within_budget<R>(
+        &self,
+        name: &str,
+        numbers: usize,
+        fit: impl FnOnce(&Data) -> Option<R>,
+    ) -> Option<R> {
+        let budget = Budget::of(&self.data.fit, FIT_WORK * numbers.max(1) as f64);
+        let data = Data { fit: Problem { budget: Some(&budget), ..self.data.fit }, ..self.data };
+        let found = fit(&data);
+        if budget.is_spent() {
+            self.unfinished.tell(name);
+            return None;
+        }
+        found
+    }
+
     /// The wall with what is uncertain of it and what is added.
     pub fn hypothesis(&self, nuisances: &[Nuisance], additions: &[Addition]) -> Hypothesis {
         Hypothesis::new(self.experiment.wall.parameters(), &self.experiment.scales, nuisances, additions)

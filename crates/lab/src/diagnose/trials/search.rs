@@ -152,7 +152,7 @@ pub fn judged(
     let states = |x: &[Vec<f64>]| data.held_out.states(&hypothesis, &fit.values, x, 3, thorough);
     let mut held_out = states(&states_of(&from.held_out))?;
     if thorough {
-        take_better(&mut held_out, states(&data.held_out.measured_states())?);
+        held_out.take_better(states(&data.held_out.measured_states())?);
     }
     Some(FittedHypothesis { hypothesis, fit, held_out })
 }
@@ -162,15 +162,6 @@ pub fn judged_from_measured(data: &Data, hypothesis: Hypothesis, fit: Fit) -> Op
     let measured = data.held_out.measured_states();
     let held_out = data.held_out.states(&hypothesis, &fit.values, &measured, 3, false)?;
     Some(FittedHypothesis { hypothesis, fit, held_out })
-}
-
-/// Takes the states of another fit of the same values in the windows where they are better.
-fn take_better(own: &mut Fit, other: Fit) {
-    for (mine, new) in own.windows.iter_mut().zip(other.windows) {
-        if new.squares < mine.squares {
-            *mine = new;
-        }
-    }
 }
 
 /// The model as it is, with nothing to find but the states.
@@ -204,6 +195,50 @@ pub fn refit(
 ) -> Option<FittedHypothesis> {
     let start = data.fit.states(&hypothesis, values, &states_of(&from.fit), 2, false)?;
     let fit = data.fit.fit_finely(&hypothesis, start)?;
+    judged(data, hypothesis, fit, from, true)
+}
+
+/// The first part of such a fit.
+pub fn first_fit(
+    data: &Data,
+    hypothesis: &Hypothesis,
+    from: &FittedHypothesis,
+    values: &[f64],
+) -> Option<Fit> {
+    let start = data.fit.states(hypothesis, values, &states_of(&from.fit), 2, false)?;
+    data.fit.fit_first(hypothesis, start)
+}
+
+/// A few steps from given values: enough to tell where such a fit would go.
+pub fn first_steps(
+    data: &Data,
+    hypothesis: &Hypothesis,
+    from: &FittedHypothesis,
+    values: &[f64],
+) -> Option<Fit> {
+    let start = data.fit.states(hypothesis, values, &states_of(&from.fit), 2, false)?;
+    Some(data.fit.step_first(hypothesis, start))
+}
+
+/// A fit to the end from one that was begun.
+pub fn finish_begun(
+    data: &Data,
+    hypothesis: Hypothesis,
+    begun: Fit,
+    from: &FittedHypothesis,
+) -> Option<FittedHypothesis> {
+    let fit = data.fit.fit_finely(&hypothesis, begun)?;
+    judged(data, hypothesis, fit, from, true)
+}
+
+/// The rest of a fit of which the first part is done.
+pub fn finished_first_fit(
+    data: &Data,
+    hypothesis: Hypothesis,
+    first: Fit,
+    from: &FittedHypothesis,
+) -> Option<FittedHypothesis> {
+    let fit = data.fit.fit_on(&hypothesis, first)?;
     judged(data, hypothesis, fit, from, true)
 }
 

@@ -1,5 +1,7 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
+use std::cell::OnceCell;
+
 use super::at_impacts::{
     NamedBetween, keeps_as_another_formulation, named_between, only_impacts, worth_two_between,
 };
@@ -107,7 +109,8 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
     let FirstFits { before, recalibrated, singles } = first_fits;
     match joint_error(&before) {
         Some(error) if !singles.is_empty() => {
-            Gap { trials, wall: WallFits { before, recalibrated }, error }.judge(singles)
+            let early = OnceCell::new();
+            Gap { trials, wall: WallFits { before, recalibrated }, error, early }.judge(singles)
         }
         // Too little moves for anything to show.
         _ => Found {
@@ -132,6 +135,8 @@ pub(super) struct Gap<'t, P> {
     pub(super) wall: WallFits,
     /// Windowed error of the wall as given.
     pub(super) error: f64,
+    /// Laws outside the catalogue of one atom, where they were looked for before the best effect is fitted once more.
+    pub(super) early: OnceCell<Discovered>,
 }
 
 impl<P: Progress> Gap<'_, P> {
@@ -194,13 +199,14 @@ impl<P: Progress> Gap<'_, P> {
             if discovered.as_ref().is_some_and(|one| self.is_told_at_top(one)) {
                 return self.placed_by(discovered, None, tried);
             }
-            let found = on_beds_last(self.trials, &self.wall, &tried);
+            let laws = discovered.as_ref().map_or(&[][..], |one| &one.tried);
+            let found = on_beds_last(self.trials, &self.wall, &tried, laws);
             return found.unwrap_or_else(|| self.placed_by(discovered, None, tried));
         };
         let answer = Answer { after: self.trials.refined(answer.after), ..answer };
         let other_law = OtherLaw::beside(&self.trials.data, &answer.after);
         if other_law.speaks() {
-            return self.placed(Some(other_law), tried);
+            return self.placed_without(&answer.after, other_law, tried);
         }
         // What is left at impacts is none of a law's: no exponent is to take it up.
         let kin =

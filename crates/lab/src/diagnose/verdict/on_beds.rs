@@ -62,8 +62,11 @@ pub fn on_beds_last<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     tried: &[FittedHypothesis],
+    laws: &[FittedHypothesis],
 ) -> Option<Found> {
-    let beds = trials.beds_in_narrow_gap(wall);
+    let rivals = tried.iter().chain(laws).chain([&wall.recalibrated]);
+    let rival = rivals.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)))?;
+    let beds = trials.beds_in_narrow_gap(wall, rival);
     let best = beds.first().filter(|best| does_something(best))?.clone();
     let all = || [beds.clone(), tried.to_vec()].concat();
     follows(trials, wall, &best, tried)

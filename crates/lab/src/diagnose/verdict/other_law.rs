@@ -3,6 +3,7 @@
 //! An effect has one size in small and in large motion; a law that it imitates has not.
 
 use super::names;
+use crate::diagnose::discovery::Guard;
 use crate::diagnose::fit::{Fit, Loss, Problem, WindowSlopes};
 use crate::diagnose::force::{curve_left, force_points};
 use crate::diagnose::hypothesis::Hypothesis;
@@ -124,10 +125,16 @@ impl OtherLaw {
 
     /// Whether the law cannot be the named one.
     pub fn speaks(&self) -> bool {
-        let bent = self.curve_left.is_some_and(|found| found > BENT_FORCE);
-        bent || self
-            .trend_with_amplitude
-            .is_some_and(|trend| trend.nats > TREND_NATS && trend.share > TREND_SHARE)
+        !self.guards().is_empty()
+    }
+
+    /// What of it speaks.
+    pub fn guards(&self) -> Vec<Guard> {
+        let bends = self.curve_left.is_some_and(|found| found > BENT_FORCE);
+        let trend = self.trend_with_amplitude;
+        let has_trend = trend.is_some_and(|trend| trend.nats > TREND_NATS && trend.share > TREND_SHARE);
+        let both = [(Guard::Bend, bends), (Guard::Trend, has_trend)];
+        both.into_iter().filter(|(_, speaks)| *speaks).map(|(guard, _)| guard).collect()
     }
 }
 

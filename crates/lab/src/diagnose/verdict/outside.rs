@@ -4,10 +4,10 @@ use super::judge::{Answer, Found, Gap};
 use super::worth_naming::{leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
 use crate::Progress;
-use crate::diagnose::discovery::{Discovered, OpenGap, is_of_catalogue};
+use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refused, is_of_catalogue};
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::formula::Law;
-use crate::diagnose::trials::{FittedHypothesis, against, kinds};
+use crate::diagnose::trials::{FittedHypothesis, against, closes, kinds};
 use crate::limits::WORTH_A_NAME;
 
 /// The place of a missing force with the curve that it is, where one holds.
@@ -16,6 +16,16 @@ fn with_curve(placed: Found) -> Found {
     match curve.filter(|_| placed.place == Some("top")) {
         Some(after) => Found { verdict: Verdict::Curve, after, ..placed },
         None => placed,
+    }
+}
+
+impl<P: Progress> AskedOfLaws for Gap<'_, P> {
+    fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
+        worth_two(&self.trials.data, one, two)
+    }
+
+    fn other_law(&self, law: &FittedHypothesis) -> Vec<Guard> {
+        OtherLaw::beside(&self.trials.data, law).guards()
     }
 }
 
@@ -29,6 +39,7 @@ impl<P: Progress> Gap<'_, P> {
             return None;
         }
         let found = self.looked_for(singles, &[], false)?;
+        let found = self.early.get_or_init(|| found).clone();
         let laws = found.equals.iter().flat_map(|t| t.hypothesis.laws(&t.fit.values));
         let is_none_of_it = !laws.into_iter().any(|law| is_of_catalogue(&law));
         (is_none_of_it && self.is_told_at_top(&found)).then_some(found)
@@ -57,7 +68,13 @@ impl<P: Progress> Gap<'_, P> {
     ) -> Found {
         let mut discovered = self.discovered(&tried, kin);
         if let Some(discovered) = &mut discovered {
-            discovered.equals.retain(|law| self.gain(named, law) > WORTH_A_NAME);
+            let (better, others) =
+                discovered.equals.drain(..).partition(|law| self.gain(named, law) > WORTH_A_NAME);
+            discovered.equals = better;
+            let others: Vec<FittedHypothesis> = others;
+            let by_name = others.iter().map(|law| Refused::in_windows(law, vec![Guard::Name]));
+            discovered.refused.extend(by_name);
+            discovered.refused.push(Refused::in_windows(named, vec![Guard::FreedExponent]));
         }
         self.placed_by(discovered, Some(other_law), tried)
     }
@@ -78,6 +95,20 @@ impl<P: Progress> Gap<'_, P> {
         better.then_some((discovered, formula))
     }
 
+    /// A name that another law is behind is none: a law outside the catalogue, or the place.
+    pub(super) fn placed_without(
+        self,
+        named: &FittedHypothesis,
+        other_law: OtherLaw,
+        tried: Vec<FittedHypothesis>,
+    ) -> Found {
+        let mut discovered = self.discovered(&tried, &[]);
+        if let Some(discovered) = &mut discovered {
+            discovered.refused.push(Refused::in_windows(named, other_law.guards()));
+        }
+        self.placed_by(discovered, Some(other_law), tried)
+    }
+
     /// No law of the catalogue follows: one outside it that does, or where the force is missing.
     pub(super) fn placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
         let discovered = self.discovered(&tried, &[]);
@@ -96,7 +127,10 @@ impl<P: Progress> Gap<'_, P> {
                 let tried = self.trials.ordered(tried);
                 Found { discovered, other_law, ..self.found(answer, tried) }
             }
-            None => with_curve(Found { discovered, ..self.only_placed(other_law, tried) }),
+            None => {
+                let laws = discovered.as_ref().map_or(Vec::new(), |discovered| discovered.tried.clone());
+                with_curve(Found { discovered, ..self.only_placed(other_law, tried, &laws) })
+            }
         }
     }
 
@@ -110,9 +144,9 @@ impl<P: Progress> Gap<'_, P> {
         let (trials, recalibrated) = (self.trials, &self.wall.recalibrated);
         let nearest = tried.iter().chain([recalibrated]);
         let nearest = nearest.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)));
-        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error, in_full, kin };
-        let worth = |one: &FittedHypothesis, two: &FittedHypothesis| worth_two(&trials.data, one, two);
-        trials.discover(&gap, worth, |law| !OtherLaw::beside(&trials.data, law).speaks())
+        let before = self.early.get();
+        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error, in_full, kin, before };
+        trials.discover(&gap, self)
     }
 
     /// The answer that laws outside the catalogue make, if one holds.
@@ -126,12 +160,21 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// Where the force is missing, if that shows.
-    fn only_placed(self, other_law: Option<OtherLaw>, tried: Vec<FittedHypothesis>) -> Found {
+    ///
+    /// A law that follows the tests to their noise tells it, though something else refuses its form.
+    fn only_placed(
+        self,
+        other_law: Option<OtherLaw>,
+        tried: Vec<FittedHypothesis>,
+        laws: &[FittedHypothesis],
+    ) -> Found {
+        let following = laws.iter().filter(|law| closes(law, self.error)).cloned();
+        let placing = following.chain(tried.iter().cloned()).collect::<Vec<_>>();
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
         let place = self
             .acts_at_top()
             .then_some("top")
-            .or_else(|| place(&self.trials.data, &self.wall.recalibrated, &tried));
+            .or_else(|| place(&self.trials.data, &self.wall.recalibrated, &placing));
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
         let tried = self.trials.ordered(tried);
         let after = self.wall.recalibrated.clone();

@@ -180,7 +180,7 @@ mod tests {
 
     /// No windows to price a number by, and none held out.
     const DATA: Data<'static> = Data { fit: NOTHING, held_out: NOTHING };
-    const NOTHING: Problem<'static> = Problem { tests: &[], windows: &[] };
+    const NOTHING: Problem<'static> = Problem { tests: &[], windows: &[], budget: None };
     const WINDOWS: usize = 20;
     const FREEDOM: f64 = 200.0;
 

@@ -23,12 +23,12 @@ impl Few {
 
     /// These windows.
     pub fn problem(&self) -> Problem<'_> {
-        Problem { tests: &self.tests, windows: &self.windows }
+        Problem { tests: &self.tests, windows: &self.windows, budget: None }
     }
 
     /// No windows of these tests.
     pub fn nothing(&self) -> Problem<'_> {
-        Problem { tests: &self.tests, windows: &[] }
+        Problem { tests: &self.tests, windows: &[], budget: None }
     }
 
     /// What a hypothesis leaves in these windows.

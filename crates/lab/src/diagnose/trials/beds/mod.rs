@@ -24,10 +24,10 @@ use rayon::prelude::*;
 use super::search::{judged_from_measured, states_of};
 use super::{FittedHypothesis, Trials, WallFits, joint_error};
 use crate::Progress;
-use crate::diagnose::fit::{Fit, Problem, WindowFit, windowed_error};
+use crate::diagnose::fit::{Fit, Problem, WindowFit, nats, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::TestData;
-use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST};
+use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST, BEDS_WINDOWS, NEAR_BEST};
 pub use few::Few;
 use probe::Probe;
 
@@ -68,9 +68,17 @@ impl<P: Progress> Trials<'_, P> {
 
     /// The same where the gap is narrower than that, for when nothing else closes it. The wall's own numbers may stand for part
     /// of a bed there, so that none shows before both are fitted.
-    pub fn beds_in_narrow_gap(&self, WallFits { before, recalibrated }: &WallFits) -> Vec<FittedHypothesis> {
-        let wide = self.leaves_wide_gap(recalibrated);
-        if wide { Vec::new() } else { self.beds_under(&self.starts(before, recalibrated), None) }
+    ///
+    /// Those that are far behind a `rival` in few windows already, with the wall's own numbers fitted, go no further.
+    pub fn beds_in_narrow_gap(
+        &self,
+        WallFits { before, recalibrated }: &WallFits,
+        rival: &FittedHypothesis,
+    ) -> Vec<FittedHypothesis> {
+        if self.leaves_wide_gap(recalibrated) {
+            return Vec::new();
+        }
+        self.beds_beside_rival(&self.starts(before, recalibrated), None, Some(rival))
     }
 
     /// Whether a hypothesis is so far off that joints that give are thought of first.
@@ -85,6 +93,15 @@ impl<P: Progress> Trials<'_, P> {
         walls: &[&FittedHypothesis],
         without: Option<&FittedHypothesis>,
     ) -> Vec<FittedHypothesis> {
+        self.beds_beside_rival(walls, without, None)
+    }
+
+    fn beds_beside_rival(
+        &self,
+        walls: &[&FittedHypothesis],
+        without: Option<&FittedHypothesis>,
+        rival: Option<&FittedHypothesis>,
+    ) -> Vec<FittedHypothesis> {
         if self.experiment.wall.gives() {
             return Vec::new();
         }
@@ -94,6 +111,10 @@ impl<P: Progress> Trials<'_, P> {
         let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
         // A bed may follow within the noise: then another must come near that.
         begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
+        if let Some(rival) = rival {
+            let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
+            begun = begun.into_par_iter().filter(|(h, fit)| self.comes_near(&few, rival, h, fit)).collect();
+        }
         self.progress.begin("joints that give", begun.len());
         let fit = |(h, begun): &(Hypothesis, Fit)| {
             let fitted = self.bed(h, begun);
@@ -108,6 +129,16 @@ impl<P: Progress> Trials<'_, P> {
             *best = finished;
         }
         fitted
+    }
+
+    /// Whether a bed that was begun comes near a rival in few windows, once the wall's own numbers are fitted with it.
+    fn comes_near(&self, few: &Few, rival: &FittedHypothesis, begun_as: &Hypothesis, begun: &Fit) -> bool {
+        let h = self.hypothesis(&self.experiment.nuisances, &begun_as.additions);
+        let values = h.values_from(begun_as, &begun.values);
+        let problem = few.problem();
+        let start = problem.states(&h, &values, &states_of(begun), 1, false);
+        let Some(fit) = start.and_then(|start| in_rounds(&problem, &h, start)) else { return false };
+        nats(&fit.windows) - nats(&few.left(&rival.fit)) < NEAR_BEST
     }
 
     /// A hypothesis fitted to the end with the model's own error, what it leaves in all windows, in the place of noise.

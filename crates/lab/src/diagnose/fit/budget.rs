@@ -1,0 +1,36 @@
+//! How much a fit may work.
+//!
+//! It is counted in evaluations of the equations of motion, never in seconds: what a fit finds does not depend on the machine,
+//! nor on how many threads it has.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::Problem;
+
+/// What one fit may work, and what it has worked.
+#[derive(Debug)]
+pub struct Budget {
+    most: u64,
+    spent: AtomicU64,
+}
+
+impl Budget {
+    /// So many evaluations of the equations of motion for each second of the windows of a problem.
+    pub fn of(problem: &Problem, evaluations_per_s: f64) -> Self {
+        let length_s = problem.windows.iter().map(|window| {
+            let time_s = &problem.tests[window.test].time_s[window.samples.clone()];
+            time_s.last().zip(time_s.first()).map_or(0.0, |(last, first)| last - first)
+        });
+        Self { most: (evaluations_per_s * length_s.sum::<f64>()) as u64, spent: AtomicU64::new(0) }
+    }
+
+    /// Takes evaluations off.
+    pub fn spend(&self, evaluations: u64) {
+        self.spent.fetch_add(evaluations, Ordering::Relaxed);
+    }
+
+    /// Whether nothing is left. Asked between steps of a fit alone: within them windows run side by side, in any order.
+    pub fn is_spent(&self) -> bool {
+        self.spent.load(Ordering::Relaxed) > self.most
+    }
+}
