@@ -22,13 +22,23 @@ fn formula(effect: &FoundEffect) -> Option<Formula> {
 /// What the floor's spring was found off is part of the answer: a linear spring and k_d are one. `None` where the answer acts
 /// elsewhere.
 pub fn function_error(answer: &Value, diagnosis: &Summary, points: &[Excited]) -> Option<f64> {
+    force_error(answer, &diagnosis.effects, stiffness_n_per_m(diagnosis), points)
+}
+
+/// The same of formulas beside a floor's spring that was found.
+pub fn force_error(
+    answer: &Value,
+    effects: &[FoundEffect],
+    stiffness_n_per_m: Option<f64>,
+    points: &[Excited],
+) -> Option<f64> {
     let place = text(answer, "/effects/0/place");
-    let all = diagnosis.effects.iter().map(|effect| Some((&effect.place, formula(effect)?)));
+    let all = effects.iter().map(|effect| Some((&effect.place, formula(effect)?)));
     let formulas = all.collect::<Option<Vec<_>>>()?;
     if formulas.is_empty() || formulas.iter().any(|(own, _)| **own != place) {
         return None;
     }
-    let softer = if place == "top" { softer(answer, diagnosis)? } else { 0.0 };
+    let softer = if place == "top" { softer(answer, stiffness_n_per_m)? } else { 0.0 };
     let found = |[q, u, _, largest]: &Excited| {
         formulas.iter().map(|(_, formula)| formula.value([*q, *u, *largest])).sum::<f64>() + softer * q
     };
@@ -46,7 +56,7 @@ pub fn curve_error(answer: &Value, diagnosis: &Summary, points: &[Excited]) -> O
     }
     let within = |[low, high]: [f64; 2], x: f64| low <= x && x <= high;
     let inside = points.iter().filter(|[x, v, ..]| within(by_x.range, *x) && within(by_v.range, *v));
-    let softer = softer(answer, diagnosis)?;
+    let softer = softer(answer, stiffness_n_per_m(diagnosis))?;
     let apart = |[x, v, force, _]: &Excited| {
         let [a, b] = [told(by_x, *x), told(by_v, *v)];
         // Bands of both curves as if they erred apart.
@@ -72,9 +82,14 @@ fn told(curve: &ForceCurve, x: f64) -> [f64; 2] {
 }
 
 /// By how much the floor's spring of the answer is softer than the true one, N/m.
-fn softer(answer: &Value, diagnosis: &Summary) -> Option<f64> {
+fn softer(answer: &Value, found_n_per_m: Option<f64>) -> Option<f64> {
+    Some(answer.pointer("/case/stiffness_n_per_m")?.as_f64()? - found_n_per_m?)
+}
+
+/// Stiffness of the floor's spring of an answer.
+fn stiffness_n_per_m(diagnosis: &Summary) -> Option<f64> {
     let own = diagnosis.wall.iter().find(|number| number.key.ends_with("stiffness_n_per_m"))?;
-    Some(answer.pointer("/case/stiffness_n_per_m")?.as_f64()? - own.after)
+    Some(own.after)
 }
 
 /// The atoms of formulas as they are written, without the numbers of their letters.

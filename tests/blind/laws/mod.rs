@@ -6,12 +6,14 @@
 //! | [`draw`] | a number becomes a case |
 //! | [`excited`] | where the tests went, and the force that was there |
 //! | [`found`] | the formulas of an answer, held against the truth |
+//! | [`refused`] | what each guard keeps out |
 //! | [`row`], [`targets`] | one row a case, and what was reached |
 
 pub mod atom;
 pub mod draw;
 pub mod excited;
 pub mod found;
+pub mod refused;
 pub mod row;
 pub mod targets;
 

@@ -11,9 +11,10 @@ use super::super::score::reading::{Diagnosed, list, number, text, texts};
 use super::super::score::recorded::Recorded;
 use super::super::score::row::held_out;
 use super::found::{Excited, curve_error, function_error, is_spelled_as, number_errors};
+use super::refused::RefusedRow;
 
 /// A force that is off by less than this share is the right function.
-const RIGHT_FUNCTION: f64 = 0.1;
+pub const RIGHT_FUNCTION: f64 = 0.1;
 /// What speaks against the recalibrated wall from which a law is visible, in natural logarithms of likelihood.
 const VISIBLE_NATS: f64 = 60.0;
 
@@ -50,6 +51,9 @@ pub struct LawRow {
     /// Of a force without a formula: see `found::curve_error`.
     #[serde(default)]
     pub curve: Option<(f64, f64)>,
+    /// Formulas that were refused; none of cases that were recorded before this was told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refused: Option<Vec<RefusedRow>>,
     /// What speaks against the wall with its own numbers fitted, in natural logarithms of likelihood.
     pub against_recalibrated: Option<f64>,
     /// Windowed error of the held-out test over the noise, before and after.
@@ -113,6 +117,10 @@ impl LawRow {
             function_error_held_out: error("held_out"),
             numbers: if has_formula { number_errors(answer, effects) } else { Vec::new() },
             curve: diagnosis.and_then(|d| curve_error(answer, d, &excited(answer, "held_out"))),
+            refused: diagnosis.map(|d| {
+                let points = excited(answer, "fit");
+                d.refused.iter().filter_map(|law| RefusedRow::new(answer, law, &points)).collect()
+            }),
             against_recalibrated: diagnosis.map(|d| d.against.recalibrated),
             before: diagnosis.and_then(|d| held_out(d, |error| error.before)),
             after: diagnosis.and_then(|d| held_out(d, |error| error.after)),

@@ -6,6 +6,7 @@ use super::super::score::counted::Counted;
 use super::super::score::reading::median;
 use super::super::score::recorded;
 use super::super::score::targets::printed;
+use super::refused;
 use super::row::LawRow;
 
 /// Up to this a law is to be found nearly always, rad.
@@ -108,7 +109,7 @@ pub fn report(cases: &[PathBuf], recorded: Vec<LawRow>, out: &Path) -> Result<()
     let mut sorted = rows.iter().collect::<Vec<_>>();
     sorted.sort_by_key(|row| (row.group.clone(), row.number));
     let said = sorted.iter().map(|row| format!("{}: {}\n", row.group, row.said())).collect::<String>();
-    let text = format!("{}\n{said}", table(&rows));
+    let text = format!("{}\n{}\n{said}", table(&rows), refused::table(&rows));
     print!("{text}");
     let told = |e: &dyn std::fmt::Display| format!("{}: {e}", out.display());
     std::fs::create_dir_all(out).map_err(|e| told(&e))?;
