@@ -8,7 +8,7 @@ use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refuse
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::formula::Law;
 use crate::diagnose::trials::{FittedHypothesis, against, closes, kinds};
-use crate::limits::WORTH_A_NAME;
+use crate::limits::{EQUIVALENT, WORTH_A_NAME};
 
 /// The place of a missing force with the curve that it is, where one holds.
 fn with_curve(placed: Found) -> Found {
@@ -168,16 +168,32 @@ impl<P: Progress> Gap<'_, P> {
         tried: Vec<FittedHypothesis>,
         laws: &[FittedHypothesis],
     ) -> Found {
-        let following = laws.iter().filter(|law| closes(law, self.error)).cloned();
-        let placing = following.chain(tried.iter().cloned()).collect::<Vec<_>>();
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
         let place = self
             .acts_at_top()
             .then_some("top")
-            .or_else(|| place(&self.trials.data, &self.wall.recalibrated, &placing));
+            .or_else(|| self.place_of_laws(laws))
+            .or_else(|| place(&self.trials.data, &self.wall.recalibrated, &tried));
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
         let tried = self.trials.ordered(tried);
         let after = self.wall.recalibrated.clone();
         Found { place, other_law, ..self.found(Answer::of(verdict, after), tried) }
+    }
+
+    /// Where all laws act that close the gap and are as good as the best; `None` where none does, or they act at several places.
+    fn place_of_laws(&self, laws: &[FittedHypothesis]) -> Option<&'static str> {
+        let closing = laws.iter().filter(|law| closes(law, self.error));
+        let best = closing.clone().map(|law| against(&self.trials.data, law)).fold(f64::INFINITY, f64::min);
+        if against(&self.trials.data, &self.wall.recalibrated) - best < WORTH_A_NAME {
+            return None;
+        }
+        let equals = closing.filter(|law| against(&self.trials.data, law) < best + EQUIVALENT);
+        let atoms = equals.flat_map(|law| law.hypothesis.laws(&law.fit.values)).flat_map(|law| law.atoms());
+        let mut places = atoms.map(|atom| atom.site.name()).collect::<Vec<_>>();
+        places.dedup();
+        match places[..] {
+            [one] => Some(one),
+            _ => None,
+        }
     }
 }
