@@ -34,3 +34,27 @@ impl Budget {
         self.spent.load(Ordering::Relaxed) > self.most
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::linear::tests::swaying;
+    use super::*;
+
+    #[test]
+    fn analytic_a_fit_ends_between_steps_where_its_work_is_spent_and_else_is_what_it_was() {
+        let (tests, h) = swaying();
+        let windows = crate::experiment::windows(&tests);
+        let free = Problem { tests: &tests, windows: &windows, budget: None };
+        let fitted = |budget: Option<&Budget>| {
+            let problem = Problem { budget, ..free };
+            let start = problem.states(&h, &h.start(), &problem.measured_states(), 0, false).expect("a wall");
+            problem.fit_finely(&h, start).expect("a wall").values
+        };
+        let values = fitted(None);
+        assert_ne!(values, h.start());
+        let [none, enough] = [0.0, 1e12].map(|evaluations_per_s| Budget::of(&free, evaluations_per_s));
+        assert_eq!(fitted(Some(&none)), h.start());
+        assert_eq!(fitted(Some(&enough)), values);
+        assert!(none.is_spent() && !enough.is_spent());
+    }
+}
