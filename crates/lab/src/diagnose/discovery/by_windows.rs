@@ -11,12 +11,10 @@ use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    Data, FittedHypothesis, Trials, against, closes_held_out, does_something, finished_first_fit, first_fit,
-    follows_to_noise, judged, refit, shared_states,
+    Data, FittedHypothesis, Trials, against, closes_held_out, does_something, follows_to_noise, judged,
+    refit, shared_states,
 };
-use crate::limits::{
-    LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, NEAR_BEST_SHARE, WORTH_A_NAME, WORTH_WINDOWS,
-};
+use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS};
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -227,58 +225,31 @@ impl<P: Progress> Trials<'_, P> {
         let mut starts = laws.par_iter().filter_map(look).collect::<Vec<_>>();
         starts.sort_by(|a, b| a.nats.total_cmp(&b.nats));
         starts.truncate(LAWS_FITTED);
-        let free = self.finished_if_near(gap, starts, what);
+        let free = self.fitted(gap, starts, what);
         let exact = self.exactly(&free);
         self.in_order([free, exact].concat())
     }
 
-    /// Laws fitted from where they start: all of them coarsely, and to the end those that are near the best by then.
-    fn finished_if_near(&self, gap: &OpenGap, starts: Vec<Start>, what: &str) -> Vec<Fitted> {
+    /// Laws fitted from where they start; one whose fit ends before it is done stays as it started.
+    fn fitted(&self, gap: &OpenGap, starts: Vec<Start>, what: &str) -> Vec<Fitted> {
         self.progress.begin(what, starts.len());
-        let first = |start: Start| {
-            let name = law_name(&start.hypothesis, &start.values);
-            let coarse = |data: &Data| {
-                let fit = first_fit(data, &start.hypothesis, gap.nearest, &start.values)?;
-                judged(data, start.hypothesis.clone(), fit, gap.nearest, false)
-            };
-            let found = self.within_budget(&name, start.values.len(), coarse);
-            // A fit without an end is told as it began.
-            let unfinished = || {
-                let fit = self.data.fit.states(
-                    &start.hypothesis,
-                    &start.values,
-                    &gap.nearest.states(),
-                    0,
-                    false,
-                )?;
-                judged(&self.data, start.hypothesis.clone(), fit, gap.nearest, false)
-            };
-            match found {
-                Some(law) => Some(Fitted { law, is_done: true }),
-                None => Some(Fitted { law: unfinished()?, is_done: false }),
-            }
-        };
-        let begun = starts.into_par_iter().filter_map(first).collect::<Vec<_>>();
-        let against = |law: &FittedHypothesis| against(&self.data, law);
-        let best = begun.iter().map(|fitted| against(&fitted.law)).fold(f64::INFINITY, f64::min);
-        let limit = best + NEAR_BEST.max(NEAR_BEST_SHARE * best);
-        let finish = |begun: Fitted| {
-            let name = law_name(&begun.law.hypothesis, &begun.law.fit.values);
-            let found = (begun.is_done && against(&begun.law) < limit).then(|| {
-                let FittedHypothesis { hypothesis, fit, .. } = &begun.law;
-                let finish =
-                    |data: &Data| finished_first_fit(data, hypothesis.clone(), fit.clone(), gap.nearest);
-                self.within_budget(&name, fit.values.len(), finish)
+        let fit = |start: Start| {
+            let Start { hypothesis, values, .. } = start;
+            let name = law_name(&hypothesis, &values);
+            let found = self.within_budget(&name, values.len(), |data| {
+                refit(data, hypothesis.clone(), gap.nearest, &values)
             });
             self.progress.advance(1);
             match found {
-                // Too far behind, or without an end before.
-                None => begun,
-                Some(None) => Fitted { is_done: false, ..begun },
-                Some(Some(law)) => Fitted { law, is_done: true },
+                Some(law) => Some(Fitted { law, is_done: true }),
+                None => {
+                    let fit = self.data.fit.states(&hypothesis, &values, &gap.nearest.states(), 0, false)?;
+                    let law = judged(&self.data, hypothesis, fit, gap.nearest, false)?;
+                    Some(Fitted { law, is_done: false })
+                }
             }
         };
-        self.in_order(begun.into_par_iter().map(finish).collect())
+        self.in_order(starts.into_par_iter().filter_map(fit).collect())
     }
 
     /// Fitted laws in the order of what speaks against them.

@@ -234,31 +234,9 @@ impl Problem<'_> {
 
     /// Fits numbers and states to the end, from a coarse fit.
     pub fn fit_finely(&self, h: &Hypothesis, coarse: Fit) -> Option<Fit> {
-        self.fit_under(h, coarse, &Loss::NARROWING)
-    }
-
-    /// The first part of such a fit: enough to tell where it goes.
-    pub fn fit_first(&self, h: &Hypothesis, start: Fit) -> Option<Fit> {
-        self.fit_under(h, start, &Loss::NARROWING[..1])
-    }
-
-    /// The first steps of such a fit: enough to tell which of several starts come to one place.
-    pub fn step_first(&self, h: &Hypothesis, start: Fit) -> Fit {
-        let mut fit = self.descend(h, start, Loss::MIDDLE, FIRST, &mut None);
-        fit.cost = cost(h, &fit, Loss::Likelihood);
-        fit
-    }
-
-    /// The rest of it.
-    pub fn fit_on(&self, h: &Hypothesis, first: Fit) -> Option<Fit> {
-        self.fit_under(h, first, &Loss::NARROWING[1..])
-    }
-
-    /// Fits numbers and states under one loss after the other.
-    fn fit_under(&self, h: &Hypothesis, start: Fit, losses: &[Loss]) -> Option<Fit> {
-        let mut fit = start;
+        let mut fit = coarse;
         let mut known = None;
-        for &loss in losses {
+        for loss in Loss::NARROWING {
             let patience = if loss == Loss::Likelihood { LAST } else { FINE };
             fit = self.descend(h, fit, loss, patience, &mut known);
             // Other valleys are looked for once the numbers are about right.
@@ -266,6 +244,13 @@ impl Problem<'_> {
         }
         fit.cost = cost(h, &fit, Loss::Likelihood);
         Some(fit)
+    }
+
+    /// The first steps of such a fit: enough to tell which of several starts come to one place.
+    pub fn step_first(&self, h: &Hypothesis, start: Fit) -> Fit {
+        let mut fit = self.descend(h, start, Loss::MIDDLE, FIRST, &mut None);
+        fit.cost = cost(h, &fit, Loss::Likelihood);
+        fit
     }
 
     /// The states fitted once more, where what is known of the windows promises something.

@@ -42,7 +42,7 @@ pub use patterns::{gain_misread, reads_better, set_gain};
 pub use patterns::{opened_as_given, opened_under, opened_windows};
 #[cfg(test)]
 pub use search::try_hypothesis;
-pub use search::{finished_first_fit, first_fit, judged, refit, shared_states, untouched, with_values};
+pub use search::{judged, refit, shared_states, untouched, with_values};
 pub use unfinished::Unfinished;
 
 use rayon::prelude::*;

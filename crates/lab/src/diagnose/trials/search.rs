@@ -198,17 +198,6 @@ pub fn refit(
     judged(data, hypothesis, fit, from, true)
 }
 
-/// The first part of such a fit.
-pub fn first_fit(
-    data: &Data,
-    hypothesis: &Hypothesis,
-    from: &FittedHypothesis,
-    values: &[f64],
-) -> Option<Fit> {
-    let start = data.fit.states(hypothesis, values, &states_of(&from.fit), 2, false)?;
-    data.fit.fit_first(hypothesis, start)
-}
-
 /// A few steps from given values: enough to tell where such a fit would go.
 pub fn first_steps(
     data: &Data,
@@ -228,17 +217,6 @@ pub fn finish_begun(
     from: &FittedHypothesis,
 ) -> Option<FittedHypothesis> {
     let fit = data.fit.fit_finely(&hypothesis, begun)?;
-    judged(data, hypothesis, fit, from, true)
-}
-
-/// The rest of a fit of which the first part is done.
-pub fn finished_first_fit(
-    data: &Data,
-    hypothesis: Hypothesis,
-    first: Fit,
-    from: &FittedHypothesis,
-) -> Option<FittedHypothesis> {
-    let fit = data.fit.fit_on(&hypothesis, first)?;
     judged(data, hypothesis, fit, from, true)
 }
 
