@@ -8,12 +8,15 @@ use super::few::Few;
 use super::probe::Probe;
 use super::{excess, in_rounds, own_error, widened};
 use crate::Progress;
-use crate::diagnose::fit::{Fit, Problem};
+use crate::diagnose::fit::{Fit, Problem, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
 use crate::diagnose::trials::imitation::seconds;
 use crate::diagnose::trials::search::{judged_from_measured, states_of, with_values};
 use crate::diagnose::trials::{Data, FittedHypothesis, Trials, joint_error};
-use crate::limits::{BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL};
+use crate::limits::{
+    BEDS_ASKED_FOR, BEDS_BESIDE_EFFECTS, BEDS_NEAR_BEST, BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR,
+    BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL,
+};
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;
 
@@ -31,9 +34,52 @@ impl<P: Progress> Trials<'_, P> {
         found
     }
 
-    /// Joints that give beside an effect that takes away much alone.
-    pub fn beds_beside(&self, effect: &FittedHypothesis) -> Vec<FittedHypothesis> {
-        if self.leaves_wide_gap(effect) { self.beds_under(&[effect], Some(effect)) } else { Vec::new() }
+    /// Joints that give beside single effects that follow best on sharp edges, what follows the tests best first: those that take
+    /// away a good part of what their effect leaves in few windows.
+    ///
+    /// However narrow that gap is: a bed so stiff that it hardly shows leaves many times the likelihood of noise in few windows.
+    pub fn beds_beside(&self, effects: &[&FittedHypothesis]) -> Vec<FittedHypothesis> {
+        if self.experiment.wall.gives() {
+            return Vec::new();
+        }
+        let Some(first) = effects.first() else { return Vec::new() };
+        let mut begun =
+            effects.iter().flat_map(|effect| self.begun_beside(effect, first)).collect::<Vec<_>>();
+        begun.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
+        let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
+        begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
+        begun.truncate(BEDS_BESIDE_EFFECTS);
+        self.progress.begin("joints that give beside an effect", begun.len());
+        let fit = |(h, begun): &(Hypothesis, Fit)| {
+            let fitted = self.bed(h, begun);
+            self.progress.advance(1);
+            fitted
+        };
+        let mut found = begun.par_iter().filter_map(fit).collect::<Vec<_>>();
+        self.best_finished(&mut found);
+        found
+    }
+
+    /// Joints that give beside an effect, fitted to few windows of which half are those that `first` follows worst; those that take
+    /// away a good part of what the effect leaves there, by error or by likelihood.
+    fn begun_beside(&self, effect: &FittedHypothesis, first: &FittedHypothesis) -> Vec<(Hypothesis, Fit)> {
+        let probe = Probe::beside(self, effect, first);
+        let left = probe.left_without();
+        let most = 1.0 - BEDS_ASKED_FOR;
+        let takes = |fit: &Fit| {
+            excess(&fit.windows) < most * excess(&left) || nats(&fit.windows) < most * nats(&left)
+        };
+        probe.begun().into_iter().filter(|(_, fit)| takes(fit)).collect()
+    }
+
+    /// Joints that give without the effect beside them, fitted to the end from where both are.
+    pub fn bed_without_effect(&self, both: &FittedHypothesis) -> Option<FittedHypothesis> {
+        let beds = both.hypothesis.additions.iter().filter(|a| a.role() == Some(Role::Bed));
+        let h = self.hypothesis(&self.experiment.nuisances, &beds.copied().collect::<Vec<_>>());
+        let values = h.values_from(&both.hypothesis, &both.fit.values);
+        let start = self.data.fit.states(&h, &values, &states_of(&both.fit), 2, false)?;
+        let fit = in_rounds(&self.data.fit, &h, start)?;
+        self.finished_beside_own_error(&judged_from_measured(&self.data, h, fit)?)
     }
 
     /// Joints that give beside single effects that follow best on sharp edges, what follows the tests best first: where numbers of
