@@ -19,6 +19,7 @@ use mrbd_kernel::model::Role;
 use rayon::prelude::*;
 
 /// The wall without effects.
+#[derive(Clone)]
 pub struct WallFits {
     /// As it was given.
     pub before: FittedHypothesis,

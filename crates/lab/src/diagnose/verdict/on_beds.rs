@@ -19,14 +19,18 @@ use crate::limits::{
     WORTH_A_SECOND_TO_NOISE,
 };
 
-/// The verdict where joints that give are the answer, or part of it; `None` where they are not.
-pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found> {
+/// The verdict where joints that give, alone or in pairs with effects, are the answer, or part of it; `None` where they are not.
+pub fn on_beds<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    beds: Vec<FittedHypothesis>,
+    pairs: Vec<FittedHypothesis>,
+) -> Option<Found> {
     let WallFits { before, recalibrated } = wall;
-    let beds = trials.beds(wall);
     if !beds.first().is_some_and(does_something) {
         return None;
     }
-    let OnBeds { best, mut near, pairs, rivals } = with_effect(trials, wall, &beds)?;
+    let OnBeds { best, mut near, pairs, rivals } = with_effect(trials, wall, &beds, pairs)?;
     if Remainder::new(&trials.data, recalibrated, &best, &[])?.taken_held_out < REMAINDER_TAKEN {
         return None;
     }
@@ -209,23 +213,43 @@ struct OnBeds {
     rivals: Option<Vec<FittedHypothesis>>,
 }
 
-/// Joints that give with an effect beside them where one is worth it, else alone. `None` where joints that give take away too
-/// little for anything beside them to show.
+/// Joints that give with an effect beside them, the best first; none where they take away too little for one to show, or leave
+/// noise.
+pub fn beside_beds<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    beds: &[FittedHypothesis],
+) -> Vec<FittedHypothesis> {
+    let Some(alone) = beds.first().filter(|alone| does_something(alone)) else { return Vec::new() };
+    let nothing_beside = || leaves_noise(alone) || trials.is_held();
+    if !takes_enough(trials, wall, alone) || nothing_beside() {
+        return Vec::new();
+    }
+    trials.beside_beds(beds)
+}
+
+/// Whether joints that give take away so much, in the tests held out, that an effect beside them could show.
+fn takes_enough<P: Progress>(trials: &Trials<P>, wall: &WallFits, alone: &FittedHypothesis) -> bool {
+    Remainder::new(&trials.data, &wall.recalibrated, alone, &[])
+        .is_some_and(|taken| taken.taken_held_out >= BESIDE_BEDS_FROM)
+}
+
+/// Joints that give with an effect beside them where one of `pairs` is worth it, else alone. `None` where joints that give take away
+/// too little for anything beside them to show.
 fn with_effect<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     beds: &[FittedHypothesis],
+    pairs: Vec<FittedHypothesis>,
 ) -> Option<OnBeds> {
     let alone = beds.first()?;
-    let taken = Remainder::new(&trials.data, &wall.recalibrated, alone, &[])?;
-    if taken.taken_held_out < BESIDE_BEDS_FROM {
+    if !takes_enough(trials, wall, alone) {
         return None;
     }
     // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
     if leaves_noise(alone) || trials.is_held() {
         return Some(OnBeds { best: alone.clone(), near: Vec::new(), pairs: Vec::new(), rivals: None });
     }
-    let pairs = trials.beside_beds(beds);
     let (pairs, rivals) = match worth_it(trials, wall, alone, &pairs) {
         None if leaves_more_than_another_model(wall, alone) => {
             let rivals = trials.rivals_of_beds(&wall.before);

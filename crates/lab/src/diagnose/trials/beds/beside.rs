@@ -15,7 +15,7 @@ use crate::diagnose::trials::search::{judged_from_measured, states_of, with_valu
 use crate::diagnose::trials::{Data, FittedHypothesis, Trials, joint_error};
 use crate::limits::{
     BEDS_ASKED_FOR, BEDS_BESIDE_EFFECTS, BEDS_NEAR_BEST, BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR,
-    BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL,
+    BESIDE_BEDS_GAP, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL, WORTH_A_NAME,
 };
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;
@@ -112,8 +112,8 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Orders hypotheses by what follows best, and fits that to the end.
-    fn best_finished(&self, found: &mut [FittedHypothesis]) {
-        by_error(found);
+    pub(super) fn best_finished(&self, found: &mut [FittedHypothesis]) {
+        by_error_of(found);
         if let Some(best) = found.first_mut()
             && let Some(finished) = self.finished_beside_own_error(best)
         {
@@ -124,15 +124,29 @@ impl<P: Progress> Trials<'_, P> {
     /// The best of what few windows promise, and what comes near it there, fitted to all; none where that is little.
     fn effects_beside(&self, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let few = Few::new(self.data.fit, BESIDE_BEDS_WINDOWS, own_error(bed));
+        let nearly = follows_nearly(bed);
         let mut promised = self.promised(&few, bed);
-        promised.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+        let against = |tried: &FittedHypothesis| nats(&tried.fit.windows);
         let left = |tried: &FittedHypothesis| few.excess(&tried.fit);
-        let Some(least) = promised.first().map(left) else { return Vec::new() };
-        if least > (1.0 - BESIDE_BEDS_ASKED_FOR) * few.excess(&few.of(bed).fit) {
+        // Near the noise few windows that an effect is missed in say more than the error of all.
+        match nearly {
+            true => promised.sort_by(|a, b| against(a).total_cmp(&against(b))),
+            false => promised.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error())),
+        }
+        let Some((least, speaks)) = promised.first().map(|first| (left(first), against(first))) else {
+            return Vec::new();
+        };
+        let before = few.of(bed);
+        let by_error = least < (1.0 - BESIDE_BEDS_ASKED_FOR) * few.excess(&before.fit);
+        let by_likelihood = nearly && against(&before) - speaks > WORTH_A_NAME;
+        if !by_error && !by_likelihood {
             return Vec::new();
         }
         // One may follow within the noise: then another must come near that.
-        promised.retain(|tried| left(tried) < REMAINDER_RIVAL * least.max(1.0));
+        promised.retain(|tried| match nearly {
+            true => against(tried) - speaks < WORTH_A_NAME,
+            false => left(tried) < REMAINDER_RIVAL * least.max(1.0),
+        });
         self.progress.begin("effects beside joints that give", promised.len());
         let fit = |tried: &FittedHypothesis| {
             let fitted = self.in_all_windows_beside(bed, tried);
@@ -140,7 +154,7 @@ impl<P: Progress> Trials<'_, P> {
             fitted
         };
         let mut found = promised.par_iter().filter_map(fit).collect::<Vec<_>>();
-        by_error(&mut found);
+        by_error_of(&mut found);
         found
     }
 
@@ -154,7 +168,9 @@ impl<P: Progress> Trials<'_, P> {
         let wide = Problem { tests: &tests, ..self.data.fit };
         let h = &tried.hypothesis;
         let start = wide.states(h, &tried.fit.values, &states_of(&bed.fit), 2, false)?;
-        let Fit { values, covariance, .. } = in_rounds(&wide, h, start)?;
+        let found = in_rounds(&wide, h, start)?;
+        let found = if follows_nearly(bed) { wide.fit_finely(h, found)? } else { found };
+        let Fit { values, covariance, .. } = found;
         let fitted = with_values(&self.data, h.clone(), bed, &values)?;
         Some(FittedHypothesis { fit: Fit { covariance, ..fitted.fit }, ..fitted })
     }
@@ -162,6 +178,7 @@ impl<P: Progress> Trials<'_, P> {
     /// Effects that a linear look promises most of, and beds that are not alike, fitted to few windows.
     fn promised(&self, few: &Few, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let first = few.of(bed);
+        let nearly = follows_nearly(bed);
         let data = Data { fit: few.problem(), held_out: few.nothing() };
         // Coefficients of impact do nothing on a bed.
         let is_effect = |a: &Addition| a.role().is_some_and(|role| !role.is_at_impacts());
@@ -181,6 +198,7 @@ impl<P: Progress> Trials<'_, P> {
         let fit = |(h, values): (Hypothesis, Vec<f64>)| {
             let start = data.fit.states(&h, &values, &states_of(&first.fit), 2, false)?;
             let fit = in_rounds(&data.fit, &h, start)?;
+            let fit = if nearly { data.fit.fit_finely(&h, fit)? } else { fit };
             judged_from_measured(&data, h, fit)
         };
         starts.into_par_iter().filter_map(fit).collect()
@@ -227,8 +245,14 @@ impl<P: Progress> Trials<'_, P> {
 /// Softness of the joint that was sharp, over that of the other, from which its own bed is fitted.
 const AT_THE_OTHER: f64 = 0.1;
 
+/// Whether joints that give leave so little that windows tell an effect beside them by likelihood. The widest loss, under which
+/// fits begin, would move the numbers for a few windows that no state follows.
+fn follows_nearly(bed: &FittedHypothesis) -> bool {
+    own_error(bed) < BESIDE_BEDS_GAP
+}
+
 /// What follows the windows best first.
-fn by_error(tried: &mut [FittedHypothesis]) {
+fn by_error_of(tried: &mut [FittedHypothesis]) {
     let error = |t: &FittedHypothesis| joint_error(t).unwrap_or(f64::INFINITY);
     tried.sort_by(|a, b| error(a).total_cmp(&error(b)));
 }

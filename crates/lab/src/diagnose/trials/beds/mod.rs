@@ -49,6 +49,8 @@ pub fn widened(tests: &[TestData], factor: f64) -> Vec<TestData> {
 
 /// Times that a fit of beds is begun again under the loss that it has come to.
 const ROUNDS: usize = 3;
+/// Hypotheses that are fitted again where windows are others: the best, and what it may be taken for.
+const AGAIN: usize = 3;
 /// Share of the error that is worth another.
 const WORTH_A_ROUND: f64 = 0.02;
 
@@ -122,6 +124,14 @@ impl<P: Progress> Trials<'_, P> {
         let fit = self.data.fit.states(h, &found.values, &states_of(&found), 1, false)?;
         let fit = Fit { covariance: found.covariance, ..fit };
         judged_from_measured(&self.data, h.clone(), fit)
+    }
+
+    /// The first of hypotheses on beds fitted again where windows are others, from the measured states; the best to the end.
+    pub fn fitted_again(&self, tried: &[FittedHypothesis]) -> Vec<FittedHypothesis> {
+        let again = |old: &FittedHypothesis| self.bed(&old.hypothesis, &old.fit);
+        let mut found = tried[..tried.len().min(AGAIN)].par_iter().filter_map(again).collect::<Vec<_>>();
+        self.best_finished(&mut found);
+        found
     }
 
     /// A bed fitted to all windows with the wall's own numbers, from where it was begun.
