@@ -34,7 +34,8 @@ fn write(folder: &Path, effects: Vec<Effect>) -> PathBuf {
     let wall = Wall::new(WallParameters { effects, ..described }).expect("a wall");
     let mut random = ChaCha8Rng::seed_from_u64(11);
     let normal = Normal::new(0.0, NOISE_RAD).expect("a deviation");
-    let mut experiment = "wall = \"wall.toml\"\n[prior]\nstiffness_n_per_m = 0.02\nmass_kg = 0.01\n".to_owned();
+    let mut experiment =
+        "wall = \"wall.toml\"\n[prior]\nstiffness_n_per_m = 0.02\nmass_kg = 0.01\n".to_owned();
     for (i, most) in LARGEST_M_S2.into_iter().enumerate() {
         let sweep = |k: i32| most * (0.031 * f64::from(k)).sin() * (0.0024 * f64::from(k)).sin();
         let samples = (0..=1400).map(|k| sweep(k + 90 * i as i32)).collect::<Vec<_>>();

@@ -3,7 +3,7 @@
 use super::at_impacts::{
     NamedBetween, keeps_as_another_formulation, named_between, only_impacts, worth_two_between,
 };
-use super::on_beds::{BedsBeside, on_beds_last};
+use super::on_beds::{BedsBeside, on_beds_instead, on_beds_last};
 use super::worth_naming::{could_show, place, worth_two};
 use super::{OtherLaw, Remainder, Verdict};
 use super::{name_of_number, names, names_of_all};
@@ -177,6 +177,11 @@ impl<P: Progress> Gap<'_, P> {
         let far = joint_error(&self.wall.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
         if one.is_none() && !far && gain <= WORTH_PAIRS {
             return self.placed(None, singles);
+        }
+        let named = one.as_ref().map(|one| &one.after);
+        let instead = named.and_then(|one| on_beds_instead(self.trials, &self.wall, one, &singles));
+        if let Some(found) = instead {
+            return found;
         }
         let beds = if one.is_none() { BedsBeside::an_effect(self.trials, &singles) } else { None };
         let follow = beds.as_ref().and_then(|beds| beds.following(self.trials, &self.wall, &singles));

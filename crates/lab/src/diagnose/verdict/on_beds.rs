@@ -70,9 +70,32 @@ pub fn on_beds_last<P: Progress>(
     wall: &WallFits,
     tried: &[FittedHypothesis],
 ) -> Option<Found> {
-    let beds = trials.beds_in_narrow_gap(wall);
-    let best = beds.first().filter(|best| does_something(best))?.clone();
-    let all = || [beds.clone(), tried.to_vec()].concat();
+    following_alone(trials, wall, &trials.beds_in_narrow_gap(wall), tried)
+}
+
+/// Joints that give in the place of a name that leaves more than noise, where they follow the tests to it and nothing that was tried
+/// comes near: what a stiff bed leaves of sharp edges, an effect may take up in part.
+pub fn on_beds_instead<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    named: &FittedHypothesis,
+    tried: &[FittedHypothesis],
+) -> Option<Found> {
+    if leaves_noise(named) || trials.is_held() {
+        return None;
+    }
+    following_alone(trials, wall, &trials.beds_instead_of(named, wall), tried)
+}
+
+/// The verdict where the first of some beds follows the tests to their noise, and is no other way to model a sharp edge.
+fn following_alone<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    beds: &[FittedHypothesis],
+    tried: &[FittedHypothesis],
+) -> Option<Found> {
+    let best = beds.first().filter(|best| does_something(best) && is_soft(best))?.clone();
+    let all = || [beds, tried].concat();
     follows(trials, wall, &best, tried)
         .then(|| Standing { remainder: None }.found(trials, wall, best.clone(), &[], all()))
 }
@@ -306,7 +329,8 @@ fn shows_beside_own_error<P: Progress>(
     two: &FittedHypothesis,
 ) -> bool {
     let error = own_error(two);
-    let wider = |window: &WindowFit| WindowFit { squares: window.squares / (error * error), ..window.clone() };
+    let wider =
+        |window: &WindowFit| WindowFit { squares: window.squares / (error * error), ..window.clone() };
     let against = |windows: &[WindowFit]| nats(&windows.iter().map(wider).collect::<Vec<_>>());
     let gain = |one: &[WindowFit], two: &[WindowFit]| against(one) - against(two);
     let fitted = gain(&one.fit.windows, &two.fit.windows);

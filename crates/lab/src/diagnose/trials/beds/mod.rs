@@ -24,10 +24,10 @@ use rayon::prelude::*;
 use super::search::{judged_from_measured, states_of};
 use super::{FittedHypothesis, Trials, WallFits, joint_error};
 use crate::Progress;
-use crate::diagnose::fit::{Fit, Problem, WindowFit, windowed_error};
+use crate::diagnose::fit::{Fit, Problem, WindowFit, nats, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::TestData;
-use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST};
+use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST, BEDS_WINDOWS};
 pub use few::Few;
 use probe::Probe;
 
@@ -91,8 +91,31 @@ impl<P: Progress> Trials<'_, P> {
             return Vec::new();
         }
         let probes = walls.iter().filter_map(|wall| Probe::new(self, wall, without));
-        let Some(probe) = probes.min_by(|a, b| a.least().total_cmp(&b.least())) else { return Vec::new() };
-        let mut begun = probe.begun();
+        let probe = probes.min_by(|a, b| a.least().total_cmp(&b.least()));
+        self.from_begun(probe.map(Probe::begun).unwrap_or_default())
+    }
+
+    /// Joints that give in the place of an effect that closes a gap and leaves more than noise; none where they follow few windows
+    /// no better.
+    pub fn beds_instead_of(
+        &self,
+        named: &FittedHypothesis,
+        WallFits { before, recalibrated }: &WallFits,
+    ) -> Vec<FittedHypothesis> {
+        if self.experiment.wall.gives() {
+            return Vec::new();
+        }
+        let starts = self.starts(before, recalibrated);
+        let probes = starts.into_iter().filter_map(|wall| Probe::new(self, wall, None));
+        let probe = probes.min_by(|a, b| a.least().total_cmp(&b.least()));
+        let left = nats(&Few::new(self.data.fit, BEDS_WINDOWS, 1.0).left(&named.fit));
+        let mut begun = probe.map(Probe::begun).unwrap_or_default();
+        begun.retain(|(_, fit)| nats(&fit.windows) < left);
+        self.from_begun(begun)
+    }
+
+    /// Beds fitted to all windows from where they were begun in few: the best, and what comes near it there.
+    fn from_begun(&self, mut begun: Vec<(Hypothesis, Fit)>) -> Vec<FittedHypothesis> {
         let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
         // A bed may follow within the noise: then another must come near that.
         begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
@@ -103,12 +126,7 @@ impl<P: Progress> Trials<'_, P> {
             fitted
         };
         let mut fitted = begun.par_iter().filter_map(fit).collect::<Vec<_>>();
-        fitted.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
-        if let Some(best) = fitted.first_mut()
-            && let Some(finished) = self.finished_beside_own_error(best)
-        {
-            *best = finished;
-        }
+        self.best_finished(&mut fitted);
         fitted
     }
 
