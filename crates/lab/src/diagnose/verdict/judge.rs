@@ -178,9 +178,8 @@ impl<P: Progress> Gap<'_, P> {
         if one.is_none() && !far && gain <= WORTH_PAIRS {
             return self.placed(None, singles);
         }
-        let named = one.as_ref().map(|one| &one.after);
-        let instead = named.and_then(|one| on_beds_instead(self.trials, &self.wall, one, &singles));
-        if let Some(found) = instead {
+        let instead = |one: &Answer| on_beds_instead(self.trials, &self.wall, &one.after, &singles);
+        if let Some(found) = one.as_ref().and_then(instead) {
             return found;
         }
         let beds = if one.is_none() { BedsBeside::an_effect(self.trials, &singles) } else { None };

@@ -293,8 +293,13 @@ fn worth_it<P: Progress>(
     pairs: &[FittedHypothesis],
 ) -> Option<(FittedHypothesis, Vec<FittedHypothesis>)> {
     let (two, others) = pairs.split_first().filter(|(two, _)| is_worth_it(trials, wall, alone, two))?;
-    let is_as_good =
-        |other: &&FittedHypothesis| comes_near(trials, two, other) && is_worth_it(trials, wall, alone, other);
+    // What follows to the noise or takes most is near only to what does so too.
+    let clearly = is_clearly_worth_it(trials, wall, alone, two);
+    let is_worth = |other: &FittedHypothesis| {
+        let worth = if clearly { is_clearly_worth_it } else { is_worth_it };
+        worth(trials, wall, alone, other)
+    };
+    let is_as_good = |other: &&FittedHypothesis| comes_near(trials, two, other) && is_worth(other);
     Some((two.clone(), others.iter().filter(is_as_good).cloned().collect()))
 }
 
@@ -304,21 +309,32 @@ fn leaves_more_than_another_model(wall: &WallFits, alone: &FittedHypothesis) -> 
     left > BED_OWN_ERROR * gap && joint_error(alone).is_some_and(|error| error > BESIDE_BEDS_GAP)
 }
 
-/// Whether an effect beside joints that give is named with them.
-///
-/// It follows to the noise and gains what a second effect must. Or they leave more than another way to model a bed does, and
-/// it takes most of that away, in small swings and in large ones, or shows beside what both leave.
+/// Whether an effect beside joints that give is named with them: it is clearly worth it, or they leave more than another way to model
+/// a bed does, and it shows beside what both leave.
 fn is_worth_it<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     alone: &FittedHypothesis,
     two: &FittedHypothesis,
 ) -> bool {
-    let is_more = leaves_more_than_another_model(wall, alone);
+    let shows = || does_something(two) && shows_beside_own_error(trials, alone, two);
+    is_clearly_worth_it(trials, wall, alone, two) || (leaves_more_than_another_model(wall, alone) && shows())
+}
+
+/// Whether an effect beside joints that give follows to the noise and gains what a second effect must. Or they leave more than
+/// another way to model a bed does, or than a bed with the effect, which nearly follows, and it takes most of that away, in small
+/// swings and in large ones.
+fn is_clearly_worth_it<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    alone: &FittedHypothesis,
+    two: &FittedHypothesis,
+) -> bool {
+    let nearly = |tried: &FittedHypothesis| joint_error(tried).is_some_and(|error| error < BESIDE_BEDS_GAP);
+    let is_more = leaves_more_than_another_model(wall, alone) || (nearly(two) && !nearly(alone));
     let takes_most = || Remainder::new(&trials.data, alone, two, &[]).is_some_and(|r| r.holds());
     let to_noise = || follows(trials, wall, two, &[]) && worth_two(&trials.data, alone, two);
-    let shows = || shows_beside_own_error(trials, alone, two);
-    does_something(two) && ((is_more && (takes_most() || shows())) || to_noise())
+    does_something(two) && ((is_more && takes_most()) || to_noise())
 }
 
 /// Whether a second effect gains what one must that follows to the noise, in tests fitted and held out, with what both leave in the

@@ -92,7 +92,7 @@ impl<P: Progress> Trials<'_, P> {
         }
         let probes = walls.iter().filter_map(|wall| Probe::new(self, wall, without));
         let probe = probes.min_by(|a, b| a.least().total_cmp(&b.least()));
-        self.from_begun(probe.map(Probe::begun).unwrap_or_default())
+        self.fitted_from(probe.map(Probe::begun).unwrap_or_default())
     }
 
     /// Joints that give in the place of an effect that closes a gap and leaves more than noise; none where they follow few windows
@@ -111,11 +111,11 @@ impl<P: Progress> Trials<'_, P> {
         let left = nats(&Few::new(self.data.fit, BEDS_WINDOWS, 1.0).left(&named.fit));
         let mut begun = probe.map(Probe::begun).unwrap_or_default();
         begun.retain(|(_, fit)| nats(&fit.windows) < left);
-        self.from_begun(begun)
+        self.fitted_from(begun)
     }
 
     /// Beds fitted to all windows from where they were begun in few: the best, and what comes near it there.
-    fn from_begun(&self, mut begun: Vec<(Hypothesis, Fit)>) -> Vec<FittedHypothesis> {
+    fn fitted_from(&self, mut begun: Vec<(Hypothesis, Fit)>) -> Vec<FittedHypothesis> {
         let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
         // A bed may follow within the noise: then another must come near that.
         begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
