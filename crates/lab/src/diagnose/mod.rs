@@ -31,17 +31,20 @@ pub mod verdict;
 use crate::Progress;
 use crate::experiment::{TestData, Window, is_readable, windows};
 use crate::experiment_file::Purpose;
-use crate::limits::READ_AGAIN;
+use crate::limits::{BESIDE_BEDS_GAP, READ_AGAIN};
 pub use answer::Diagnosis;
 use answer::Findings;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use trials::{
-    Data, FirstFits, Trials, Unfinished, WallFits, gain_misread, opened_as_given, opened_windows,
-    reads_better, set_gain,
+    Data, FirstFits, FittedHypothesis, Trials, Unfinished, WallFits, gain_misread, opened_as_given,
+    opened_enough, opened_windows, own_error, reads_better, set_gain,
 };
 pub use verdict::Verdict;
-use verdict::{Found, judge, on_beds};
+use verdict::{Found, beside_beds, judge, leaves_noise, on_beds};
+
+/// The windows that count, and the answer in them.
+type Answered = ([Vec<Window>; 2], Found);
 
 /// Diagnoses an experiment: the verdict, everything it rests on, and the updated wall.
 ///
@@ -77,10 +80,10 @@ struct Flow<'e, P> {
 
 impl<P: Progress> Flow<'_, P> {
     /// The windows and the answer in them; a sensor's gain that shows is kept with the tests.
-    fn answered(&mut self) -> Result<([Vec<Window>; 2], Found)> {
+    fn answered(&mut self) -> Result<Answered> {
         let (mut windows, wall) = self.wall()?;
-        if let Some(found) = on_beds(&self.trials(&windows), &wall) {
-            return Ok((windows, found));
+        if let Some(answer) = self.answered_on_beds(&windows, &wall)? {
+            return Ok(answer);
         }
         let mut first_fits = self.trials(&windows).first_fits(wall);
         for _ in 0..READ_AGAIN {
@@ -102,6 +105,38 @@ impl<P: Progress> Flow<'_, P> {
         }
         let found = judge(&self.trials(&windows), first_fits);
         Ok((windows, found))
+    }
+
+    /// The windows and the answer where joints that give are it, or part of it.
+    ///
+    /// No joint is shut on a bed. Windows that the best bed follows once both bodies are free at their start are fitted so, and once
+    /// more under the best with an effect beside it.
+    fn answered_on_beds(&self, windows: &[Vec<Window>; 2], wall: &WallFits) -> Result<Option<Answered>> {
+        let mut windows = windows.clone();
+        let mut wall = wall.clone();
+        let mut beds = self.trials(&windows).beds(&wall);
+        if let Some(free) = beds.first().and_then(|bed| self.with_free_bodies(&windows, bed)) {
+            (wall, windows) = (self.wall_in(&free, None)?, free);
+            beds = self.trials(&windows).fitted_again(&beds);
+        }
+        let mut pairs = beside_beds(&self.trials(&windows), &wall, &beds);
+        if let Some(free) = pairs.first().and_then(|both| self.with_free_bodies(&windows, both)) {
+            (wall, windows) = (self.wall_in(&free, None)?, free);
+            let trials = self.trials(&windows);
+            (beds, pairs) = (trials.fitted_again(&beds), trials.fitted_again(&pairs));
+        }
+        let found = on_beds(&self.trials(&windows), &wall, beds, pairs);
+        Ok(found.map(|found| (windows, found)))
+    }
+
+    /// The windows with both bodies free where a wall on beds follows them so, if it nearly follows the tests and these are enough.
+    fn with_free_bodies(
+        &self,
+        windows: &[Vec<Window>; 2],
+        on_beds: &FittedHypothesis,
+    ) -> Option<[Vec<Window>; 2]> {
+        let nearly = own_error(on_beds) < BESIDE_BEDS_GAP && !leaves_noise(on_beds);
+        nearly.then(|| opened_enough(&Data::new(&self.tests, windows), on_beds)).flatten()
     }
 
     /// Windows of the tests, and the wall without effects in them.

@@ -15,6 +15,7 @@ use mrbd_kernel::model::Role;
 use rayon::prelude::*;
 
 /// The wall without effects.
+#[derive(Clone)]
 pub struct WallFits {
     /// As it was given.
     pub before: FittedHypothesis,
@@ -127,7 +128,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// The best single effect with those that take away most beside it, as far as a linear look tells.
-    fn beside(&self, first: &FittedHypothesis) -> Vec<FittedHypothesis> {
+    pub fn beside(&self, first: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let hypothesis = |additions: &[Addition]| self.hypothesis(&self.experiment.nuisances, additions);
         let effects = candidates(self.experiment.wall.parameters());
         // Factors on the coefficients of impact would free these of what was known of them.

@@ -64,7 +64,12 @@ pub fn opened_as_given(experiment: &Experiment, data: &Data) -> Option<[Vec<Wind
 
 /// The same for the best single effect, where it opens enough of them for everything to be fitted again.
 pub fn opened_windows(data: &Data, first_fits: &FirstFits) -> Option<[Vec<Window>; 2]> {
-    let (windows, count) = opened_under(data, best_answer(&first_fits.singles)?)?;
+    opened_enough(data, best_answer(&first_fits.singles)?)
+}
+
+/// The same for a hypothesis.
+pub fn opened_enough(data: &Data, tried: &FittedHypothesis) -> Option<[Vec<Window>; 2]> {
+    let (windows, count) = opened_under(data, tried)?;
     (count >= WORTH_OPENING).then_some(windows)
 }
 

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use super::at_impacts::{
     NamedBetween, keeps_as_another_formulation, named_between, only_impacts, worth_two_between,
 };
-use super::on_beds::{BedsBeside, on_beds_last};
+use super::on_beds::{BedsBeside, on_beds_instead, on_beds_last};
 use super::worth_naming::{could_show, place, worth_two};
 use super::{OtherLaw, Remainder, Verdict};
 use super::{name_of_number, names, names_of_all};
@@ -182,6 +182,10 @@ impl<P: Progress> Gap<'_, P> {
         let far = joint_error(&self.wall.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
         if one.is_none() && !far && gain <= WORTH_PAIRS {
             return self.placed(None, singles);
+        }
+        let instead = |one: &Answer| on_beds_instead(self.trials, &self.wall, &one.after, &singles);
+        if let Some(found) = one.as_ref().and_then(instead) {
+            return found;
         }
         let beds = if one.is_none() { BedsBeside::an_effect(self.trials, &singles) } else { None };
         let follow = beds.as_ref().and_then(|beds| beds.following(self.trials, &self.wall, &singles));

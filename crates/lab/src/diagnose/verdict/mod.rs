@@ -21,11 +21,11 @@ mod worth_naming;
 use super::hypothesis::{Addition, WallNumber};
 use super::trials::{FittedHypothesis, kind_of};
 pub use judge::{Found, judge};
-pub use on_beds::on_beds;
+pub use on_beds::{beside_beds, on_beds};
 pub use other_law::{OtherLaw, Trend};
 pub use remainder::{NextRival, Remainder, model_error_rad};
 use serde::{Deserialize, Serialize};
-pub use worth_naming::power;
+pub use worth_naming::{leaves_noise, power};
 
 /// The answer of a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,26 +4,33 @@
 //! they hold, the others are fitted as rivals, and no more is tried.
 
 use super::judge::Found;
+use super::remainder::is_soft;
 use super::worth_naming::{leaves_noise, worth_two};
 use super::{Remainder, Verdict, names, names_of_all};
 use crate::Progress;
+use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::trials::{
     FittedHypothesis, Trials, WallFits, against, all_windows, closes, crushes, does_something, excess,
-    is_noise, joint_error,
+    is_noise, joint_error, own_error,
 };
 use crate::limits::{
-    BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
-    REMAINDER_TAKEN, WORTH_A_NAME,
+    BED_OWN_ERROR, BEDS_BESIDE_EFFECTS, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT,
+    REMAINDER_RIVAL, REMAINDER_TAKEN, TAKEN_BESIDE_OWN_ERROR, WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT,
+    WORTH_A_SECOND_TO_NOISE,
 };
 
-/// The verdict where joints that give are the answer, or part of it; `None` where they are not.
-pub fn on_beds<P: Progress>(trials: &Trials<P>, wall: &WallFits) -> Option<Found> {
+/// The verdict where joints that give, alone or in pairs with effects, are the answer, or part of it; `None` where they are not.
+pub fn on_beds<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    beds: Vec<FittedHypothesis>,
+    pairs: Vec<FittedHypothesis>,
+) -> Option<Found> {
     let WallFits { before, recalibrated } = wall;
-    let beds = trials.beds(wall);
     if !beds.first().is_some_and(does_something) {
         return None;
     }
-    let OnBeds { best, mut near, pairs, rivals } = with_effect(trials, wall, &beds)?;
+    let OnBeds { best, mut near, pairs, rivals } = with_effect(trials, wall, &beds, pairs)?;
     if Remainder::new(&trials.data, recalibrated, &best, &[])?.taken_held_out < REMAINDER_TAKEN {
         return None;
     }
@@ -66,9 +73,32 @@ pub fn on_beds_last<P: Progress>(
 ) -> Option<Found> {
     let rivals = tried.iter().chain(laws).chain([&wall.recalibrated]);
     let rival = rivals.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)))?;
-    let beds = trials.beds_in_narrow_gap(wall, rival);
-    let best = beds.first().filter(|best| does_something(best))?.clone();
-    let all = || [beds.clone(), tried.to_vec()].concat();
+    following_alone(trials, wall, &trials.beds_in_narrow_gap(wall, rival), tried)
+}
+
+/// Joints that give in the place of a name that leaves more than noise, where they follow the tests to it and nothing that was tried
+/// comes near: what a stiff bed leaves of sharp edges, an effect may take up in part.
+pub fn on_beds_instead<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    named: &FittedHypothesis,
+    tried: &[FittedHypothesis],
+) -> Option<Found> {
+    if leaves_noise(named) || trials.is_held() {
+        return None;
+    }
+    following_alone(trials, wall, &trials.beds_instead_of(named, wall), tried)
+}
+
+/// The verdict where the first of some beds follows the tests to their noise, and is no other way to model a sharp edge.
+fn following_alone<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    beds: &[FittedHypothesis],
+    tried: &[FittedHypothesis],
+) -> Option<Found> {
+    let best = beds.first().filter(|best| does_something(best) && is_soft(best))?.clone();
+    let all = || [beds, tried].concat();
     follows(trials, wall, &best, tried)
         .then(|| Standing { remainder: None }.found(trials, wall, best.clone(), &[], all()))
 }
@@ -76,31 +106,42 @@ pub fn on_beds_last<P: Progress>(
 /// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
 pub struct BedsBeside {
     effect: FittedHypothesis,
+    /// The bed of the best alone.
+    alone: FittedHypothesis,
     best: FittedHypothesis,
     near: Vec<FittedHypothesis>,
 }
 
 impl BedsBeside {
-    /// Beside the single effect that follows best, where it leaves much and beds take that away.
+    /// Beside one of the single effects that follow best, where beds take away what it leaves.
     pub fn an_effect<P: Progress>(trials: &Trials<P>, singles: &[FittedHypothesis]) -> Option<Self> {
-        let effects = singles.iter().filter(|t| is_effect(t));
-        let effect = effects.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()))?.clone();
-        let beds = trials.beds_beside(&effect);
+        // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
+        if trials.is_held() {
+            return None;
+        }
+        let effects = following_best(singles);
+        let beds = trials.beds_beside(&effects);
         let (best, others) = beds.split_first()?;
+        let effect = effects.into_iter().find(|one| contains(best, one))?.clone();
+        let alone = trials.bed_without_effect(best)?;
         let is_other =
             |other: &&FittedHypothesis| names(other) != names(best) && comes_near(trials, best, other);
         let near = others.iter().filter(is_other).cloned().collect();
-        Some(Self { effect, best: best.clone(), near })
+        Some(Self { effect, alone, best: best.clone(), near })
     }
 
-    /// The verdict where they follow to the noise.
+    /// The verdict where they follow to the noise, and no effect on sharp edges does nearly as well beside the same effect.
     pub fn following<P: Progress>(
         &self,
         trials: &Trials<P>,
         wall: &WallFits,
         tried: &[FittedHypothesis],
     ) -> Option<Found> {
-        self.leaving_little(trials, wall, tried).filter(|found| found.remainder.is_none())
+        if !follows(trials, wall, &self.best, tried) {
+            return None;
+        }
+        let all = [tried, &trials.beside(&self.effect)].concat();
+        self.leaving_little(trials, wall, &all).filter(|found| found.remainder.is_none())
     }
 
     /// The verdict where what they leave is noise, or little that nothing tried comes near.
@@ -110,12 +151,31 @@ impl BedsBeside {
         wall: &WallFits,
         tried: &[FittedHypothesis],
     ) -> Option<Found> {
-        let Self { effect, best, near } = self;
+        let Self { effect, alone, best, near } = self;
         let standing = Standing::of(trials, wall, best, tried)?;
-        let all = || [std::slice::from_ref(best), near, tried].concat();
-        is_worth_it(trials, wall, effect, best)
-            .then(|| standing.found(trials, wall, best.clone(), near, all()))
+        let all = || [&[best.clone(), alone.clone()], &near[..], tried].concat();
+        let is_worth_both = [effect, alone].iter().all(|one| is_worth_it(trials, wall, one, best));
+        (is_worth_both && is_soft(best)).then(|| standing.found(trials, wall, best.clone(), near, all()))
     }
+}
+
+/// The single effects that do something and follow best: by what speaks against them, and by error.
+fn following_best(singles: &[FittedHypothesis]) -> Vec<&FittedHypothesis> {
+    let effects = singles.iter().filter(|t| is_effect(t) && does_something(t)).collect::<Vec<_>>();
+    let mut by_error = effects.clone();
+    by_error.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+    let mut best: Vec<&FittedHypothesis> = Vec::new();
+    for effect in by_error.into_iter().take(BEDS_BESIDE_EFFECTS - 1).chain(effects) {
+        if best.len() < BEDS_BESIDE_EFFECTS && !best.iter().any(|other| std::ptr::eq(*other, effect)) {
+            best.push(effect);
+        }
+    }
+    best
+}
+
+/// Whether a hypothesis has the addition of a single effect.
+fn contains(both: &FittedHypothesis, effect: &FittedHypothesis) -> bool {
+    both.hypothesis.additions.contains(&effect.hypothesis.additions[0])
 }
 
 /// Whether a single addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.
@@ -179,23 +239,43 @@ struct OnBeds {
     rivals: Option<Vec<FittedHypothesis>>,
 }
 
-/// Joints that give with an effect beside them where one is worth it, else alone. `None` where joints that give take away too
-/// little for anything beside them to show.
+/// Joints that give with an effect beside them, the best first; none where they take away too little for one to show, or leave
+/// noise.
+pub fn beside_beds<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    beds: &[FittedHypothesis],
+) -> Vec<FittedHypothesis> {
+    let Some(alone) = beds.first().filter(|alone| does_something(alone)) else { return Vec::new() };
+    let nothing_beside = || leaves_noise(alone) || trials.is_held();
+    if !takes_enough(trials, wall, alone) || nothing_beside() {
+        return Vec::new();
+    }
+    trials.beside_beds(beds)
+}
+
+/// Whether joints that give take away so much, in the tests held out, that an effect beside them could show.
+fn takes_enough<P: Progress>(trials: &Trials<P>, wall: &WallFits, alone: &FittedHypothesis) -> bool {
+    Remainder::new(&trials.data, &wall.recalibrated, alone, &[])
+        .is_some_and(|taken| taken.taken_held_out >= BESIDE_BEDS_FROM)
+}
+
+/// Joints that give with an effect beside them where one of `pairs` is worth it, else alone. `None` where joints that give take away
+/// too little for anything beside them to show.
 fn with_effect<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     beds: &[FittedHypothesis],
+    pairs: Vec<FittedHypothesis>,
 ) -> Option<OnBeds> {
     let alone = beds.first()?;
-    let taken = Remainder::new(&trials.data, &wall.recalibrated, alone, &[])?;
-    if taken.taken_held_out < BESIDE_BEDS_FROM {
+    if !takes_enough(trials, wall, alone) {
         return None;
     }
     // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
     if leaves_noise(alone) || trials.is_held() {
         return Some(OnBeds { best: alone.clone(), near: Vec::new(), pairs: Vec::new(), rivals: None });
     }
-    let pairs = trials.beside_beds(beds);
     let (pairs, rivals) = match worth_it(trials, wall, alone, &pairs) {
         None if leaves_more_than_another_model(wall, alone) => {
             let rivals = trials.rivals_of_beds(&wall.before);
@@ -216,8 +296,13 @@ fn worth_it<P: Progress>(
     pairs: &[FittedHypothesis],
 ) -> Option<(FittedHypothesis, Vec<FittedHypothesis>)> {
     let (two, others) = pairs.split_first().filter(|(two, _)| is_worth_it(trials, wall, alone, two))?;
-    let is_as_good =
-        |other: &&FittedHypothesis| comes_near(trials, two, other) && is_worth_it(trials, wall, alone, other);
+    // What follows to the noise or takes most is near only to what does so too.
+    let clearly = is_clearly_worth_it(trials, wall, alone, two);
+    let is_worth = |other: &FittedHypothesis| {
+        let worth = if clearly { is_clearly_worth_it } else { is_worth_it };
+        worth(trials, wall, alone, other)
+    };
+    let is_as_good = |other: &&FittedHypothesis| comes_near(trials, two, other) && is_worth(other);
     Some((two.clone(), others.iter().filter(is_as_good).cloned().collect()))
 }
 
@@ -227,20 +312,51 @@ fn leaves_more_than_another_model(wall: &WallFits, alone: &FittedHypothesis) -> 
     left > BED_OWN_ERROR * gap && joint_error(alone).is_some_and(|error| error > BESIDE_BEDS_GAP)
 }
 
-/// Whether an effect beside joints that give is named with them.
-///
-/// It follows to the noise and gains what a second effect must. Or they leave more than another way to model a bed does, and
-/// it takes most of that away, in small swings and in large ones.
+/// Whether an effect beside joints that give is named with them: it is clearly worth it, or they leave more than another way to model
+/// a bed does, and it shows beside what both leave.
 fn is_worth_it<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     alone: &FittedHypothesis,
     two: &FittedHypothesis,
 ) -> bool {
-    let is_more = leaves_more_than_another_model(wall, alone);
+    let shows = || does_something(two) && shows_beside_own_error(trials, alone, two);
+    is_clearly_worth_it(trials, wall, alone, two) || (leaves_more_than_another_model(wall, alone) && shows())
+}
+
+/// Whether an effect beside joints that give follows to the noise and gains what a second effect must. Or they leave more than
+/// another way to model a bed does, or than a bed with the effect, which nearly follows, and it takes most of that away, in small
+/// swings and in large ones.
+fn is_clearly_worth_it<P: Progress>(
+    trials: &Trials<P>,
+    wall: &WallFits,
+    alone: &FittedHypothesis,
+    two: &FittedHypothesis,
+) -> bool {
+    let nearly = |tried: &FittedHypothesis| joint_error(tried).is_some_and(|error| error < BESIDE_BEDS_GAP);
+    let is_more = leaves_more_than_another_model(wall, alone) || (nearly(two) && !nearly(alone));
     let takes_most = || Remainder::new(&trials.data, alone, two, &[]).is_some_and(|r| r.holds());
     let to_noise = || follows(trials, wall, two, &[]) && worth_two(&trials.data, alone, two);
     does_something(two) && ((is_more && takes_most()) || to_noise())
+}
+
+/// Whether a second effect gains what one must that follows to the noise, in tests fitted and held out, with what both leave in the
+/// place of noise, and takes away most of what the first leaves.
+fn shows_beside_own_error<P: Progress>(
+    trials: &Trials<P>,
+    one: &FittedHypothesis,
+    two: &FittedHypothesis,
+) -> bool {
+    let error = own_error(two);
+    let wider =
+        |window: &WindowFit| WindowFit { squares: window.squares / (error * error), ..window.clone() };
+    let against = |windows: &[WindowFit]| nats(&windows.iter().map(wider).collect::<Vec<_>>());
+    let gain = |one: &[WindowFit], two: &[WindowFit]| against(one) - against(two);
+    let fitted = gain(&one.fit.windows, &two.fit.windows);
+    let held_out = gain(&one.held_out.windows, &two.held_out.windows);
+    let takes = Remainder::new(&trials.data, one, two, &[])
+        .is_some_and(|taken| taken.taken_fit.min(taken.taken_held_out) > TAKEN_BESIDE_OWN_ERROR);
+    takes && fitted + held_out > WORTH_A_SECOND_TO_NOISE && held_out > WORTH_A_SECOND_HELD_OUT
 }
 
 /// Whether another law of the joints may stand for a bed: it comes near, and does not only follow because it is a bed that hardly

@@ -12,7 +12,7 @@ use crate::experiment::Window;
 use crate::limits::{
     LEFT_OUT, REMAINDER_BY_SWING, REMAINDER_GAP, REMAINDER_RIVAL, REMAINDER_TAKEN, STIFFEST_NAMED_PA_PER_M,
 };
-use mrbd_kernel::model::Role;
+use mrbd_kernel::model::{EffectKind, Role};
 
 /// What a named effect takes away of the gap, and what it leaves.
 ///
@@ -65,7 +65,7 @@ impl Remainder {
         let [taken_fit, taken_held_out] = taken(without, named)?;
         let [taken_small_swings, taken_large_swings] = by_swing(data, without, named)?;
         let own = kinds(named);
-        let others = rivals.iter().filter(|t| kinds(t) != own && kinds(t).is_some());
+        let others = rivals.iter().filter(|t| is_other(&own, kinds(t)));
         let of = |t: &FittedHypothesis| Some((taken(without, t)?[1], t.hypothesis.name()));
         let next = others.filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
         let next_rival = next.map(|(taken_held_out, name)| NextRival { name, taken_held_out });
@@ -90,8 +90,13 @@ impl Remainder {
     }
 }
 
+/// Whether a hypothesis is another answer than one of these kinds, and no part of it: whether a part is enough alone, is asked apart.
+fn is_other(own: &Option<Vec<EffectKind>>, kinds: Option<Vec<EffectKind>>) -> bool {
+    kinds.is_some_and(|kinds| own.as_ref().is_none_or(|own| kinds.iter().any(|kind| !own.contains(kind))))
+}
+
 /// Whether a hypothesis has a bed, and every bed of it is so soft that no other way to model a contact stands for it.
-fn is_soft(named: &FittedHypothesis) -> bool {
+pub fn is_soft(named: &FittedHypothesis) -> bool {
     let h = &named.hypothesis;
     let gives = h.additions.iter().any(|a| a.role() == Some(Role::Bed));
     let stiffness = h.unknowns.iter().zip(&named.fit.values).filter(|(u, _)| u.is_softness());

@@ -8,12 +8,15 @@ use super::few::Few;
 use super::probe::Probe;
 use super::{excess, in_rounds, own_error, widened};
 use crate::Progress;
-use crate::diagnose::fit::{Fit, Problem};
+use crate::diagnose::fit::{Fit, Problem, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
 use crate::diagnose::trials::imitation::seconds;
 use crate::diagnose::trials::search::{judged_from_measured, states_of, with_values};
 use crate::diagnose::trials::{Data, FittedHypothesis, Trials, joint_error};
-use crate::limits::{BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL};
+use crate::limits::{
+    BEDS_ASKED_FOR, BEDS_BESIDE_EFFECTS, BEDS_NEAR_BEST, BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR,
+    BESIDE_BEDS_GAP, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL, WORTH_A_NAME,
+};
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;
 
@@ -31,9 +34,52 @@ impl<P: Progress> Trials<'_, P> {
         found
     }
 
-    /// Joints that give beside an effect that takes away much alone.
-    pub fn beds_beside(&self, effect: &FittedHypothesis) -> Vec<FittedHypothesis> {
-        if self.leaves_wide_gap(effect) { self.beds_under(&[effect], Some(effect)) } else { Vec::new() }
+    /// Joints that give beside single effects that follow best on sharp edges, what follows the tests best first: those that take
+    /// away a good part of what their effect leaves in few windows.
+    ///
+    /// However narrow that gap is: a bed so stiff that it hardly shows leaves many times the likelihood of noise in few windows.
+    pub fn beds_beside(&self, effects: &[&FittedHypothesis]) -> Vec<FittedHypothesis> {
+        if self.experiment.wall.gives() {
+            return Vec::new();
+        }
+        let Some(first) = effects.first() else { return Vec::new() };
+        let mut begun =
+            effects.iter().flat_map(|effect| self.begun_beside(effect, first)).collect::<Vec<_>>();
+        begun.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
+        let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
+        begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
+        begun.truncate(BEDS_BESIDE_EFFECTS);
+        self.progress.begin("joints that give beside an effect", begun.len());
+        let fit = |(h, begun): &(Hypothesis, Fit)| {
+            let fitted = self.bed(h, begun);
+            self.progress.advance(1);
+            fitted
+        };
+        let mut found = begun.par_iter().filter_map(fit).collect::<Vec<_>>();
+        self.best_finished(&mut found);
+        found
+    }
+
+    /// Joints that give beside an effect, fitted to few windows of which half are those that `first` follows worst; those that take
+    /// away a good part of what the effect leaves there, by error or by likelihood.
+    fn begun_beside(&self, effect: &FittedHypothesis, first: &FittedHypothesis) -> Vec<(Hypothesis, Fit)> {
+        let probe = Probe::beside(self, effect, first);
+        let left = probe.left_without();
+        let most = 1.0 - BEDS_ASKED_FOR;
+        let takes = |fit: &Fit| {
+            excess(&fit.windows) < most * excess(&left) || nats(&fit.windows) < most * nats(&left)
+        };
+        probe.begun().into_iter().filter(|(_, fit)| takes(fit)).collect()
+    }
+
+    /// Joints that give without the effect beside them, fitted to the end from where both are.
+    pub fn bed_without_effect(&self, both: &FittedHypothesis) -> Option<FittedHypothesis> {
+        let beds = both.hypothesis.additions.iter().filter(|a| a.role() == Some(Role::Bed));
+        let h = self.hypothesis(&self.experiment.nuisances, &beds.copied().collect::<Vec<_>>());
+        let values = h.values_from(&both.hypothesis, &both.fit.values);
+        let start = self.data.fit.states(&h, &values, &states_of(&both.fit), 2, false)?;
+        let fit = in_rounds(&self.data.fit, &h, start)?;
+        self.finished_beside_own_error(&judged_from_measured(&self.data, h, fit)?)
     }
 
     /// Joints that give beside single effects that follow best on sharp edges, what follows the tests best first: where numbers of
@@ -66,8 +112,8 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Orders hypotheses by what follows best, and fits that to the end.
-    fn best_finished(&self, found: &mut [FittedHypothesis]) {
-        by_error(found);
+    pub(super) fn best_finished(&self, found: &mut [FittedHypothesis]) {
+        by_error_of(found);
         if let Some(best) = found.first_mut()
             && let Some(finished) = self.finished_beside_own_error(best)
         {
@@ -78,15 +124,29 @@ impl<P: Progress> Trials<'_, P> {
     /// The best of what few windows promise, and what comes near it there, fitted to all; none where that is little.
     fn effects_beside(&self, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let few = Few::new(self.data.fit, BESIDE_BEDS_WINDOWS, own_error(bed));
+        let nearly = follows_nearly(bed);
         let mut promised = self.promised(&few, bed);
-        promised.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+        let against = |tried: &FittedHypothesis| nats(&tried.fit.windows);
         let left = |tried: &FittedHypothesis| few.excess(&tried.fit);
-        let Some(least) = promised.first().map(left) else { return Vec::new() };
-        if least > (1.0 - BESIDE_BEDS_ASKED_FOR) * few.excess(&few.of(bed).fit) {
+        // Near the noise few windows that an effect is missed in say more than the error of all.
+        match nearly {
+            true => promised.sort_by(|a, b| against(a).total_cmp(&against(b))),
+            false => promised.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error())),
+        }
+        let Some((least, speaks)) = promised.first().map(|first| (left(first), against(first))) else {
+            return Vec::new();
+        };
+        let before = few.of(bed);
+        let by_error = least < (1.0 - BESIDE_BEDS_ASKED_FOR) * few.excess(&before.fit);
+        let by_likelihood = nearly && against(&before) - speaks > WORTH_A_NAME;
+        if !by_error && !by_likelihood {
             return Vec::new();
         }
         // One may follow within the noise: then another must come near that.
-        promised.retain(|tried| left(tried) < REMAINDER_RIVAL * least.max(1.0));
+        promised.retain(|tried| match nearly {
+            true => against(tried) - speaks < WORTH_A_NAME,
+            false => left(tried) < REMAINDER_RIVAL * least.max(1.0),
+        });
         self.progress.begin("effects beside joints that give", promised.len());
         let fit = |tried: &FittedHypothesis| {
             let fitted = self.in_all_windows_beside(bed, tried);
@@ -94,7 +154,7 @@ impl<P: Progress> Trials<'_, P> {
             fitted
         };
         let mut found = promised.par_iter().filter_map(fit).collect::<Vec<_>>();
-        by_error(&mut found);
+        by_error_of(&mut found);
         found
     }
 
@@ -108,7 +168,9 @@ impl<P: Progress> Trials<'_, P> {
         let wide = Problem { tests: &tests, ..self.data.fit };
         let h = &tried.hypothesis;
         let start = wide.states(h, &tried.fit.values, &states_of(&bed.fit), 2, false)?;
-        let Fit { values, covariance, .. } = in_rounds(&wide, h, start)?;
+        let found = in_rounds(&wide, h, start)?;
+        let found = if follows_nearly(bed) { wide.fit_finely(h, found)? } else { found };
+        let Fit { values, covariance, .. } = found;
         let fitted = with_values(&self.data, h.clone(), bed, &values)?;
         Some(FittedHypothesis { fit: Fit { covariance, ..fitted.fit }, ..fitted })
     }
@@ -116,6 +178,7 @@ impl<P: Progress> Trials<'_, P> {
     /// Effects that a linear look promises most of, and beds that are not alike, fitted to few windows.
     fn promised(&self, few: &Few, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let first = few.of(bed);
+        let nearly = follows_nearly(bed);
         let data = Data { fit: few.problem(), held_out: few.nothing() };
         // Coefficients of impact do nothing on a bed.
         let is_effect = |a: &Addition| a.role().is_some_and(|role| !role.is_at_impacts());
@@ -135,6 +198,7 @@ impl<P: Progress> Trials<'_, P> {
         let fit = |(h, values): (Hypothesis, Vec<f64>)| {
             let start = data.fit.states(&h, &values, &states_of(&first.fit), 2, false)?;
             let fit = in_rounds(&data.fit, &h, start)?;
+            let fit = if nearly { data.fit.fit_finely(&h, fit)? } else { fit };
             judged_from_measured(&data, h, fit)
         };
         starts.into_par_iter().filter_map(fit).collect()
@@ -181,8 +245,14 @@ impl<P: Progress> Trials<'_, P> {
 /// Softness of the joint that was sharp, over that of the other, from which its own bed is fitted.
 const AT_THE_OTHER: f64 = 0.1;
 
+/// Whether joints that give leave so little that windows tell an effect beside them by likelihood. The widest loss, under which
+/// fits begin, would move the numbers for a few windows that no state follows.
+fn follows_nearly(bed: &FittedHypothesis) -> bool {
+    own_error(bed) < BESIDE_BEDS_GAP
+}
+
 /// What follows the windows best first.
-fn by_error(tried: &mut [FittedHypothesis]) {
+fn by_error_of(tried: &mut [FittedHypothesis]) {
     let error = |t: &FittedHypothesis| joint_error(t).unwrap_or(f64::INFINITY);
     tried.sort_by(|a, b| error(a).total_cmp(&error(b)));
 }

@@ -16,7 +16,18 @@ pub struct Few {
 impl Few {
     /// At most `most` windows of a problem, under a noise that is `factor` times as large.
     pub fn new(problem: Problem, most: usize, factor: f64) -> Self {
-        let asked = spread_over(problem.windows.len(), most);
+        Self::these(problem, spread_over(problem.windows.len(), most), factor)
+    }
+
+    /// At most `most` windows of a problem, half of them those that a fit follows worst, the others spread over all.
+    ///
+    /// What is missing beside an effect may show in few windows, as a joint that seldom opens.
+    pub fn followed_worst(problem: Problem, most: usize, fit: &Fit) -> Self {
+        let left = fit.windows.iter().map(WindowFit::reduced).collect::<Vec<_>>();
+        Self::these(problem, worst_and_spread(&left, most), 1.0)
+    }
+
+    fn these(problem: Problem, asked: Vec<usize>, factor: f64) -> Self {
         let windows = asked.iter().map(|k| problem.windows[*k].clone()).collect();
         Self { tests: widened(problem.tests, factor), windows, asked, factor }
     }
@@ -69,6 +80,18 @@ fn spread_over(count: usize, most: usize) -> Vec<usize> {
     (0..chosen).map(|i| i * count / chosen).collect()
 }
 
+/// At most `most` of the places of these errors: half of them where they are largest, the others spread evenly over the rest.
+fn worst_and_spread(errors: &[f64], most: usize) -> Vec<usize> {
+    let mut places = (0..errors.len()).collect::<Vec<_>>();
+    places.sort_by(|a, b| errors[*b].total_cmp(&errors[*a]));
+    let mut rest = places.split_off((most / 2).min(places.len()));
+    rest.sort_unstable();
+    let spread = spread_over(rest.len(), most - places.len()).into_iter().map(|k| rest[k]);
+    places.extend(spread);
+    places.sort_unstable();
+    places
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -78,5 +101,14 @@ mod tests {
         assert_eq!(spread_over(9, 3), [0, 3, 6]);
         assert_eq!(spread_over(2, 3), [0, 1]);
         assert!(spread_over(0, 3).is_empty());
+    }
+
+    #[test]
+    fn analytic_half_of_few_windows_are_those_followed_worst() {
+        let errors = [1.0, 9.0, 1.0, 1.0, 1.0, 8.0, 1.0, 7.0];
+        // 1 and 5 are the worst; of 0, 2, 3, 4, 6 and 7 the first and the fourth.
+        assert_eq!(worst_and_spread(&errors, 4), [0, 1, 4, 5]);
+        assert_eq!(worst_and_spread(&errors[..2], 4), [0, 1]);
+        assert!(worst_and_spread(&[], 4).is_empty());
     }
 }

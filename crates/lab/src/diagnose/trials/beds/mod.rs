@@ -49,6 +49,8 @@ pub fn widened(tests: &[TestData], factor: f64) -> Vec<TestData> {
 
 /// Times that a fit of beds is begun again under the loss that it has come to.
 const ROUNDS: usize = 3;
+/// Hypotheses that are fitted again where windows are others: the best, and what it may be taken for.
+const AGAIN: usize = 3;
 /// Share of the error that is worth another.
 const WORTH_A_ROUND: f64 = 0.02;
 
@@ -78,7 +80,10 @@ impl<P: Progress> Trials<'_, P> {
         if self.leaves_wide_gap(recalibrated) {
             return Vec::new();
         }
-        self.beds_beside_rival(&self.starts(before, recalibrated), None, Some(rival))
+        let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
+        let begun = near_best(self.begun_under(&self.starts(before, recalibrated), None));
+        let near = begun.into_par_iter().filter(|(h, fit)| self.comes_near(&few, rival, h, fit));
+        self.fitted_from(near.collect())
     }
 
     /// Whether a hypothesis is so far off that joints that give are thought of first.
@@ -93,27 +98,40 @@ impl<P: Progress> Trials<'_, P> {
         walls: &[&FittedHypothesis],
         without: Option<&FittedHypothesis>,
     ) -> Vec<FittedHypothesis> {
-        self.beds_beside_rival(walls, without, None)
+        self.fitted_from(near_best(self.begun_under(walls, without)))
     }
 
-    fn beds_beside_rival(
+    /// The same as they are begun in few windows, the best first.
+    fn begun_under(
         &self,
         walls: &[&FittedHypothesis],
         without: Option<&FittedHypothesis>,
-        rival: Option<&FittedHypothesis>,
-    ) -> Vec<FittedHypothesis> {
+    ) -> Vec<(Hypothesis, Fit)> {
         if self.experiment.wall.gives() {
             return Vec::new();
         }
         let probes = walls.iter().filter_map(|wall| Probe::new(self, wall, without));
-        let Some(probe) = probes.min_by(|a, b| a.least().total_cmp(&b.least())) else { return Vec::new() };
-        let mut begun = probe.begun();
-        let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
-        // A bed may follow within the noise: then another must come near that.
-        begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
-        if let Some(rival) = rival {
-            let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
-            begun = begun.into_par_iter().filter(|(h, fit)| self.comes_near(&few, rival, h, fit)).collect();
+        let probe = probes.min_by(|a, b| a.least().total_cmp(&b.least()));
+        probe.map(Probe::begun).unwrap_or_default()
+    }
+
+    /// Joints that give in the place of an effect that closes a gap and leaves more than noise; none where they follow few windows
+    /// no better.
+    pub fn beds_instead_of(
+        &self,
+        named: &FittedHypothesis,
+        WallFits { before, recalibrated }: &WallFits,
+    ) -> Vec<FittedHypothesis> {
+        let left = nats(&Few::new(self.data.fit, BEDS_WINDOWS, 1.0).left(&named.fit));
+        let mut begun = self.begun_under(&self.starts(before, recalibrated), None);
+        begun.retain(|(_, fit)| nats(&fit.windows) < left);
+        self.fitted_from(near_best(begun))
+    }
+
+    /// Beds fitted to all windows from where they were begun in few, the best first and to the end.
+    fn fitted_from(&self, begun: Vec<(Hypothesis, Fit)>) -> Vec<FittedHypothesis> {
+        if begun.is_empty() {
+            return Vec::new();
         }
         self.progress.begin("joints that give", begun.len());
         let fit = |(h, begun): &(Hypothesis, Fit)| {
@@ -122,12 +140,7 @@ impl<P: Progress> Trials<'_, P> {
             fitted
         };
         let mut fitted = begun.par_iter().filter_map(fit).collect::<Vec<_>>();
-        fitted.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
-        if let Some(best) = fitted.first_mut()
-            && let Some(finished) = self.finished_beside_own_error(best)
-        {
-            *best = finished;
-        }
+        self.best_finished(&mut fitted);
         fitted
     }
 
@@ -155,6 +168,14 @@ impl<P: Progress> Trials<'_, P> {
         judged_from_measured(&self.data, h.clone(), fit)
     }
 
+    /// The first of hypotheses on beds fitted again where windows are others, from the measured states; the best to the end.
+    pub fn fitted_again(&self, tried: &[FittedHypothesis]) -> Vec<FittedHypothesis> {
+        let again = |old: &FittedHypothesis| self.bed(&old.hypothesis, &old.fit);
+        let mut found = tried[..tried.len().min(AGAIN)].par_iter().filter_map(again).collect::<Vec<_>>();
+        self.best_finished(&mut found);
+        found
+    }
+
     /// A bed fitted to all windows with the wall's own numbers, from where it was begun.
     fn bed(&self, begun_as: &Hypothesis, begun: &Fit) -> Option<FittedHypothesis> {
         let h = self.hypothesis(&self.experiment.nuisances, &begun_as.additions);
@@ -163,6 +184,14 @@ impl<P: Progress> Trials<'_, P> {
         let fit = in_rounds(&self.data.fit, &h, start)?;
         judged_from_measured(&self.data, h, fit)
     }
+}
+
+/// Of beds that were begun, in order, those that come near the best.
+fn near_best(mut begun: Vec<(Hypothesis, Fit)>) -> Vec<(Hypothesis, Fit)> {
+    let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return begun };
+    // A bed may follow within the noise: then another must come near that.
+    begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
+    begun
 }
 
 /// Fits numbers and states under the widest loss, again while that follows the windows better.

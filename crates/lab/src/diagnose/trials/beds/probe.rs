@@ -3,7 +3,7 @@
 use super::few::Few;
 use super::{excess, in_rounds};
 use crate::Progress;
-use crate::diagnose::fit::Fit;
+use crate::diagnose::fit::{Fit, WindowFit};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
 use crate::diagnose::trials::{FittedHypothesis, Trials};
 use crate::limits::{BED_DAMPING, BED_DECADES, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_WINDOWS, HELD_DAMPING};
@@ -37,10 +37,29 @@ impl<'t, P: Progress> Probe<'t, P> {
     ) -> Option<Self> {
         let few = Few::new(trials.data.fit, BEDS_WINDOWS, 1.0);
         let left = without.map(|without| few.left(&without.fit));
-        let mut probe = Self { trials, few, wall, beds: Vec::new() };
-        probe.beds = probe.probed(&BED_DECADES);
+        let probe = Self::of(trials, wall, few);
         let most = left.map_or(f64::INFINITY, |left| (1.0 - BEDS_ASKED_FOR) * excess(&left));
         (probe.least() < most).then_some(probe)
+    }
+
+    /// Beds by decades beside an effect, in windows half of which are those that another follows worst.
+    pub fn beside(
+        trials: &'t Trials<'t, P>,
+        effect: &'t FittedHypothesis,
+        worst_by: &FittedHypothesis,
+    ) -> Self {
+        Self::of(trials, effect, Few::followed_worst(trials.data.fit, BEDS_WINDOWS, &worst_by.fit))
+    }
+
+    fn of(trials: &'t Trials<'t, P>, wall: &'t FittedHypothesis, few: Few) -> Self {
+        let mut probe = Self { trials, few, wall, beds: Vec::new() };
+        probe.beds = probe.probed(&BED_DECADES);
+        probe
+    }
+
+    /// What the wall leaves in the few windows without a bed.
+    pub fn left_without(&self) -> Vec<WindowFit> {
+        self.few.left(&self.wall.fit)
     }
 
     /// Least squared error above noise that a bed leaves.
