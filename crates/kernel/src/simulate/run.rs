@@ -32,6 +32,8 @@ pub(super) struct Run<O> {
     ground: GroundPath,
     rest: RestLimits,
     collapse_rad: Pair,
+    /// Openings up to this are contact: a rounding of α, rad.
+    contact_rad: f64,
     controller: Controller,
     totals: Totals,
     observer: O,
@@ -89,6 +91,7 @@ impl<O: Observer> Run<O> {
         Self {
             rest: simulator.rest.clone(),
             collapse_rad: simulator.wall.wall().collapse_rotation_rad(),
+            contact_rad: f64::EPSILON * simulator.wall.wall().alpha_rad(),
             controller: simulator.controller,
             totals: Totals::new(simulator.wall.joints().count()),
             observer,

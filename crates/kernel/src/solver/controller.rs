@@ -47,9 +47,15 @@ fn to_estimate_order<N: Copy + Mul<Output = N>>(ratio: N) -> N {
     square * (square * square)
 }
 
+/// Below this error the length grows by [`MOST_FACTOR`]: nine tenths of (SAFETY / MOST_FACTOR)⁶, for the power's roundings.
+const ERROR_OF_MOST: f64 = 3.06e-5;
+
 /// The length proposed after a step that was kept, s.
 #[inline]
 fn longer_s(h: f64, error: f64) -> f64 {
+    if error < ERROR_OF_MOST {
+        return h * MOST_FACTOR;
+    }
     h * (SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER))).min(MOST_FACTOR)
 }
 

@@ -268,7 +268,7 @@ impl<O: Observer> Run<O> {
         }
         let sign = self.contact.at(joint).sign();
         let gap = sign * opening(joint, self.now.position);
-        let reached = closes || gap <= f64::EPSILON * self.wall.wall().alpha_rad();
+        let reached = closes || gap <= self.contact_rad;
         reached && sign * opening(joint, self.now.velocity) <= 0.0
     }
 }
