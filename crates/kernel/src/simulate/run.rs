@@ -179,13 +179,18 @@ impl<O: Observer> Run<O> {
         self.totals.work.evaluations += STAGES;
         let result = match self.task {
             Task::Advance { .. } => self.advance(&piece, step, reactions),
-            Task::ReachEvent { event, most_s, .. } => self.refine_event(event, &piece, step, most_s, 0),
+            Task::ReachEvent { event, most_s, .. } => {
+                self.refine_event(event, &piece, step, reactions, most_s, 0)
+            }
             Task::RefineEvent { event, most_s, step: before, gap, corrections, .. } => {
                 match self.left_to(event, &step.end) {
                     Some((left, _)) if left.abs() < gap => {
-                        self.refine_event(event, &piece, step, most_s, corrections)
+                        self.refine_event(event, &piece, step, reactions, most_s, corrections)
                     }
-                    _ => self.apply_event(event, &piece, &before),
+                    _ => {
+                        let reactions = self.reactions(&before.end, piece.at(self.offset_s + before.h));
+                        self.apply_event(event, &piece, &before, &reactions)
+                    }
                 }
             }
         };
