@@ -185,12 +185,11 @@ impl RockingWall {
         if contact.ground.is_open() && contact.crack.is_open() {
             return None;
         }
-        let weight = self.weight_n();
         let mut smallest = None;
         for joint in self.joints() {
             if contact.at(joint).is_closed() && self.bed(joint).is_none() {
                 let [left, right] = forces.at(joint).corners(self.width_m(joint));
-                let least = left.min(right) / weight;
+                let least = left.min(right) / self.weight_n();
                 smallest = Some(smallest.map_or(least, |s: f64| s.min(least)));
             }
         }

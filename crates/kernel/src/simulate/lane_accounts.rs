@@ -301,7 +301,9 @@ impl Row {
     fn turn_top<S: Simd, M: Stepping<S>>(&mut self, done: Mask<S>, motions: &M, landed: &Landed<S>, h: F<S>) {
         let (simd, now) = (h.simd, landed.reactions.top[1]);
         let before = from_row(simd, &self.limits.top_velocity_m_s);
-        let turns = done & (before * now).simd_lt(0.0);
+        let most_m = landed.reactions.top[0].abs() + (before.abs() + now.abs()) * 2.0 * h;
+        let rises = most_m.simd_gt(from_row(simd, &self.sums.top_m).abs());
+        let turns = done & rises & (before * now).simd_lt(0.0);
         if !turns.any_true() {
             return;
         }

@@ -337,7 +337,9 @@ impl<O: Observer> Run<O> {
         self.totals.top(reactions.top_displacement_m, start_s + motion.h());
         let (before, now) = (self.top_velocity_m_s, reactions.top_velocity_m_s);
         self.top_velocity_m_s = now;
-        if before * now < 0.0 {
+        // Twice as far from the end as at both speeds together is farther than it gets.
+        let most_m = reactions.top_displacement_m.abs() + 2.0 * (before.abs() + now.abs()) * motion.h();
+        if before * now < 0.0 && most_m > self.totals.top_max.value.abs() {
             // The velocity is all but linear over the little that is left of a swing.
             let share = before / (before - now);
             let x_c = self.wall.top_displacement_m(self.contact, motion.position(share));

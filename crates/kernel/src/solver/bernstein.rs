@@ -131,18 +131,24 @@ impl<const N: usize> Bernstein<N> {
     #[inline]
     fn powers(&self) -> [f64; N] {
         let mut differences = self.0;
-        let mut choose = 1.0;
         for k in 1..N {
             for i in (k..N).rev() {
                 differences[i] -= differences[i - 1];
             }
         }
-        for (k, difference) in differences.iter_mut().enumerate() {
-            *difference *= choose;
-            choose = choose * (N - 1 - k) as f64 / (k + 1) as f64;
-        }
-        differences
+        let choose = const { binomials::<N>() };
+        std::array::from_fn(|k| differences[k] * choose[k])
     }
+}
+
+/// C(N - 1, k).
+const fn binomials<const N: usize>() -> [f64; N] {
+    let (mut choose, mut k) = ([1.0; N], 1);
+    while k < N {
+        choose[k] = choose[k - 1] * (N - k) as f64 / k as f64;
+        k += 1;
+    }
+    choose
 }
 
 /// Value and slope of a polynomial by its powers, and halves and sixths of its next derivatives (Horner).

@@ -34,17 +34,25 @@ const SAFETY: f64 = 0.9;
 /// Changes of step beyond these factors would trust the estimate further than it reaches.
 const LEAST_FACTOR: f64 = 0.2;
 const MOST_FACTOR: f64 = 5.0;
-/// The estimate falls with this power of the step: the fifth of the embedded method, and one more (see `error`).
-const ESTIMATE_ORDER: i32 = 6;
+/// Seven sixths of the exponent of one, as bits.
+const SEVEN_SIXTHS: u64 = (0x3ff_u64 << 52) / 6 * 7;
 
 /// Below it numbers have a fraction.
 const MOST_WITH_FRACTION: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
 
-/// The power with which the estimate falls.
+/// The power with which the estimate falls: the fifth of the embedded method, and one more (see `error`).
 #[inline(always)]
 fn to_estimate_order<N: Copy + Mul<Output = N>>(ratio: N) -> N {
     let square = ratio * ratio;
     square * (square * square)
+}
+
+/// x^(-1/6) to a millionth, of a positive number: a sixth of the exponent, and two of Newton's corrections. The library's power
+/// would take longer than a stage of the step, and is not the same on every machine.
+#[inline]
+fn inverse_sixth_root(x: f64) -> f64 {
+    let corrected = |root: f64| root * (7.0 - x * to_estimate_order(root)) / 6.0;
+    corrected(corrected(f64::from_bits(SEVEN_SIXTHS.wrapping_sub(x.to_bits() / 6))))
 }
 
 /// Below this error the length grows by [`MOST_FACTOR`]: nine tenths of (SAFETY / MOST_FACTOR)⁶, for the power's roundings.
@@ -56,7 +64,7 @@ fn longer_s(h: f64, error: f64) -> f64 {
     if error < ERROR_OF_MOST {
         return h * MOST_FACTOR;
     }
-    h * (SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER))).min(MOST_FACTOR)
+    h * (SAFETY * inverse_sixth_root(error)).min(MOST_FACTOR)
 }
 
 /// The next whole number, as `ceil` has it. That is a call of a library on processors that may lack SSE4.1.
@@ -119,7 +127,7 @@ impl Controller {
             return true;
         }
         // A NaN is an error too large to measure.
-        let factor = SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER));
+        let factor = SAFETY * inverse_sixth_root(error);
         self.proposed_s = step.h * if factor.is_nan() { LEAST_FACTOR } else { factor.max(LEAST_FACTOR) };
         false
     }
