@@ -170,7 +170,7 @@ impl RockingWall {
         // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
         let [w1, w2] = v_before.theta.map(|w| w.abs().max(f64::MIN_POSITIVE));
         // A corner's impulse is a moment over a width: its roundings are those of the momentum times the slimness.
-        let size = (self.masses.momentum_size(&v_before) * self.slimness()).max(f64::MIN_POSITIVE);
+        let size = (self.masses.momentum_size(&v_before) * self.slimness).max(f64::MIN_POSITIVE);
         Collision { touching, rotations, v_before, speed: w1.max(w2), impulse_size: size }
     }
 
@@ -279,14 +279,6 @@ impl RockingWall {
             .flat_map(|joint| impulses.at(joint).corners(self.width_m(joint)))
             .fold(f64::INFINITY, f64::min)
             / collision.impulse_size
-    }
-
-    /// Height over the narrowest joint.
-    #[inline(always)]
-    fn slimness(&self) -> f64 {
-        let p = self.wall().parameters();
-        let narrowest = self.joints().map(|joint| self.width_m(joint)).fold(f64::INFINITY, f64::min);
-        p.height_m / narrowest
     }
 
     /// Closes touching joints that would open slower than the capture velocity. Each time it projects once

@@ -128,8 +128,8 @@ impl LimitRow {
     #[inline(always)]
     fn corner_force<S: Simd>(&self, [_, normal, moment]: [F<S>; 3]) -> (F<S>, Mask<S>) {
         let simd = normal.simd;
-        let (half, lever) = (normal / 2.0, moment / from_row(simd, &self.width_m));
-        let end = (half + lever).min_precise(half - lever) / from_row(simd, &self.weight_n);
+        let (half, lever) = (normal * 0.5, moment * from_row(simd, &self.per_width));
+        let end = (half + lever).min_precise(half - lever) * from_row(simd, &self.per_weight);
         let start = from_row(simd, &self.corner_force);
         let size = start.abs().max(end.abs()) + (end - start).abs();
         let stays = end.simd_ge(0.0) & start.min(end).simd_gt(size * NEAR_ZERO);

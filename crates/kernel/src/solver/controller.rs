@@ -120,7 +120,7 @@ impl Controller {
             // A step cut short by a sample or an event says nothing against a longer one. It may speak for
             // one, up to the most that would be trusted anyhow.
             let longer = self.proposed_s < MOST_FACTOR * step.h
-                && error < to_estimate_order(SAFETY * step.h / self.proposed_s);
+                && error * to_estimate_order(self.proposed_s) < to_estimate_order(SAFETY * step.h);
             if whole || longer {
                 self.proposed_s = longer_s(step.h, error);
             }
@@ -177,7 +177,8 @@ impl ErrorRow {
         if !(accepted & (whole | below_most)).any_true() {
             return;
         }
-        let longer = below_most & error.simd_lt(to_estimate_order(h * SAFETY / proposed_s));
+        let longer =
+            below_most & (error * to_estimate_order(proposed_s)).simd_lt(to_estimate_order(h * SAFETY));
         let changes = accepted & (whole | longer);
         if changes.any_true() {
             self.propose_longer(changes.to_bitmask(), error.into(), h.into());
