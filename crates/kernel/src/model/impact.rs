@@ -65,11 +65,16 @@ pub(super) struct Collision {
 }
 
 impl RockingWall {
-    /// The outcome of an impact at a state whose touching joints have zero opening.
+    /// The outcome of an impact, from the velocities before.
     ///
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
-    pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
+    pub(super) fn worked_out_impact(
+        &self,
+        from: Contact,
+        touching: Touching,
+        state: &State,
+    ) -> Result<Impact, MechanicsError> {
         dispatch!(self.motion(from).level, simd => self.plastic_impact(simd, from, touching, state))
     }
 

@@ -30,6 +30,7 @@ mod side_by_side;
 mod top;
 mod vector;
 mod wall;
+mod whole_impact;
 
 pub use bed::{Bed, CrushingJoint, JointLaw, RoundedEdges, TrilinearJoint};
 pub(crate) use bed::{BeddedMotion, Branch, Pose};

@@ -12,6 +12,7 @@ use super::motion::{Motion, MotionRate};
 use super::regime::Regime;
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
+use super::whole_impact::WholeImpact;
 
 /// Least velocity that still counts as opening, as a share of α over the time of response. A flight this slow
 /// rises to less than a rounding of α and ends within roundings of the time. Without it a wall whose capture
@@ -45,6 +46,8 @@ pub struct RockingWall {
     per_width: [f64; 2],
     /// Height over the narrowest joint.
     pub(super) slimness: f64,
+    /// Impacts of the wall that turns as one, about the right and the left corner.
+    pub(super) whole_impacts: [Option<WholeImpact>; 2],
     /// Relative velocity below which a joint that would open stays closed, rad/s.
     pub(super) capture_rad_s: f64,
     /// C_1 … C_8 with the factors of effects.
@@ -84,6 +87,7 @@ impl RockingWall {
             per_weight: 0.0,
             per_width: [0.0; 2],
             slimness: 0.0,
+            whole_impacts: [None; 2],
             wall: wall.clone(),
         };
         rocking.per_weight = 1.0 / rocking.weight_n();
@@ -91,6 +95,7 @@ impl RockingWall {
         rocking.slimness = rocking.slimness();
         let least = LEAST_CAPTURE * wall.alpha_rad() / rocking.response_time_s();
         rocking.capture_rad_s = rocking.capture_rad_s.max(least);
+        rocking.whole_impacts = rocking.whole_impacts();
         rocking.least_speed_m_s = rocking.least_speed_m_s();
         rocking.enter_regime(Regime::default());
         rocking
