@@ -76,3 +76,37 @@ impl RockingWall {
         Some(Impact { contact, omega: [omega * before; 2], change, captured: false, loss_j })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{Wall, WallParameters};
+
+    #[test]
+    fn analytic_a_share_is_what_an_impact_leaves() {
+        let wall = Wall::new(WallParameters { eccentricity_m: 0.03, ..WallParameters::table_wall() });
+        let wall = RockingWall::new(&wall.expect("a wall"));
+        for side in Pivot::OPEN {
+            for speed in [2e-3, 0.03, 1.7] {
+                let state = State { theta: [0.0; 2], omega: [-side.sign() * speed; 2] };
+                let share = wall.whole_impact(whole(side), BOTH, &state).expect("it turns on");
+                let impact = wall.worked_out_impact(whole(side), BOTH, &state).expect("an impact");
+                assert_eq!((share.contact, share.change), (impact.contact, impact.change));
+                // Some ten operations.
+                assert!(
+                    (share.omega[0] / impact.omega[0] - 1.0).abs() < 10.0 * f64::EPSILON,
+                    "{share:?} {impact:?}"
+                );
+                assert!((share.loss_j / impact.loss_j - 1.0).abs() < 1e-14, "{share:?} {impact:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn analytic_a_slow_wall_is_left_to_be_captured() {
+        let wall = RockingWall::new(&Wall::new(WallParameters::table_wall()).expect("a wall"));
+        let state = State { theta: [0.0; 2], omega: [-0.5e-3; 2] };
+        let impact = wall.impact(whole(Pivot::Right), BOTH, &state).expect("an impact");
+        assert!(impact.captured && impact.contact == Contact::REST, "{impact:?}");
+    }
+}

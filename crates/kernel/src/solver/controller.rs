@@ -37,8 +37,8 @@ const SAFETY_BEYOND: f64 = 0.7;
 /// Changes of step beyond these factors would trust the estimate further than it reaches.
 const LEAST_FACTOR: f64 = 0.2;
 const MOST_FACTOR: f64 = 5.0;
-/// Seven sixths of the exponent of one, as bits.
-const SEVEN_SIXTHS: u64 = (0x3ff_u64 << 52) / 6 * 7;
+/// Seven sixths of the exponent of one, as bits, less what halves the first error of the root.
+const SEVEN_SIXTHS: u64 = (0x3ff_u64 << 52) / 6 * 7 - (1_u64 << 52) / 18;
 
 /// Below it numbers have a fraction.
 const MOST_WITH_FRACTION: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
@@ -50,7 +50,7 @@ fn to_estimate_order<N: Copy + Mul<Output = N>>(ratio: N) -> N {
     square * (square * square)
 }
 
-/// x^(-1/6) to a millionth, of a positive number: a sixth of the exponent, and two of Newton's corrections. The library's power
+/// x^(-1/6) to a ten-thousandth, of a positive number: a sixth of the exponent, and two of Newton's corrections. The library's power
 /// would take longer than a stage of the step, and is not the same on every machine.
 #[inline]
 fn inverse_sixth_root(x: f64) -> f64 {
@@ -205,5 +205,29 @@ impl ErrorRow {
         }
         let parts = (remaining_s / proposed_s).ceil();
         fits.select(remaining_s, remaining_s / parts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_a_sixth_root_without_a_power() {
+        for exponent in -300..300 {
+            for x in [1.0, 1.7, 2.3, 5.0].map(|digits| digits * 10.0_f64.powi(exponent)) {
+                let error = inverse_sixth_root(x) / x.powf(-1.0 / 6.0) - 1.0;
+                assert!(error.abs() < 1e-4, "{error:e} at {x:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn analytic_lengths_grow_as_the_error_says() {
+        // Just below where the power is not needed, and where it is.
+        for error in [1e-12, 3.05e-5, 3.07e-5, 1e-3, 0.5] {
+            let expected = (SAFETY * f64::powf(error, -1.0 / 6.0)).min(MOST_FACTOR);
+            assert!((longer_s(2.0, error) / (2.0 * expected) - 1.0).abs() < 1e-4, "at {error:e}");
+        }
     }
 }
