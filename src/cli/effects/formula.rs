@@ -47,9 +47,11 @@ impl FormulaEntry {
             variables: match place {
                 Place::Top => &["x m", "v m/s", "x_max the largest abs(x) so far, m"],
                 Place::Ground | Place::Crack => &["phi rad", "w rad/s", "N the weight on the joint, N"],
-                Place::Impacts => {
-                    &["u the speed of the edge that comes down, m/s", "w rad/s", "N the weight on the joint, N"]
-                }
+                Place::Impacts => &[
+                    "u the speed of the edge that comes down, m/s",
+                    "w rad/s",
+                    "N the weight on the joint, N",
+                ],
             },
         });
         Self {

@@ -107,7 +107,7 @@ impl RockingWall {
     /// corner penetrates. These velocities are a convex set, and the distance is strictly convex: there is one nearest, and
     /// no other state need be looked at.
     #[inline(always)]
-    fn struck_through(&self, from: Contact, collision: &Collision) -> Option<(Contact, Pair)> {
+    pub(super) fn struck_through(&self, from: Contact, collision: &Collision) -> Option<(Contact, Pair)> {
         if self.wall().rolls() {
             return None;
         }
@@ -169,7 +169,7 @@ impl RockingWall {
     }
 
     #[inline(always)]
-    fn collision(&self, from: Contact, touching: Touching, state: &State) -> Collision {
+    pub(super) fn collision(&self, from: Contact, touching: Touching, state: &State) -> Collision {
         let rotations = Rotations::new(state.theta);
         let v_before = self.turned_arms(from, rotations).velocities(state.omega);
         // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
@@ -315,7 +315,8 @@ impl RockingWall {
     ) -> Pair {
         let restitution = self.wall().parameters().restitution;
         let Some(change) = change else { return omega };
-        let c_l = self.coefficients[change.index()] * self.factor_at_impact(collision);
+        let c_l = self.coefficients[change.index()]
+            * self.factor_at_impact(collision.touching, collision.v_before.theta);
         let u = match restitution.law {
             // Eq. 7 of the paper.
             ImpactLaw::Whole => [0.0, 0.0],

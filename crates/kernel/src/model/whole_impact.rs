@@ -12,12 +12,11 @@ use super::{MechanicsError, Table2Change};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WholeImpact {
     change: Option<Table2Change>,
-    /// Velocity after, rad/s, as the plastic impact and the coefficient of the change leave it.
-    omega: f64,
-    /// That which the plastic impact leaves, rad/s: what a capture looks at.
+    /// Velocity that the plastic impact leaves, rad/s.
     plastic: f64,
-    /// Kinetic energy lost, J.
-    loss_j: f64,
+    /// Kinetic energy at 1 rad/s about the corner before, and about that after, J.
+    before_j: f64,
+    after_j: f64,
 }
 
 /// Pattern 3 about a corner.
@@ -32,16 +31,14 @@ impl RockingWall {
     /// as one.
     pub(super) fn whole_impacts(&self) -> [Option<WholeImpact>; 2] {
         Pivot::OPEN.map(|side| {
-            if self.wall().rolls() {
-                return None;
-            }
+            let [from, after] = [side, side.mirrored()].map(whole);
             let state = State { theta: [0.0; 2], omega: [-side.sign(); 2] };
-            let impact = self.worked_out_impact(whole(side), BOTH, &state).ok()?;
-            let Impact { contact, omega: [omega, _], change, loss_j, .. } = impact;
-            let (omega, coefficient) =
-                (omega.abs(), change.map_or(1.0, |change| self.coefficients[change.index()]));
-            let turns_on = contact == whole(side.mirrored()) && coefficient > 0.0;
-            turns_on.then_some(WholeImpact { change, omega, plastic: omega / coefficient, loss_j })
+            let collision = self.collision(from, BOTH, &state);
+            let (to, [plastic, _]) = self.struck_through(from, &collision)?;
+            let energy_j = |contact| self.motion(contact).kinetic_energy_j(collision.rotations, [1.0; 2]);
+            let [before_j, after_j] = [from, after].map(energy_j);
+            let change = Table2Change::of(from, after);
+            (to == after).then_some(WholeImpact { change, plastic: plastic.abs(), before_j, after_j })
         })
     }
 
@@ -67,13 +64,18 @@ impl RockingWall {
             return None;
         }
         let side = usize::from(from.ground == Pivot::Left);
-        let WholeImpact { change, omega, plastic, loss_j } = self.whole_impacts[side]?;
-        if (plastic * before).abs() < self.capture_rad_s {
+        let WholeImpact { change, plastic, before_j, after_j } = self.whole_impacts[side]?;
+        let plastic = plastic * before;
+        if plastic.abs() < self.capture_rad_s {
             return None;
         }
-        let contact = whole(from.ground.mirrored());
-        let loss_j = loss_j * before * before;
-        Some(Impact { contact, omega: [omega * before; 2], change, captured: false, loss_j })
+        // Under both laws of impacts: if every touching joint stuck, nothing would move.
+        let coefficient = change.map_or(1.0, |change| {
+            self.coefficients[change.index()] * self.factor_at_impact(touching, state.omega)
+        });
+        let (contact, after) = (whole(from.ground.mirrored()), coefficient * plastic);
+        let loss_j = before_j * before * before - after_j * after * after;
+        Some(Impact { contact, omega: [after; 2], change, captured: false, loss_j })
     }
 }
 
