@@ -31,9 +31,6 @@ pub struct Controller {
 
 /// The controller aims below the bound, so that most steps are kept.
 const SAFETY: f64 = 0.9;
-/// The same where a step that was cut short speaks for a longer one than was tried: a step in vain costs as much as several
-/// that are kept.
-const SAFETY_BEYOND: f64 = 0.7;
 /// Changes of step beyond these factors would trust the estimate further than it reaches.
 const LEAST_FACTOR: f64 = 0.2;
 const MOST_FACTOR: f64 = 5.0;
@@ -123,7 +120,7 @@ impl Controller {
             // A step cut short by a sample or an event says nothing against a longer one. It may speak for
             // one, up to the most that would be trusted anyhow.
             let longer = self.proposed_s < MOST_FACTOR * step.h
-                && error * to_estimate_order(self.proposed_s) < to_estimate_order(SAFETY_BEYOND * step.h);
+                && error * to_estimate_order(self.proposed_s) < to_estimate_order(SAFETY * step.h);
             if whole || longer {
                 self.proposed_s = longer_s(step.h, error);
             }
@@ -180,8 +177,8 @@ impl ErrorRow {
         if !(accepted & (whole | below_most)).any_true() {
             return;
         }
-        let longer = below_most
-            & (error * to_estimate_order(proposed_s)).simd_lt(to_estimate_order(h * SAFETY_BEYOND));
+        let longer =
+            below_most & (error * to_estimate_order(proposed_s)).simd_lt(to_estimate_order(h * SAFETY));
         let changes = accepted & (whole | longer);
         if changes.any_true() {
             self.propose_longer(changes.to_bitmask(), error.into(), h.into());
