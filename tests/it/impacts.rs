@@ -22,6 +22,9 @@ fn count_outcomes(draws: u64, slowest: f64) -> BTreeMap<String, u64> {
         let [to] = found[..] else {
             panic!("{found:?} after {touching:?} in {} at {state:?}: {parameters:?}", from.name())
         };
+        // It is found without a look at the others, where they need none.
+        let impact = wall.impact(from, touching, &state).expect("an outcome");
+        assert!(impact.captured || impact.contact == to, "{to:?} or {impact:?} at {state:?}: {parameters:?}");
         let joints = match (touching.ground, touching.crack) {
             (true, true) => "both joints",
             (true, false) => "the ground",

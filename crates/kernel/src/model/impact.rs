@@ -8,8 +8,9 @@ use fearless_simd::Simd;
 
 use super::MechanicsError;
 use super::Table2Change;
-use super::contact::{Contact, Pivot, Touching};
+use super::contact::{Contact, Joint, Pivot, Touching};
 use super::geometry::{Pair, PointVelocities, Rotations, TurnedArms};
+use super::joint_forces::JointForces;
 use super::parameters::ImpactLaw;
 use super::rocking::{RockingWall, State, opening};
 use crate::instructions::dispatch;
@@ -64,11 +65,16 @@ pub(super) struct Collision {
 }
 
 impl RockingWall {
-    /// The outcome of an impact at a state whose touching joints have zero opening.
+    /// The outcome of an impact, from the velocities before.
     ///
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
-    pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
+    pub(super) fn worked_out_impact(
+        &self,
+        from: Contact,
+        touching: Touching,
+        state: &State,
+    ) -> Result<Impact, MechanicsError> {
         dispatch!(self.motion(from).level, simd => self.plastic_impact(simd, from, touching, state))
     }
 
@@ -81,13 +87,10 @@ impl RockingWall {
         state: &State,
     ) -> Result<Impact, MechanicsError> {
         let collision = self.collision(from, touching, state);
-        let (mut count, mut plastic) = (0, None);
-        self.admissible(simd, from, &collision, |to, omega| {
-            count += 1;
-            plastic = Some((to, omega));
-        });
-        let (1, Some((plastic, projected))) = (count, plastic) else {
-            return Err(MechanicsError::ImpactOutcomes { from: from.name(), touching, state: *state, count });
+        let plastic = self.struck_through(from, &collision);
+        let (plastic, projected) = match plastic {
+            Some(outcome) => outcome,
+            None => self.only_admissible(simd, from, &collision, state)?,
         };
         let (contact, projected) = self.captured(plastic, projected, &collision);
         let change = Table2Change::of(from, contact);
@@ -95,6 +98,56 @@ impl RockingWall {
         let before_j = self.motion(from).kinetic_energy_j(collision.rotations, state.omega);
         let after_j = self.motion(contact).kinetic_energy_j(collision.rotations, omega);
         Ok(Impact { contact, omega, change, captured: contact != plastic, loss_j: before_j - after_j })
+    }
+
+    /// The outcome of most impacts: every open joint that touches turns on about its other corner. `None` where that is not
+    /// admissible, or not shown to be the only one.
+    ///
+    /// Where no pivot is pulled, velocities and impulses fulfil the conditions of the nearest velocities at which no
+    /// corner penetrates. These velocities are a convex set, and the distance is strictly convex: there is one nearest, and
+    /// no other state need be looked at.
+    #[inline(always)]
+    pub(super) fn struck_through(&self, from: Contact, collision: &Collision) -> Option<(Contact, Pair)> {
+        if self.wall().rolls() {
+            return None;
+        }
+        let turned = |joint: Joint| match collision.touching.at(joint) {
+            true => from.at(joint).mirrored(),
+            false => from.at(joint),
+        };
+        let to = Contact { ground: turned(Joint::Ground), crack: turned(Joint::Crack) };
+        let arms = self.turned_arms(to, collision.rotations);
+        let omega = self.projected_onto(to, &arms, collision);
+        if self.separation(to, omega, collision) <= ROUNDING {
+            return None;
+        }
+        let impulses = self.impulses(&arms, omega, collision);
+        let pushed = self.joints().all(|joint| impulses.at(joint).normal > ROUNDING * collision.impulse_size);
+        let margin = self.smallest_corner_impulse(to, &impulses, collision);
+        (pushed && margin > ROUNDING).then_some((to, omega))
+    }
+
+    /// The one contact state that is admissible, and the velocities in it.
+    #[inline(never)]
+    fn only_admissible<S: Simd>(
+        &self,
+        simd: S,
+        from: Contact,
+        collision: &Collision,
+        state: &State,
+    ) -> Result<(Contact, Pair), MechanicsError> {
+        let (mut count, mut plastic) = (0, None);
+        self.admissible(simd, from, collision, |to, omega| {
+            count += 1;
+            plastic = Some((to, omega));
+        });
+        match (count, plastic) {
+            (1, Some(outcome)) => Ok(outcome),
+            _ => {
+                let touching = collision.touching;
+                Err(MechanicsError::ImpactOutcomes { from: from.name(), touching, state: *state, count })
+            }
+        }
     }
 
     /// Every admissible contact state after an impact; exactly one is expected.
@@ -116,13 +169,13 @@ impl RockingWall {
     }
 
     #[inline(always)]
-    fn collision(&self, from: Contact, touching: Touching, state: &State) -> Collision {
+    pub(super) fn collision(&self, from: Contact, touching: Touching, state: &State) -> Collision {
         let rotations = Rotations::new(state.theta);
         let v_before = self.turned_arms(from, rotations).velocities(state.omega);
         // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
         let [w1, w2] = v_before.theta.map(|w| w.abs().max(f64::MIN_POSITIVE));
         // A corner's impulse is a moment over a width: its roundings are those of the momentum times the slimness.
-        let size = (self.masses.momentum_size(&v_before) * self.slimness()).max(f64::MIN_POSITIVE);
+        let size = (self.masses.momentum_size(&v_before) * self.slimness).max(f64::MIN_POSITIVE);
         Collision { touching, rotations, v_before, speed: w1.max(w2), impulse_size: size }
     }
 
@@ -178,16 +231,21 @@ impl RockingWall {
     fn margin(&self, to: Contact, collision: &Collision) -> (f64, Pair) {
         let arms = self.turned_arms(to, collision.rotations);
         let omega = self.projected_onto(to, &arms, collision);
-        let separation = self
-            .joints()
-            .filter(|joint| collision.touching.at(*joint) && to.at(*joint).is_open())
-            .map(|joint| to.at(joint).sign() * opening(joint, omega))
-            .fold(f64::INFINITY, f64::min)
-            / collision.speed;
+        let separation = self.separation(to, omega, collision);
         if separation < -ROUNDING {
             return (separation, omega);
         }
         (separation.min(self.smallest_impulse(to, &arms, omega, collision)), omega)
+    }
+
+    /// Smallest separation of the joints that touched and are open after, over the speed before; infinite where none is.
+    #[inline(always)]
+    fn separation(&self, to: Contact, omega: Pair, collision: &Collision) -> f64 {
+        self.joints()
+            .filter(|joint| collision.touching.at(*joint) && to.at(*joint).is_open())
+            .map(|joint| to.at(joint).sign() * opening(joint, omega))
+            .fold(f64::INFINITY, f64::min)
+            / collision.speed
     }
 
     /// Velocities that a contact state allows, nearest to those before: Jnᵀ M Jn θ'⁺ = Jnᵀ M v⁻.
@@ -209,21 +267,23 @@ impl RockingWall {
         if to.ground.is_open() && to.crack.is_open() {
             return f64::INFINITY;
         }
-        let jump = arms.velocities(omega).minus(collision.v_before);
-        let impulses = self.masses.impulses(arms, &jump);
+        self.smallest_corner_impulse(to, &self.impulses(arms, omega, collision), collision)
+    }
+
+    /// Impulses through the joints that bring about these velocities.
+    #[inline(always)]
+    fn impulses(&self, arms: &TurnedArms, omega: Pair, collision: &Collision) -> JointForces {
+        self.masses.impulses(arms, &arms.velocities(omega).minus(collision.v_before))
+    }
+
+    /// Smallest of impulses at the corners of the closed joints over the momentum before; infinite where none is.
+    #[inline(always)]
+    fn smallest_corner_impulse(&self, to: Contact, impulses: &JointForces, collision: &Collision) -> f64 {
         self.joints()
             .filter(|joint| to.at(*joint).is_closed() && self.bed(*joint).is_none())
             .flat_map(|joint| impulses.at(joint).corners(self.width_m(joint)))
             .fold(f64::INFINITY, f64::min)
             / collision.impulse_size
-    }
-
-    /// Height over the narrowest joint.
-    #[inline(always)]
-    fn slimness(&self) -> f64 {
-        let p = self.wall().parameters();
-        let narrowest = self.joints().map(|joint| self.width_m(joint)).fold(f64::INFINITY, f64::min);
-        p.height_m / narrowest
     }
 
     /// Closes touching joints that would open slower than the capture velocity. Each time it projects once
@@ -255,7 +315,8 @@ impl RockingWall {
     ) -> Pair {
         let restitution = self.wall().parameters().restitution;
         let Some(change) = change else { return omega };
-        let c_l = self.coefficients[change.index()] * self.factor_at_impact(collision);
+        let c_l = self.coefficients[change.index()]
+            * self.factor_at_impact(collision.touching, collision.v_before.theta);
         let u = match restitution.law {
             // Eq. 7 of the paper.
             ImpactLaw::Whole => [0.0, 0.0],

@@ -30,6 +30,7 @@ mod side_by_side;
 mod top;
 mod vector;
 mod wall;
+mod whole_impact;
 
 pub use bed::{Bed, CrushingJoint, JointLaw, RoundedEdges, TrilinearJoint};
 pub(crate) use bed::{BeddedMotion, Branch, Pose};
@@ -56,7 +57,7 @@ pub(crate) use regime::Kink;
 pub use regime::{Regime, Side, TopMemory};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
-pub(crate) use side_by_side::{ConfigurationLanes, Motions, RateLanes, ReactionLanes};
+pub(crate) use side_by_side::{ConfigurationLanes, Motions, RateLanes, ReactionLanes, sin_cos_lanes};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpossibleWall, Wall, crushed_widths_m};
 

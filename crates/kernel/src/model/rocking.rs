@@ -6,12 +6,13 @@ use super::bed::{Branch, JointLaw};
 use super::contact::{Contact, Joint, Pivot, Touching};
 use super::formula::{FormulaLaws, Slopes};
 use super::geometry::{Arms, Pair, Rotations, TurnedArms};
-use super::joint_forces::{JointForces, Masses};
+use super::joint_forces::{JointForce, JointForces, Masses};
 use super::laws::{Laws, PiecewiseLaws};
 use super::motion::{Motion, MotionRate};
 use super::regime::Regime;
 use super::vector::Vector;
 use super::wall::{G_M_S2, Wall};
+use super::whole_impact::WholeImpact;
 
 /// Least velocity that still counts as opening, as a share of α over the time of response. A flight this slow
 /// rises to less than a rounding of α and ends within roundings of the time. Without it a wall whose capture
@@ -40,6 +41,13 @@ pub struct RockingWall {
     pub(super) joint_laws: [Option<JointLaw>; 2],
     /// ... and the branches they are in.
     pub(super) branches: [Branch; 2],
+    /// One over the weight of the wall, 1/N, and over the widths of the joints, 1/m: corner forces are looked at often.
+    per_weight: f64,
+    per_width: [f64; 2],
+    /// Height over the narrowest joint.
+    pub(super) slimness: f64,
+    /// Impacts of the wall that turns as one, about the right and the left corner.
+    pub(super) whole_impacts: [Option<WholeImpact>; 2],
     /// Relative velocity below which a joint that would open stays closed, rad/s.
     pub(super) capture_rad_s: f64,
     /// C_1 … C_8 with the factors of effects.
@@ -76,10 +84,18 @@ impl RockingWall {
             edges: wall.gives().then(|| Box::new(Self::new(&wall.with_sharp_edges(&wall.joint_laws)))),
             joint_laws: wall.joint_laws,
             branches: [Branch::default(); 2],
+            per_weight: 0.0,
+            per_width: [0.0; 2],
+            slimness: 0.0,
+            whole_impacts: [None; 2],
             wall: wall.clone(),
         };
+        rocking.per_weight = 1.0 / rocking.weight_n();
+        rocking.per_width = [Joint::Ground, Joint::Crack].map(|joint| 1.0 / rocking.width_m(joint));
+        rocking.slimness = rocking.slimness();
         let least = LEAST_CAPTURE * wall.alpha_rad() / rocking.response_time_s();
         rocking.capture_rad_s = rocking.capture_rad_s.max(least);
+        rocking.whole_impacts = rocking.whole_impacts();
         rocking.least_speed_m_s = rocking.least_speed_m_s();
         rocking.enter_regime(Regime::default());
         rocking
@@ -185,12 +201,12 @@ impl RockingWall {
         if contact.ground.is_open() && contact.crack.is_open() {
             return None;
         }
-        let weight = self.weight_n();
         let mut smallest = None;
         for joint in self.joints() {
             if contact.at(joint).is_closed() && self.bed(joint).is_none() {
-                let [left, right] = forces.at(joint).corners(self.width_m(joint));
-                let least = left.min(right) / weight;
+                let JointForce { normal, moment, .. } = *forces.at(joint);
+                let (half, lever) = (normal * 0.5, moment * self.per_width(joint));
+                let least = (half + lever).min(half - lever) * self.per_weight;
                 smallest = Some(smallest.map_or(least, |s: f64| s.min(least)));
             }
         }
@@ -201,6 +217,18 @@ impl RockingWall {
     #[inline]
     pub(crate) fn weight_n(&self) -> f64 {
         (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2
+    }
+
+    /// One over that weight, 1/N.
+    #[inline]
+    pub(crate) fn per_weight(&self) -> f64 {
+        self.per_weight
+    }
+
+    /// One over the width between the corners of a closed joint, 1/m.
+    #[inline]
+    pub(crate) fn per_width(&self, joint: Joint) -> f64 {
+        self.per_width[joint as usize]
     }
 
     /// The law of a joint that gives: its bed, or a rival of that.
@@ -254,6 +282,13 @@ impl RockingWall {
     pub(crate) fn joints(&self) -> impl Iterator<Item = Joint> + use<> {
         let cracked = self.wall.is_cracked();
         [Joint::Ground, Joint::Crack].into_iter().take(if cracked { 2 } else { 1 })
+    }
+
+    /// Height over the narrowest joint.
+    fn slimness(&self) -> f64 {
+        let p = self.wall.parameters();
+        let narrowest = self.joints().map(|joint| self.width_m(joint)).fold(f64::INFINITY, f64::min);
+        p.height_m / narrowest
     }
 
     /// Width between the corners of a closed joint, m.

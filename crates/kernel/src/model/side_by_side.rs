@@ -111,7 +111,7 @@ fn rotated<S: Simd>([x, y]: [F<S>; 2], sin: F<S>, cos: F<S>) -> [F<S>; 2] {
 }
 
 #[inline(always)]
-pub(super) fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
+pub(crate) fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
     if theta.abs().simd_gt(FRAC_PI_4).any_true() {
         return library_sin_cos(theta);
     }
@@ -181,8 +181,13 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
 
     #[inline(always)]
     pub fn configuration(&self, theta: [F<S>; 2]) -> ConfigurationLanes<S> {
-        let (sin_1, cos_1) = sin_cos_lanes(theta[0]);
-        let (sin_2, cos_2) = if AS_ONE { (sin_1, cos_1) } else { sin_cos_lanes(theta[1]) };
+        let turn_1 = sin_cos_lanes(theta[0]);
+        self.turned([turn_1, if AS_ONE { turn_1 } else { sin_cos_lanes(theta[1]) }])
+    }
+
+    /// The same by the sines and cosines of both rotations.
+    #[inline(always)]
+    pub fn turned(&self, [(sin_1, cos_1), (sin_2, cos_2)]: [(F<S>, F<S>); 2]) -> ConfigurationLanes<S> {
         ConfigurationLanes {
             sin_1,
             cos_1,
@@ -210,10 +215,15 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
         }
     }
 
-    /// As [`Motion::monolithic_rate`]: θ'' and the powers.
+    /// As [`Motion::monolithic_rate`], θ'' and the powers, at a rotation with this sine and cosine.
     #[inline(always)]
-    pub fn monolithic_rate(&self, theta: F<S>, omega: F<S>, [g_x, g_y]: [F<S>; 2]) -> (F<S>, [F<S>; 2]) {
-        let (sin, cos) = sin_cos_lanes(theta);
+    pub fn monolithic_rate(
+        &self,
+        theta: F<S>,
+        (sin, cos): (F<S>, F<S>),
+        omega: F<S>,
+        [g_x, g_y]: [F<S>; 2],
+    ) -> (F<S>, [F<S>; 2]) {
         let r = rotated(self.whole_arm, sin, cos);
         let w = rotated(self.whole_moment, sin, cos);
         let (a_x, a_y) = (g_x, g_y + G_M_S2);

@@ -128,8 +128,8 @@ impl LimitRow {
     #[inline(always)]
     fn corner_force<S: Simd>(&self, [_, normal, moment]: [F<S>; 3]) -> (F<S>, Mask<S>) {
         let simd = normal.simd;
-        let (half, lever) = (normal / 2.0, moment / from_row(simd, &self.width_m));
-        let end = (half + lever).min_precise(half - lever) / from_row(simd, &self.weight_n);
+        let (half, lever) = (normal * 0.5, moment * from_row(simd, &self.per_width));
+        let end = (half + lever).min_precise(half - lever) * from_row(simd, &self.per_weight);
         let start = from_row(simd, &self.corner_force);
         let size = start.abs().max(end.abs()) + (end - start).abs();
         let stays = end.simd_ge(0.0) & start.min(end).simd_gt(size * NEAR_ZERO);
@@ -301,7 +301,9 @@ impl Row {
     fn turn_top<S: Simd, M: Stepping<S>>(&mut self, done: Mask<S>, motions: &M, landed: &Landed<S>, h: F<S>) {
         let (simd, now) = (h.simd, landed.reactions.top[1]);
         let before = from_row(simd, &self.limits.top_velocity_m_s);
-        let turns = done & (before * now).simd_lt(0.0);
+        let most_m = landed.reactions.top[0].abs() + (before.abs() + now.abs()) * 2.0 * h;
+        let rises = most_m.simd_gt(from_row(simd, &self.sums.top_m).abs());
+        let turns = done & rises & (before * now).simd_lt(0.0);
         if !turns.any_true() {
             return;
         }

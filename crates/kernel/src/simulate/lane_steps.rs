@@ -9,7 +9,7 @@ use crate::instructions::dispatch_lanes;
 use crate::lanes::{LANES, Numbers, from_row};
 use crate::model::{
     BeddedMotions, ConfigurationLanes, Freedom, LaneKind, MotionRow, Motions, RateLanes, ReactionLanes,
-    Vector,
+    Vector, sin_cos_lanes,
 };
 use crate::solver::{Field, Nystrom, Rate, Stride};
 
@@ -64,14 +64,16 @@ impl<S: Simd> GroundLanes<S> {
 struct ShakenMotion<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> {
     motions: &'a Motions<S, AS_ONE, FURTHER>,
     ground: GroundLanes<S>,
+    /// Of the last stage, whose positions are those of the end: that of both bodies, and the turn of those that turn as one.
     configuration: Option<ConfigurationLanes<S>>,
+    turn: Option<(F<S>, F<S>)>,
     reactions: Option<ReactionLanes<S>>,
 }
 
 impl<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'a, S, AS_ONE, FURTHER> {
     #[inline(always)]
     fn new(motions: &'a Motions<S, AS_ONE, FURTHER>, ground: GroundLanes<S>) -> Self {
-        Self { motions, ground, configuration: None, reactions: None }
+        Self { motions, ground, configuration: None, turn: None, reactions: None }
     }
 
     #[inline(always)]
@@ -87,13 +89,16 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<OneRotation<S>>
 {
     #[inline(always)]
     fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
-        let (theta_dd, [power, _]) = self.motions.monolithic_rate(theta.0, omega.0, self.ground.at(after_s));
+        let turn = sin_cos_lanes(theta.0);
+        self.turn = Some(turn);
+        let ground = self.ground.at(after_s);
+        let (theta_dd, [power, _]) = self.motions.monolithic_rate(theta.0, turn, omega.0, ground);
         Rate { acceleration: OneRotation(theta_dd), quadrature: OneRotation(power) }
     }
 
     #[inline(always)]
     fn land(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
-        let turned = self.motions.configuration([theta.0; 2]);
+        let turned = self.motions.turned([self.turn.unwrap_or_else(|| sin_cos_lanes(theta.0)); 2]);
         let (rate, reactions) =
             self.motions.rate_and_reactions(&turned, [omega.0; 2], self.ground.at(after_s));
         self.reactions = Some(reactions);
@@ -106,7 +111,9 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'_, S, AS_ON
     fn rate_at(&mut self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
         let ground = self.ground.at(after_s);
         if AS_ONE {
-            let (theta_dd, powers_w) = self.motions.monolithic_rate(theta[0], omega[0], ground);
+            let turn = sin_cos_lanes(theta[0]);
+            self.turn = Some(turn);
+            let (theta_dd, powers_w) = self.motions.monolithic_rate(theta[0], turn, omega[0], ground);
             return RateLanes { theta_dd: [theta_dd; 2], powers_w };
         }
         let turned = self.motions.configuration(theta);
@@ -144,7 +151,11 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
         theta: TwoRotations<S>,
         omega: TwoRotations<S>,
     ) -> Rate<TwoRotations<S>> {
-        let turned = self.configuration.unwrap_or_else(|| self.motions.configuration(theta.0));
+        let turned = match (self.configuration, self.turn) {
+            (Some(turned), _) => turned,
+            (None, Some(turn)) => self.motions.turned([turn; 2]),
+            (None, None) => self.motions.configuration(theta.0),
+        };
         let (rate, reactions) = self.motions.rate_and_reactions(&turned, omega.0, self.ground.at(after_s));
         self.reactions = Some(reactions);
         as_rate(rate)

@@ -72,10 +72,10 @@ pub(super) struct LimitRow {
     pub collapse_rad: [Numbers; 2],
     /// Magnitudes of the largest rotations so far, rad.
     pub theta_max_rad: [Numbers; 2],
-    /// 1 where a joint is closed, its width in m, and the weight of the wall, N.
+    /// 1 where a joint is closed, one over its width in 1/m, and over the weight of the wall, 1/N.
     pub closed: Numbers,
-    pub width_m: Numbers,
-    pub weight_n: Numbers,
+    pub per_width: Numbers,
+    pub per_weight: Numbers,
     /// Smallest corner force of the closed joint now, over the weight.
     pub corner_force: Numbers,
     /// Velocity of the top now, m/s.

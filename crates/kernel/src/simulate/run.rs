@@ -32,6 +32,8 @@ pub(super) struct Run<O> {
     ground: GroundPath,
     rest: RestLimits,
     collapse_rad: Pair,
+    /// Openings up to this are contact: a rounding of α, rad.
+    contact_rad: f64,
     controller: Controller,
     totals: Totals,
     observer: O,
@@ -89,6 +91,7 @@ impl<O: Observer> Run<O> {
         Self {
             rest: simulator.rest.clone(),
             collapse_rad: simulator.wall.wall().collapse_rotation_rad(),
+            contact_rad: f64::EPSILON * simulator.wall.wall().alpha_rad(),
             controller: simulator.controller,
             totals: Totals::new(simulator.wall.joints().count()),
             observer,
@@ -176,13 +179,18 @@ impl<O: Observer> Run<O> {
         self.totals.work.evaluations += STAGES;
         let result = match self.task {
             Task::Advance { .. } => self.advance(&piece, step, reactions),
-            Task::ReachEvent { event, most_s, .. } => self.refine_event(event, &piece, step, most_s, 0),
+            Task::ReachEvent { event, most_s, .. } => {
+                self.refine_event(event, &piece, step, reactions, most_s, 0)
+            }
             Task::RefineEvent { event, most_s, step: before, gap, corrections, .. } => {
                 match self.left_to(event, &step.end) {
                     Some((left, _)) if left.abs() < gap => {
-                        self.refine_event(event, &piece, step, most_s, corrections)
+                        self.refine_event(event, &piece, step, reactions, most_s, corrections)
                     }
-                    _ => self.apply_event(event, &piece, &before),
+                    _ => {
+                        let reactions = self.reactions(&before.end, piece.at(self.offset_s + before.h));
+                        self.apply_event(event, &piece, &before, &reactions)
+                    }
                 }
             }
         };
@@ -329,7 +337,9 @@ impl<O: Observer> Run<O> {
         self.totals.top(reactions.top_displacement_m, start_s + motion.h());
         let (before, now) = (self.top_velocity_m_s, reactions.top_velocity_m_s);
         self.top_velocity_m_s = now;
-        if before * now < 0.0 {
+        // Twice as far from the end as at both speeds together is farther than it gets.
+        let most_m = reactions.top_displacement_m.abs() + 2.0 * (before.abs() + now.abs()) * motion.h();
+        if before * now < 0.0 && most_m > self.totals.top_max.value.abs() {
             // The velocity is all but linear over the little that is left of a swing.
             let share = before / (before - now);
             let x_c = self.wall.top_displacement_m(self.contact, motion.position(share));

@@ -105,12 +105,16 @@ impl Aboard {
         self.take(i, slot, run);
     }
 
-    /// A run that comes back to its lane, where all but what moves is there already if its laws are as they were.
+    /// A run that comes back to its lane, where all but its contact state and what moves is there already if its laws are as they
+    /// were.
     fn board_again<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>, before: Contact) {
-        if run.contact() != before || run.regime().is_some_and(|regime| regime != self.regimes[i]) {
+        if run.regime().is_some_and(|regime| regime != self.regimes[i]) {
             return self.board(i, slot, run);
         }
-        run.board_again(&mut self.row, i);
+        match run.contact() == before {
+            true => run.board_again(&mut self.row, i),
+            false => run.board_contact(&mut self.row, i),
+        }
         self.take(i, slot, run);
     }
 

@@ -4,6 +4,9 @@ use super::response::{EnergyLedger, Impacts, JointDemand, Openings, Peak, Work};
 use crate::model::{Contact, Impact, JointForces};
 use crate::solver::{Bernstein, Quintic};
 
+/// A change of forces over times of 1e-7 of a sample step, with room: over such a time they change by some 1e-7.
+const LITTLE: f64 = 1e-5;
+
 /// Everything a run adds up.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Totals {
@@ -79,6 +82,17 @@ impl Totals {
             demand.tensions += u64::from(tension && !self.in_tension[i]);
             self.in_tension[i] = tension;
         }
+    }
+
+    /// Whether forces, and all that differ from them by little, raise no largest one and leave no pivot under tension.
+    #[inline]
+    pub fn surely_outdo(&self, forces: &JointForces) -> bool {
+        [forces.ground, forces.crack].iter().enumerate().take(self.joints).all(|(i, force)| {
+            let (demand, normal) = (&self.demand[i], force.normal * (1.0 + LITTLE));
+            !self.in_tension[i]
+                && force.shear.abs() * (1.0 + LITTLE) < demand.friction * force.normal
+                && normal < demand.compression_n
+        })
     }
 
     /// Adds the work of the ground and the losses of effects over a step.

@@ -9,9 +9,6 @@ pub struct Bernstein<const N: usize>(pub [f64; N]);
 /// Halvings after which a pair of roots that has not come apart counts as a touch, not a crossing.
 const MOST_HALVINGS: u32 = 40;
 
-/// Newton's corrections square: after one so small the next would be below roundings.
-const NEXT_TO_NOTHING: f64 = 1e-9;
-
 /// Shares nearer than this are one: a root is known no better, because coefficients carry roundings.
 const SAME_SHARE: f64 = 1e-14;
 
@@ -101,25 +98,28 @@ impl<const N: usize> Bernstein<N> {
         left.root_in(from, middle, halvings - 1).or_else(|| right.root_in(middle, to, halvings - 1))
     }
 
-    /// The root of a polynomial with one change of sign: Newton, kept inside a shrinking bracket.
+    /// The root of a polynomial with one change of sign: Halley, kept inside a shrinking bracket.
     fn only_root(&self) -> f64 {
         let powers = self.powers();
         let (mut low, mut high) = (0.0, 1.0);
         let (first, last) = (self.0[0], self.0[N - 1]);
         let mut share = first / (first - last);
         for _ in 0..80 {
-            let (value, slope) = value_and_slope(&powers, share);
+            let [value, slope, second, third] = taylor(&powers, share);
             if value >= 0.0 {
                 low = share
             } else {
                 high = share
             }
-            let newton = share - value / slope;
-            let is_inside = newton > low && newton < high;
-            let next = if is_inside { newton } else { 0.5 * (low + high) };
+            let square = slope * slope;
+            let halley = share - value * slope / (square - value * second);
+            let is_inside = halley > low && halley < high;
+            let next = if is_inside { halley } else { 0.5 * (low + high) };
             let moved = (next - share).abs();
-            // What Newton's next correction would be, of a root that is not all but double.
-            if moved <= SAME_SHARE || high - low <= SAME_SHARE || (is_inside && moved <= NEXT_TO_NOTHING) {
+            // What Halley's next correction would be: a share of its cube.
+            let cubed = moved * moved * moved * (second * second + (third * slope).abs());
+            if moved <= SAME_SHARE || high - low <= SAME_SHARE || (is_inside && cubed <= SAME_SHARE * square)
+            {
                 return next;
             }
             share = next;
@@ -131,29 +131,37 @@ impl<const N: usize> Bernstein<N> {
     #[inline]
     fn powers(&self) -> [f64; N] {
         let mut differences = self.0;
-        let mut choose = 1.0;
         for k in 1..N {
             for i in (k..N).rev() {
                 differences[i] -= differences[i - 1];
             }
         }
-        for (k, difference) in differences.iter_mut().enumerate() {
-            *difference *= choose;
-            choose = choose * (N - 1 - k) as f64 / (k + 1) as f64;
-        }
-        differences
+        let choose = const { binomials::<N>() };
+        std::array::from_fn(|k| differences[k] * choose[k])
     }
 }
 
-/// Value and slope of a polynomial by its powers (Horner).
-#[inline]
-fn value_and_slope<const N: usize>(powers: &[f64; N], share: f64) -> (f64, f64) {
-    let (mut value, mut slope) = (powers[N - 1], 0.0);
+/// C(N - 1, k).
+const fn binomials<const N: usize>() -> [f64; N] {
+    let (mut choose, mut k) = ([1.0; N], 1);
+    while k < N {
+        choose[k] = choose[k - 1] * (N - k) as f64 / k as f64;
+        k += 1;
+    }
+    choose
+}
+
+/// Value and slope of a polynomial by its powers, and halves and sixths of its next derivatives (Horner).
+#[inline(always)]
+fn taylor<const N: usize>(powers: &[f64; N], share: f64) -> [f64; 4] {
+    let [mut value, mut slope, mut second, mut third] = [powers[N - 1], 0.0, 0.0, 0.0];
     for k in (0..N - 1).rev() {
+        third = third * share + second;
+        second = second * share + slope;
         slope = slope * share + value;
         value = value * share + powers[k];
     }
-    (value, slope)
+    [value, slope, second, third]
 }
 
 impl Bernstein<6> {

@@ -34,23 +34,37 @@ const SAFETY: f64 = 0.9;
 /// Changes of step beyond these factors would trust the estimate further than it reaches.
 const LEAST_FACTOR: f64 = 0.2;
 const MOST_FACTOR: f64 = 5.0;
-/// The estimate falls with this power of the step: the fifth of the embedded method, and one more (see `error`).
-const ESTIMATE_ORDER: i32 = 6;
+/// Seven sixths of the exponent of one, as bits, less what halves the first error of the root.
+const SEVEN_SIXTHS: u64 = (0x3ff_u64 << 52) / 6 * 7 - (1_u64 << 52) / 18;
 
 /// Below it numbers have a fraction.
 const MOST_WITH_FRACTION: f64 = (1_u64 << f64::MANTISSA_DIGITS) as f64;
 
-/// The power with which the estimate falls.
+/// The power with which the estimate falls: the fifth of the embedded method, and one more (see `error`).
 #[inline(always)]
 fn to_estimate_order<N: Copy + Mul<Output = N>>(ratio: N) -> N {
     let square = ratio * ratio;
     square * (square * square)
 }
 
+/// x^(-1/6) to a ten-thousandth, of a positive number: a sixth of the exponent, and two of Newton's corrections. The library's power
+/// would take longer than a stage of the step, and is not the same on every machine.
+#[inline]
+fn inverse_sixth_root(x: f64) -> f64 {
+    let corrected = |root: f64| root * (7.0 - x * to_estimate_order(root)) / 6.0;
+    corrected(corrected(f64::from_bits(SEVEN_SIXTHS.wrapping_sub(x.to_bits() / 6))))
+}
+
+/// Below this error the length grows by [`MOST_FACTOR`]: nine tenths of (SAFETY / MOST_FACTOR)⁶, for the power's roundings.
+const ERROR_OF_MOST: f64 = 3.06e-5;
+
 /// The length proposed after a step that was kept, s.
 #[inline]
 fn longer_s(h: f64, error: f64) -> f64 {
-    h * (SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER))).min(MOST_FACTOR)
+    if error < ERROR_OF_MOST {
+        return h * MOST_FACTOR;
+    }
+    h * (SAFETY * inverse_sixth_root(error)).min(MOST_FACTOR)
 }
 
 /// The next whole number, as `ceil` has it. That is a call of a library on processors that may lack SSE4.1.
@@ -106,14 +120,14 @@ impl Controller {
             // A step cut short by a sample or an event says nothing against a longer one. It may speak for
             // one, up to the most that would be trusted anyhow.
             let longer = self.proposed_s < MOST_FACTOR * step.h
-                && error < to_estimate_order(SAFETY * step.h / self.proposed_s);
+                && error * to_estimate_order(self.proposed_s) < to_estimate_order(SAFETY * step.h);
             if whole || longer {
                 self.proposed_s = longer_s(step.h, error);
             }
             return true;
         }
         // A NaN is an error too large to measure.
-        let factor = SAFETY * error.powf(-1.0 / f64::from(ESTIMATE_ORDER));
+        let factor = SAFETY * inverse_sixth_root(error);
         self.proposed_s = step.h * if factor.is_nan() { LEAST_FACTOR } else { factor.max(LEAST_FACTOR) };
         false
     }
@@ -163,7 +177,8 @@ impl ErrorRow {
         if !(accepted & (whole | below_most)).any_true() {
             return;
         }
-        let longer = below_most & error.simd_lt(to_estimate_order(h * SAFETY / proposed_s));
+        let longer =
+            below_most & (error * to_estimate_order(proposed_s)).simd_lt(to_estimate_order(h * SAFETY));
         let changes = accepted & (whole | longer);
         if changes.any_true() {
             self.propose_longer(changes.to_bitmask(), error.into(), h.into());
@@ -187,5 +202,29 @@ impl ErrorRow {
         }
         let parts = (remaining_s / proposed_s).ceil();
         fits.select(remaining_s, remaining_s / parts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_a_sixth_root_without_a_power() {
+        for exponent in -300..300 {
+            for x in [1.0, 1.7, 2.3, 5.0].map(|digits| digits * 10.0_f64.powi(exponent)) {
+                let error = inverse_sixth_root(x) / x.powf(-1.0 / 6.0) - 1.0;
+                assert!(error.abs() < 1e-4, "{error:e} at {x:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn analytic_lengths_grow_as_the_error_says() {
+        // Just below where the power is not needed, and where it is.
+        for error in [1e-12, 3.05e-5, 3.07e-5, 1e-3, 0.5] {
+            let expected = (SAFETY * f64::powf(error, -1.0 / 6.0)).min(MOST_FACTOR);
+            assert!((longer_s(2.0, error) / (2.0 * expected) - 1.0).abs() < 1e-4, "at {error:e}");
+        }
     }
 }

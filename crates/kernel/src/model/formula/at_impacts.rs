@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use mrbd_formula::{Branches, Formula, Place, Program};
 
+use super::super::contact::Touching;
 use super::super::geometry::Pair;
-use super::super::impact::Collision;
 use super::super::rocking::{RockingWall, opening};
 use super::super::wall::{ImpossibleWall, Wall};
 use super::check::{reach, refused};
@@ -35,21 +35,20 @@ impl ImpactFactors {
 }
 
 impl RockingWall {
-    /// By what the speed scales the coefficient of an impact; 1 where it does not matter. Where both joints touch at once, the
+    /// By what the velocities before scale the coefficient of an impact; 1 where they do not matter. Where both joints touch at once, the
     /// one whose edge comes down faster counts.
     #[inline]
-    pub(in crate::model) fn factor_at_impact(&self, collision: &Collision) -> f64 {
+    pub(in crate::model) fn factor_at_impact(&self, touching: Touching, omega: Pair) -> f64 {
         let ImpactFactors(factors) = &self.wall().impact_factors;
         let fading_s_per_m = self.wall().effects.impact_fading_s_per_m;
         if factors.is_empty() && fading_s_per_m == 0.0 {
             return 1.0;
         }
-        let omega: Pair = collision.v_before.theta;
         let closing = |joint| {
             let rate_rad_s = opening(joint, omega).abs();
             [self.width_m(joint) * rate_rad_s, rate_rad_s, self.wall().weights_n()[joint as usize]]
         };
-        let touching = self.joints().filter(|joint| collision.touching.at(*joint)).map(closing);
+        let touching = self.joints().filter(|joint| touching.at(*joint)).map(closing);
         let fastest = touching.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0; 3]);
         let written: f64 = factors.iter().map(|factor| factor.value(fastest, &Branches::FREE)).product();
         libm::exp(-fading_s_per_m * fastest[0]) * written

@@ -38,11 +38,16 @@ impl<O: Observer> Run<O> {
 
     /// Puts all that the next step needs in a lane.
     pub fn board(&self, row: &mut Row, i: usize) {
-        row.motions.put(i, self.wall.motion(self.contact));
         row.errors.put(i, &self.controller);
         self.board_ground(row, i);
-        self.board_limits(row, i);
         self.board_kinks(row, i);
+        self.board_contact(row, i);
+    }
+
+    /// The same of a run that comes back in another contact state.
+    pub fn board_contact(&self, row: &mut Row, i: usize) {
+        row.motions.put(i, self.wall.motion(self.contact));
+        self.board_limits(row, i);
         self.board_again(row, i);
     }
 
@@ -84,8 +89,8 @@ impl<O: Observer> Run<O> {
         let closed_edges = self.wall.closed_edges(self.contact);
         let closed = self.wall.joints().find(|joint| closed_edges.at(*joint));
         limits.closed[i] = f64::from(u8::from(closed.is_some()));
-        limits.width_m[i] = self.wall.width_m(closed.unwrap_or(Joint::Ground));
-        limits.weight_n[i] = self.wall.weight_n();
+        limits.per_width[i] = self.wall.per_width(closed.unwrap_or(Joint::Ground));
+        limits.per_weight[i] = self.wall.per_weight();
         limits.cracked[i] = f64::from(u8::from(self.wall.wall().is_cracked()));
     }
 

@@ -146,14 +146,19 @@ impl<O: Observer> Run<O> {
     }
 
     /// Applies the event at the end of a step.
-    pub(super) fn apply_event(&mut self, event: Event, piece: &Piece, step: &Step) -> Result<(), Stop> {
+    pub(super) fn apply_event(
+        &mut self,
+        event: Event,
+        piece: &Piece,
+        step: &Step,
+        reactions: &Reactions,
+    ) -> Result<(), Stop> {
         self.task = Task::Advance { h: 0.0 };
         let from_s = self.offset_s;
         let to_s = from_s + step.h;
         let (start_s, time_s) = (piece.start_s + from_s, piece.start_s + to_s);
         self.progress(step.h, time_s)?;
-        let reactions = self.reactions(&step.end, piece.at(to_s));
-        self.keep(start_s, step, &Quintic::new(&step.start, &step.end, step.h), &reactions);
+        self.keep(start_s, step, &Quintic::new(&step.start, &step.end, step.h), reactions);
         match event {
             Event::Collapse => return Err(Stop::Collapsed { time_s }),
             Event::Opening => self.enter(self.contact, piece.at(to_s), time_s)?,
@@ -204,6 +209,7 @@ impl<O: Observer> Run<O> {
         event: Event,
         piece: &Piece,
         step: &mut Step,
+        reactions: &Reactions,
         most_s: f64,
         corrections: u32,
     ) -> Result<(), Stop> {
@@ -214,13 +220,32 @@ impl<O: Observer> Run<O> {
             if late_s.abs() <= SHORT * self.ground.step_s() {
                 step.end = step.end.after(-late_s);
                 step.h -= late_s;
+                let reactions =
+                    self.reactions_after(reactions, -late_s, &step.end, piece.at(self.offset_s + step.h));
+                return self.apply_event(event, piece, step, &reactions);
             } else if h > 0.0 && h < 2.0 * step.h {
                 let (gap, corrections) = (gap.abs(), corrections + 1);
                 self.task = Task::RefineEvent { event, h, most_s, step: *step, gap, corrections };
                 return Ok(());
             }
         }
-        self.apply_event(event, piece, step)
+        self.apply_event(event, piece, step, reactions)
+    }
+
+    /// The reactions a short time after those at the end of a step. Forces are left as they were where neither raises a
+    /// largest one. Beds, kinks and formulas may be stiffer than that says.
+    #[inline]
+    fn reactions_after(&self, reactions: &Reactions, short_s: f64, end: &Point, ground: Vector) -> Reactions {
+        let stiff = self.wall.wall().gives() || self.wall.piecewise_laws().is_some();
+        if stiff || !self.wall.formulas().is_empty() || !self.totals.surely_outdo(&reactions.forces) {
+            return self.reactions(end, ground);
+        }
+        let Reactions { top_displacement_m, top_velocity_m_s, top_acceleration_m_s2, .. } = *reactions;
+        Reactions {
+            top_displacement_m: top_displacement_m + short_s * top_velocity_m_s,
+            top_velocity_m_s: top_velocity_m_s + short_s * top_acceleration_m_s2,
+            ..*reactions
+        }
     }
 
     fn progress(&mut self, h: f64, time_s: f64) -> Result<(), Stop> {
@@ -268,7 +293,7 @@ impl<O: Observer> Run<O> {
         }
         let sign = self.contact.at(joint).sign();
         let gap = sign * opening(joint, self.now.position);
-        let reached = closes || gap <= f64::EPSILON * self.wall.wall().alpha_rad();
+        let reached = closes || gap <= self.contact_rad;
         reached && sign * opening(joint, self.now.velocity) <= 0.0
     }
 }
