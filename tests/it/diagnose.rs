@@ -240,7 +240,9 @@ fn analytic_twin_with_nothing_hidden_is_none() {
     assert_eq!(found["verdict"], "none", "{found:#}");
     assert_confusions_are_told(&found);
     assert_eq!(found["effects"].as_array().expect("a list").len(), 0);
-    assert_eq!(found["windows"]["opened"], 0);
+    // One of 55 may be followed better with a joint open that the noise hides; `WORTH_OPENING` asks for two before anything is
+    // fitted again.
+    assert!(found["windows"]["opened"].as_u64().is_some_and(|opened| opened < 2), "{found:#}");
     assert!(!found["could_hide"].as_array().expect("a list").is_empty());
 }
 
