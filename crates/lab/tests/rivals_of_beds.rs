@@ -88,7 +88,7 @@ fn held_against_a_bed(effects: &[(&str, &[f64])]) -> (f64, Vec<(String, f64)>) {
 }
 
 #[test]
-fn measured_the_law_of_the_joints_of_a_free_wall_is_found_in_the_place_of_a_bed() {
+fn analytic_the_law_of_the_joints_of_a_free_wall_is_found_in_the_place_of_a_bed() {
     let worn: [(&str, &[f64]); 2] = [("rounded_edges.both", &[0.03, 0.6]), ("joint_damping.crack", &[12.0])];
     let (bed, laws) = held_against_a_bed(&worn);
     println!("bed {bed:.3}, {laws:.3?}");
@@ -98,7 +98,7 @@ fn measured_the_law_of_the_joints_of_a_free_wall_is_found_in_the_place_of_a_bed(
 }
 
 #[test]
-fn measured_no_other_law_follows_a_free_wall_as_well_as_its_bed() {
+fn analytic_no_other_law_follows_a_free_wall_as_well_as_its_bed() {
     let (bed, laws) = held_against_a_bed(&[("compliant_joint.both", &[1e9, 1e-3])]);
     println!("bed {bed:.3}, {laws:.3?}");
     // A bed that hardly crushes is a bed: it may follow as well, and is asked for more before it stands for one.
