@@ -74,7 +74,7 @@ limits! {
     LAW_SHARES: [f64; 2] = [0.93, 1.07], "share";
     /// Gain below which two such fits have come to one place by their first steps, and go on as one.
     ///
-    /// Where windows are linear; chosen below [`EQUIVALENT`]. States of some windows that differ part them by as much.
+    /// Where windows are linear; chosen below [`EQUIVALENT`](super::EQUIVALENT). States of some windows that differ part them by as much.
     ONE_PLACE: f64 = 10.0, "ln of likelihood";
     /// Places from which such fits are ended.
     ANSWER_FINISHED: usize = 3, "";
