@@ -8,13 +8,15 @@ use super::{laws, score, twins};
 /// A case by its set and number.
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
-/// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden.
-const SETS: [(&str, Draw); 5] = [
+/// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
+const SETS: [(&str, Draw); 7] = [
     ("fresh11", cases::draw::draw),
     ("beds3", cases::beds::draw),
     ("nulls3", cases::nulls::draw),
     ("beds4", cases::beds::draw),
     ("nulls4", cases::nulls::draw),
+    ("beds5", cases::beds::draw),
+    ("impacts1", cases::impacts::draw),
 ];
 
 /// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.
