@@ -82,12 +82,18 @@ impl RockingWall {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Wall, WallParameters};
+    use crate::model::{Effect, Wall, WallParameters};
 
     #[test]
     fn analytic_a_share_is_what_an_impact_leaves() {
-        let wall = Wall::new(WallParameters { eccentricity_m: 0.03, ..WallParameters::table_wall() });
-        let wall = RockingWall::new(&wall.expect("a wall"));
+        let fading = Effect::with_parameters("impact_fading", &[0.8]).expect("an effect");
+        for effects in [vec![], vec![fading]] {
+            let parameters = WallParameters { eccentricity_m: 0.03, effects, ..WallParameters::table_wall() };
+            shares_are_what_impacts_leave(&RockingWall::new(&Wall::new(parameters).expect("a wall")));
+        }
+    }
+
+    fn shares_are_what_impacts_leave(wall: &RockingWall) {
         for side in Pivot::OPEN {
             for speed in [2e-3, 0.03, 1.7] {
                 let state = State { theta: [0.0; 2], omega: [-side.sign() * speed; 2] };
