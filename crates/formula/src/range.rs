@@ -81,7 +81,7 @@ struct Search<'a> {
     parts: usize,
 }
 
-/// Refuses an expression that is not shown to be finite everywhere in a range, and a value that its place may have.
+/// Refuses an expression that is not shown to be finite everywhere in a range, and to have values that its place may have.
 ///
 /// # Errors
 /// The subexpression, the reason, and the range.

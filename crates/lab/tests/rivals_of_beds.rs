@@ -98,10 +98,9 @@ fn analytic_the_law_of_the_joints_of_a_free_wall_is_found_in_the_place_of_a_bed(
 }
 
 #[test]
-fn analytic_no_other_law_follows_a_free_wall_as_well_as_its_bed() {
+fn analytic_no_other_law_stands_beside_the_bed_of_a_free_wall() {
     let (bed, laws) = held_against_a_bed(&[("compliant_joint.both", &[1e9, 1e-3])]);
     println!("bed {bed:.3}, {laws:.3?}");
-    // A bed that hardly crushes is a bed: it may follow as well, and is asked for more before it stands for one.
-    let others = laws.iter().filter(|(name, _)| !name.starts_with("crushing_joint"));
-    assert!(bed < 1.1 && others.clone().all(|(_, error)| *error > bed + 0.1), "{bed}, {laws:?}");
+    // The bed that moved the wall leaves its noise, and no law is told that comes near it.
+    assert!(bed < 1.1 && laws.is_empty(), "{bed}, {laws:?}");
 }
