@@ -60,26 +60,25 @@ pub(super) fn counts(of: usize, rng: &mut ChaCha8Rng) -> Vec<u64> {
 ///
 /// They are those of [`super::quantiles`] of the runs repeated.
 fn weighted(runs: &[Drawn], weight: impl Fn(&Drawn) -> u64) -> Option<[Option<f64>; 7]> {
-    let last = runs.iter().map(&weight).sum::<u64>().checked_sub(1)?;
-    let ranks = LEVELS.map(|level| level * last as f64);
-    let mut found = [[None; 2]; 7];
-    // The next statistic that is looked for, of 14 in increasing order of each kind.
-    let mut next = [0, 0];
-    let mut before = 0;
-    for run in runs {
-        let upto = before + weight(run);
-        for (upper, next) in next.iter_mut().enumerate() {
-            while *next < LEVELS.len() && ranks[*next].floor() as u64 + (upper as u64) < upto {
-                found[*next][upper] = Some(run.value).filter(|value| value.is_finite());
-                *next += 1;
-            }
+    let repeated_up_to = runs.iter().scan(0, |up_to, run| {
+        *up_to += weight(run);
+        Some(*up_to)
+    });
+    let repeated_up_to: Vec<u64> = repeated_up_to.collect();
+    let last = repeated_up_to.last()?.checked_sub(1)?;
+    let statistic = |rank: u64| {
+        let run = &runs[repeated_up_to.partition_point(|&up_to| up_to <= rank)];
+        Some(run.value).filter(|value| value.is_finite())
+    };
+    Some(LEVELS.map(|level| {
+        let rank = level * last as f64;
+        let (lower, beyond) = (rank as u64, rank.fract());
+        // Without a share of it the next value need not be a number.
+        if beyond == 0.0 {
+            return statistic(lower);
         }
-        before = upto;
-    }
-    Some(std::array::from_fn(|level| {
-        let (weight, [lower, upper]) = (ranks[level].fract(), found[level]);
-        // Without weight the next value need not be a number.
-        if weight == 0.0 { lower } else { lower.zip(upper).map(|(a, b)| a + weight * (b - a)) }
+        let (a, b) = (statistic(lower)?, statistic(lower + 1)?);
+        Some(a + beyond * (b - a))
     }))
 }
 
