@@ -7,8 +7,8 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::chain;
 use super::ladder::Search;
@@ -19,7 +19,6 @@ use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{
     Accuracy, Outcome, Prepared, Response, Shaking, Simulator, Start, simulate, simulate_side_by_side,
 };
-use rayon::prelude::*;
 
 /// A run, of a plan or told otherwise, and what came of it.
 #[derive(Debug, Clone)]
@@ -140,6 +139,33 @@ impl Simulate for SideBySide {
     }
 }
 
+/// Runs that threads share: each takes the next as it comes free.
+pub(super) trait Share: Sync {
+    /// Number of the run that is next, and its position in the plan.
+    fn next(&self) -> Option<(usize, u64)>;
+
+    /// Takes what came of a run.
+    fn done(&self, number: usize, finished: Finished);
+}
+
+/// Runs at these positions of a plan, and what came of them.
+struct Listed {
+    positions: Vec<u64>,
+    next: AtomicUsize,
+    done: Mutex<Vec<(usize, Finished)>>,
+}
+
+impl Share for Listed {
+    fn next(&self) -> Option<(usize, u64)> {
+        let number = self.next.fetch_add(1, Ordering::Relaxed);
+        Some((number, *self.positions.get(number)?))
+    }
+
+    fn done(&self, number: usize, finished: Finished) {
+        self.done.lock().unwrap_or_else(PoisonError::into_inner).push((number, finished));
+    }
+}
+
 /// Runs the runs at `positions` of a plan on the threads of the current pool: one result a position, in order,
 /// failed and collapsed ones too. Neighbouring positions mostly share the record.
 pub fn run_all(
@@ -151,15 +177,28 @@ pub fn run_all(
     if plan.sequences().len() > 0 {
         return chain::run_chains(plan, &positions, simulate, progress);
     }
-    if simulate.goes_side_by_side() {
-        return run_side_by_side(plan, &positions, progress);
-    }
-    let one = |position| {
-        let finished = run_one(plan.run(position), simulate);
-        progress.inc(1);
-        finished
-    };
-    positions.into_par_iter().map(one).collect()
+    let done = Mutex::new(Vec::with_capacity(positions.len()));
+    let listed = Listed { positions, next: AtomicUsize::new(0), done };
+    run_shared(plan, &listed, simulate, progress);
+    let mut done = listed.done.into_inner().unwrap_or_else(PoisonError::into_inner);
+    done.sort_unstable_by_key(|(number, _)| *number);
+    done.into_iter().map(|(_, finished)| finished).collect()
+}
+
+/// Runs what the threads of the current pool share, of a plan without sequences, until there is no more.
+pub(super) fn run_shared<S: Simulate + Sync>(
+    plan: &Plan,
+    share: &impl Share,
+    simulate: &S,
+    progress: &ProgressBar,
+) {
+    rayon::broadcast(|_| {
+        let thread = Thread { plan, share, progress };
+        match simulate.goes_side_by_side() {
+            true => thread.run_side_by_side(),
+            false => thread.run_one_by_one(simulate),
+        }
+    });
 }
 
 /// Runs one run; a façade that is no wall, or a panic of the simulator, is a failure of this run, not of the study.
@@ -261,72 +300,62 @@ fn exceeds(limit: Limit, trial: &Finished) -> Result<bool, Failed> {
     Ok(limit.exceeded_by(response))
 }
 
-/// As [`super::run_all`].
-fn run_side_by_side(plan: &Plan, positions: &[u64], progress: &ProgressBar) -> Vec<Finished> {
-    let next = AtomicUsize::new(0);
-    let done = rayon::broadcast(|_| {
-        let lane = Thread { plan, positions, next: &next, progress, done: RefCell::default() };
-        lane.run();
-        lane.done.into_inner()
-    });
-    let mut done: Vec<(usize, Finished)> = done.into_iter().flatten().collect();
-    done.sort_unstable_by_key(|(index, _)| *index);
-    done.into_iter().map(|(_, finished)| finished).collect()
-}
-
 /// What one thread does.
-struct Thread<'a> {
+struct Thread<'a, S> {
     plan: &'a Plan,
-    positions: &'a [u64],
-    /// Index of the position that is next, of all threads.
-    next: &'a AtomicUsize,
+    share: &'a S,
     progress: &'a ProgressBar,
-    done: RefCell<Vec<(usize, Finished)>>,
 }
 
-impl Thread<'_> {
-    fn run(&self) {
+impl<S: Share> Thread<'_, S> {
+    fn run_one_by_one(&self, simulate: &impl Simulate) {
+        while let Some((number, position)) = self.share.next() {
+            self.finish(number, run_one(self.plan.run(position), simulate));
+        }
+    }
+
+    fn run_side_by_side(&self) {
         loop {
-            // Runs that have begun and not ended, by their index.
+            // Runs that have begun and not ended, by their number.
             let at_work = RefCell::new(BTreeMap::new());
-            let all = catch_unwind(AssertUnwindSafe(|| self.run_side_by_side(&at_work)));
+            let all = catch_unwind(AssertUnwindSafe(|| self.run_rows(&at_work)));
             if all.is_ok() {
                 return;
             }
             // One of them panics: each once more, alone, to tell which; the thread then goes on.
-            for (index, finished) in at_work.into_inner() {
-                self.finish(index, run_one(finished.run, &SideBySide));
+            for (number, finished) in at_work.into_inner() {
+                self.finish(number, run_one(finished.run, &SideBySide));
             }
         }
     }
 
-    fn run_side_by_side(&self, at_work: &RefCell<BTreeMap<usize, Finished>>) {
+    fn run_rows(&self, at_work: &RefCell<BTreeMap<usize, Finished>>) {
         let mut ready: Ready = None;
         let mut motion = None;
         let mut next = || {
             loop {
-                let index = self.next.fetch_add(1, Ordering::Relaxed);
-                let run = self.plan.run(*self.positions.get(index)?);
+                let (number, position) = self.share.next()?;
+                let run = self.plan.run(position);
                 if run.growth().is_some() || run.wall.is_err() {
                     // Searches go step by step; a façade that is no wall has nothing to run.
-                    self.finish(index, run_one(run, &SideBySide));
+                    self.finish(number, run_one(run, &SideBySide));
                     continue;
                 }
                 // Noted before it is made ready, which may panic.
                 let mut at_work = at_work.borrow_mut();
-                let planned = at_work.entry(index).or_insert(Finished::planned(run));
-                return Some((index, prepare_run(&planned.run, &mut motion, &mut ready)?));
+                let planned = at_work.entry(number).or_insert(Finished::planned(run));
+                return Some((number, prepare_run(&planned.run, &mut motion, &mut ready)?));
             }
         };
-        simulate_side_by_side(&mut next, &mut |index, response| {
-            if let Some(finished) = at_work.borrow_mut().remove(&index) {
-                self.finish(index, answered(finished, response));
+        simulate_side_by_side(&mut next, &mut |number, response| {
+            if let Some(finished) = at_work.borrow_mut().remove(&number) {
+                self.finish(number, answered(finished, response));
             }
         });
     }
 
-    fn finish(&self, index: usize, finished: Finished) {
-        self.done.borrow_mut().push((index, finished));
+    fn finish(&self, number: usize, finished: Finished) {
+        self.share.done(number, finished);
         self.progress.inc(1);
     }
 }

@@ -5,17 +5,19 @@
 //! That file depends on the blocks alone: not on threads, shards, interruptions or the order they were finished in.
 //! What is on the disk, whole or damaged, says which runs are missing; these are run.
 
+mod at_work;
 mod shard;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::ScopedJoinHandle;
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc;
 
-use super::batch::{Finished, Simulate, Tally, run_all};
+use super::batch::{Finished, Simulate, Tally};
 use super::plan::Plan;
 use super::runs::OutputFolder;
 use crate::error::{InputError, Result};
+use at_work::AtWork;
 use indicatif::ProgressBar;
 use rayon::ThreadPool;
 pub use shard::{BLOCK_RUNS, Block, Layout, Shard};
@@ -129,8 +131,8 @@ pub struct Work<'a, S> {
 
 /// Runs the blocks of a shard that are missing and stores each as soon as it is done; `watch` sees its runs.
 ///
-/// As many blocks as threads are at work at once, so that threads seldom wait for each other, and as many are being stored;
-/// being killed loses these alone.
+/// Threads take runs across the ends of blocks, and blocks are stored while others run. Being killed loses the blocks at work, two
+/// a thread at most, and as many that wait to be stored.
 ///
 /// # Errors
 /// [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which leaves what is stored as it is.
@@ -143,42 +145,19 @@ pub fn run_missing<S: Simulate + Sync>(
     let missing: Vec<Block> =
         layout.iter().filter(|block| work.shard.has(block.index) && !standing.has(block)).collect();
     discard_damaged(work.folder, &layout, standing)?;
+    let (sender, whole) = mpsc::sync_channel(work.pool.current_num_threads());
+    let at_work = &AtWork::new(&missing, work.stop);
     let mut tally = Tally::default();
-    let store = |blocks: &[Block], runs: Vec<Finished>| -> Result<()> {
-        let mut runs = runs.into_iter();
-        for block in blocks {
-            let runs: Vec<Finished> =
-                runs.by_ref().take((block.runs.end - block.runs.start) as usize).collect();
-            work.folder.write_block(&layout.records()[block.record], block.index, &runs)?;
-        }
-        Ok(())
-    };
-    std::thread::scope(|scope| -> Result<()> {
-        // Blocks are stored while the next ones run.
-        let mut storing = None;
-        for blocks in missing.chunks(work.pool.current_num_threads()) {
-            if work.stop.load(Ordering::Relaxed) {
-                break;
-            }
-            let positions = blocks.iter().flat_map(|block| block.runs.clone()).collect();
-            let runs = work.pool.install(|| run_all(work.plan, positions, work.simulate, work.progress));
+    std::thread::scope(|scope| {
+        scope.spawn(move || at_work.run(work, sender));
+        for (block, runs) in whole {
             watch(&runs);
-            finished(storing.take())?;
+            let stored = work.folder.write_block(&layout.records()[block.record], block.index, &runs);
+            stored.inspect_err(|_| at_work.close())?;
             tally.count(&runs);
-            storing = Some(scope.spawn(|| store(blocks, runs)));
         }
-        finished(storing.take())
-    })?;
-    Ok(tally)
-}
-
-/// Waits until blocks are stored.
-fn finished(storing: Option<ScopedJoinHandle<'_, Result<()>>>) -> Result<()> {
-    match storing.map(ScopedJoinHandle::join) {
-        None => Ok(()),
-        Some(Ok(stored)) => stored,
-        Some(Err(panic)) => std::panic::resume_unwind(panic),
-    }
+        Ok(tally)
+    })
 }
 
 /// A block that is done again takes the name of its damaged file; a record's file has to be told gone.
