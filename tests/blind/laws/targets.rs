@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::super::score::counted::Counted;
+use super::super::score::counted::{Counted, NO_CASES};
 use super::super::score::reading::median;
 use super::super::score::recorded;
 use super::super::score::targets::printed;
@@ -60,17 +60,15 @@ pub fn table(rows: &[LawRow]) -> String {
     let accepted = rows.iter().filter(|row| row.accepts()).collect::<Vec<_>>();
     add("accepted formulas that are another force", "≤ 5 %", told(&accepted, LawRow::wrong));
     let curves = rows.iter().filter_map(|row| row.curve).collect::<Vec<_>>();
-    let percent = |value: Option<f64>| value.map_or("none".to_owned(), |v| format!("{:.1} %", 100.0 * v));
-    let [off, held] = [median(curves.iter().map(|c| c.0)), median(curves.iter().map(|c| c.1))].map(percent);
-    add(
-        "a force without a formula, held out: median error",
-        "≤ 3 %",
-        format!("{off}, {} cases", curves.len()),
-    );
+    let percent = |value: f64| format!("{:.1} %", 100.0 * value);
+    let off = median(curves.iter().map(|curve| curve.0));
+    let off = off.map_or(NO_CASES.into(), |off| format!("{}, {} cases", percent(off), curves.len()));
+    add("a force without a formula, held out: median error", "≤ 3 %", off);
+    let held = median(curves.iter().map(|curve| curve.1)).map_or(NO_CASES.into(), percent);
     add("– points that its 90 % band holds, median", "85 to 95 %", held);
     let numbers = rows.iter().flat_map(|row| &row.numbers).collect::<Vec<_>>();
     let error = median(numbers.iter().map(|(error, _)| *error));
-    let error = error.map_or("none".into(), |e| format!("{:.1} %, {} numbers", 100.0 * e, numbers.len()));
+    let error = error.map_or(NO_CASES.into(), |e| format!("{}, {} numbers", percent(e), numbers.len()));
     add("numbers of one right atom, median error", "≤ 2 %", error);
     add(
         "– their 90 % intervals hold the truth",
@@ -78,8 +76,8 @@ pub fn table(rows: &[LawRow]) -> String {
         Counted::of(&numbers, |(_, covered)| *covered).told(),
     );
     let of = |value: fn(&LawRow) -> Option<f64>| median(accepted.iter().filter_map(|row| value(row)));
-    let text = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
-    let reached = format!("{} to {}", text(of(|r| r.before)), text(of(|r| r.after)));
+    let reached = of(|row| row.before).zip(of(|row| row.after));
+    let reached = reached.map_or(NO_CASES.into(), |(before, after)| format!("{before:.2} to {after:.2}"));
     add(
         "accepted: windowed error of the test held out, at another amplitude, median",
         "> 3 to < 1.15",

@@ -2,6 +2,9 @@
 
 use statrs::distribution::{Beta, ContinuousCDF};
 
+/// In the place of a share where there is nothing to count.
+pub const NO_CASES: &str = "no cases";
+
 /// So many of so many.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counted {
@@ -35,7 +38,7 @@ impl Counted {
 
     /// `93 % (88 to 96), 28 of 30`.
     pub fn told(self) -> String {
-        let Some(share) = self.share() else { return "no cases".into() };
+        let Some(share) = self.share() else { return NO_CASES.into() };
         let [low, high] = self.interval().map(|p| 100.0 * p);
         format!("{:.0} % ({low:.0} to {high:.0}), {} of {}", 100.0 * share, self.hits, self.of)
     }

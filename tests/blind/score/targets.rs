@@ -1,7 +1,7 @@
 //! The targets of the diagnosis and what was reached.
 
 use super::super::cases::draw::NOISES_RAD;
-use super::counted::Counted;
+use super::counted::{Counted, NO_CASES};
 use super::reading::median;
 use super::row::Row;
 
@@ -61,7 +61,7 @@ pub fn table(rows: &[Row]) -> String {
     add("– wrong name", "≤ 10 %", Counted::of(&outside, |row| row.wrong()).told());
     let errors: Vec<f64> = rows.iter().filter_map(|row| row.parameter_error).collect();
     let error = median(errors.iter().copied());
-    let told = error.map_or("no cases".into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));
+    let told = error.map_or(NO_CASES.into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));
     add("parameter, median error where named rightly", "≤ 5 %", told);
     let covered = Counted::of(rows.iter().filter_map(|row| row.covered), |covered| *covered);
     add("– 90 % interval holds the truth", "85 to 95 %", covered.told());
@@ -73,8 +73,9 @@ pub fn table(rows: &[Row]) -> String {
     lines_of_beds(rows, &mut add);
     let named: Vec<&Row> = rows.iter().filter(|row| row.right()).collect();
     let of = |value: fn(&Row) -> Option<f64>| median(named.iter().filter_map(|row| value(row)));
-    let told = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
-    let reached = format!("{} to {}, {} cases", told(of(|r| r.before)), told(of(|r| r.after)), named.len());
+    let reached = of(|row| row.before).zip(of(|row| row.after));
+    let told = |(before, after)| format!("{before:.2} to {after:.2}, {} cases", named.len());
+    let reached = reached.map_or(NO_CASES.into(), told);
     add("held-out windowed error over noise, median, where right", "> 3 to < 1.5", reached);
     let slowest = rows.iter().map(|row| row.seconds).fold(0.0, f64::max);
     let typical = median(rows.iter().map(|row| row.seconds)).unwrap_or(0.0);
@@ -109,7 +110,7 @@ fn lines_of_beds(rows: &[Row], add: &mut impl FnMut(&str, &str, String)) {
     add("– named: at least 80 % of the gap taken away held out", "", Counted::of(&named, most).told());
     let errors = on_beds.iter().filter_map(|row| row.parameter_error).collect::<Vec<_>>();
     let error = median(errors.iter().copied());
-    let told = error.map_or("no cases".into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));
+    let told = error.map_or(NO_CASES.into(), |e| format!("{:.1} %, {} cases", 100.0 * e, errors.len()));
     add("– stiffness, median error", "≤ 10 %", told);
     let covered = Counted::of(on_beds.iter().filter_map(|row| row.covered), |covered| *covered);
     add("– 90 % interval holds it", "85 to 95 %", covered.told());
@@ -127,10 +128,18 @@ fn lines_of_beds(rows: &[Row], add: &mut impl FnMut(&str, &str, String)) {
 /// Joints that give, among effects.
 const BEDS: &str = "compliant_joint";
 
-/// Figure, target and what was reached as a table in Markdown.
+/// Begins a line that is part of the one above it.
+const PART: &str = "–";
+
+/// Figure, target and what was reached as a table in Markdown, without figures that have no cases.
 pub fn printed(lines: &[[String; 3]]) -> String {
     let head = ["figure", "target", "reached (95 % interval), cases"].map(str::to_owned);
-    let width = |k: usize| lines.iter().chain([&head]).map(|line| line[k].chars().count()).max().unwrap_or(0);
+    let of_one_figure = |_: &[String; 3], next: &[String; 3]| next[0].starts_with(PART);
+    let figures = lines.chunk_by(of_one_figure);
+    let lines = figures.flat_map(with_cases).collect::<Vec<_>>();
+    let width = |k: usize| {
+        lines.iter().copied().chain([&head]).map(|line| line[k].chars().count()).max().unwrap_or(0)
+    };
     let widths = [0, 1, 2].map(width);
     let rule = widths.map(|width| "-".repeat(width));
     let row = |cells: &[String; 3]| {
@@ -138,4 +147,12 @@ pub fn printed(lines: &[[String; 3]]) -> String {
         format!("| {a:0$} | {b:1$} | {c:2$} |\n", widths[0], widths[1], widths[2])
     };
     [&head, &rule].into_iter().chain(lines).map(row).collect()
+}
+
+/// The parts of a figure that have cases, under its first line.
+fn with_cases(figure: &[[String; 3]]) -> Vec<&[String; 3]> {
+    let Some((first, parts)) = figure.split_first() else { return Vec::new() };
+    let has_cases = |line: &&[String; 3]| line[2] != NO_CASES;
+    let parts = parts.iter().filter(has_cases).collect::<Vec<_>>();
+    if parts.is_empty() && !has_cases(&first) { Vec::new() } else { [vec![first], parts].concat() }
 }
