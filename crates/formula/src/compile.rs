@@ -5,38 +5,49 @@ use std::collections::BTreeMap;
 use crate::error::FormulaError;
 use crate::expression::{Expression, Function, Operator};
 use crate::parse::MOST_DEPTH;
-use crate::program::{MOST_SWITCHES, Program, STACK, Step, Tape, whole_exponent};
+use crate::program::{MOST_SWITCHES, Program, RateTape, STACK, Step, Tape, VARIABLES, whole_exponent};
 use crate::switch::{Surface, Switch, SwitchAt, SwitchUse};
 
-/// Makes a program of an expression whose names are known.
+/// Makes a program of an expression, and of the rates of carried states, whose names are known.
 ///
 /// # Errors
 /// More switches than there is room for.
 pub(crate) fn compile(
     expression: &Expression,
-    variables: [&'static str; 3],
+    rates: &[Expression],
+    variables: &[&str],
     values: &BTreeMap<&str, f64>,
 ) -> Result<Program, FormulaError> {
     let mut compiler = Compiler { variables, values, switches: Vec::new() };
-    let tape = compiler.tape(expression)?;
-    if tape.stack() > STACK {
-        return Err(FormulaError::new(
-            None,
-            "a formula nested too deeply",
-            format!("at most {MOST_DEPTH} levels"),
-        ));
-    }
-    let terms = expanded(expression).iter().map(|term| compiler.tape(term)).collect::<Result<Vec<_>, _>>()?;
-    Ok(Program { tape, switches: compiler.switches, terms })
+    let tape = compiler.whole(expression)?;
+    let terms = compiler.terms(expression)?;
+    let rate = |rate: &Expression| {
+        Ok(RateTape { tape: compiler.whole(rate)?, terms: compiler.terms(rate)? })
+    };
+    let rates = rates.iter().map(rate).collect::<Result<Vec<_>, FormulaError>>()?;
+    Ok(Program { tape, switches: compiler.switches, terms, rates })
 }
 
 struct Compiler<'a> {
-    variables: [&'static str; 3],
+    variables: &'a [&'a str],
     values: &'a BTreeMap<&'a str, f64>,
     switches: Vec<Switch>,
 }
 
 impl Compiler<'_> {
+    fn whole(&mut self, e: &Expression) -> Result<Tape, FormulaError> {
+        let tape = self.tape(e)?;
+        if tape.stack() > STACK {
+            let allowed = format!("at most {MOST_DEPTH} levels");
+            return Err(FormulaError::new(None, "a formula nested too deeply", allowed));
+        }
+        Ok(tape)
+    }
+
+    fn terms(&mut self, e: &Expression) -> Result<Vec<Tape>, FormulaError> {
+        expanded(e).iter().map(|term| self.tape(term)).collect()
+    }
+
     fn variable(&self, name: &str) -> Option<usize> {
         self.variables.iter().position(|own| *own == name)
     }
@@ -205,7 +216,7 @@ impl Compiler<'_> {
         steps: Vec<Step>,
         may_jump: bool,
     ) -> Result<Option<SwitchUse>, FormulaError> {
-        let still = |slopes: [f64; 4]| slopes[..3] == [0.0; 3];
+        let still = |slopes: Linear| slopes[..VARIABLES] == [0.0; VARIABLES];
         if !self.moves(argument) || self.linear(argument).is_some_and(still) {
             return Ok(None);
         }
@@ -215,7 +226,10 @@ impl Compiler<'_> {
                 (SwitchAt::Line { variable, value: -constant / slope + 0.0 }, slope < 0.0)
             }
             None => {
-                let variables = self.variables.map(|name| argument.has(name));
+                let mut variables = [false; VARIABLES];
+                for (has, name) in variables.iter_mut().zip(self.variables) {
+                    *has = argument.has(name);
+                }
                 (SwitchAt::Surface(Surface { tape: Tape(steps), variables }), false)
             }
         };
@@ -239,20 +253,22 @@ impl Compiler<'_> {
     /// Variable, slope and constant of an expression that is linear in one variable.
     fn line(&self, e: &Expression) -> Option<(usize, f64, f64)> {
         let slope_and_constant = self.linear(e)?;
-        let mut variables = (0..3).filter(|i| slope_and_constant[*i] != 0.0);
+        let mut variables = (0..VARIABLES).filter(|i| slope_and_constant[*i] != 0.0);
         let variable = variables.next()?;
         let lone = variables.next().is_none() && slope_and_constant.iter().all(|x| x.is_finite());
-        lone.then(|| (variable, slope_and_constant[variable], slope_and_constant[3]))
+        lone.then(|| (variable, slope_and_constant[variable], slope_and_constant[VARIABLES]))
     }
 
     /// Slopes by each variable, and the constant, of a linear expression.
-    fn linear(&self, e: &Expression) -> Option<[f64; 4]> {
+    fn linear(&self, e: &Expression) -> Option<Linear> {
         if let Some(value) = e.constant(self.values) {
-            return Some([0.0, 0.0, 0.0, value]);
+            let mut constant = [0.0; VARIABLES + 1];
+            constant[VARIABLES] = value;
+            return Some(constant);
         }
         match e {
             Expression::Name(name) => {
-                let mut slopes = [0.0; 4];
+                let mut slopes = [0.0; VARIABLES + 1];
                 slopes[self.variable(name)?] = 1.0;
                 Some(slopes)
             }
@@ -262,10 +278,10 @@ impl Compiler<'_> {
         }
     }
 
-    fn linear_of_two(&self, operator: Operator, a: &Expression, b: &Expression) -> Option<[f64; 4]> {
+    fn linear_of_two(&self, operator: Operator, a: &Expression, b: &Expression) -> Option<Linear> {
         let each = |of: fn(f64, f64) -> f64| {
             let (a, b) = (self.linear(a)?, self.linear(b)?);
-            Some([0, 1, 2, 3].map(|i| of(a[i], b[i])))
+            Some(std::array::from_fn(|i| of(a[i], b[i])))
         };
         match operator {
             Operator::Add => each(|a, b| a + b),
@@ -283,6 +299,9 @@ impl Compiler<'_> {
         }
     }
 }
+
+/// Slopes by each variable, and a constant.
+type Linear = [f64; VARIABLES + 1];
 
 /// Terms of an expanded sum at most; what has more is left as it is.
 const MOST_TERMS: usize = 64;

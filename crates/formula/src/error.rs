@@ -8,6 +8,8 @@ pub struct FormulaError {
     pub at: Option<usize>,
     /// The parameter at fault, where it is not the formula.
     pub parameter: Option<String>,
+    /// The carried state at fault, and its key.
+    pub state: Option<(String, &'static str)>,
     /// What was found.
     pub found: String,
     /// What is allowed.
@@ -20,7 +22,7 @@ fn place(at: Option<usize>) -> String {
 
 impl FormulaError {
     pub(crate) fn new(at: Option<usize>, found: impl Into<String>, allowed: impl Into<String>) -> Self {
-        Self { at, parameter: None, found: found.into(), allowed: allowed.into() }
+        Self { at, parameter: None, state: None, found: found.into(), allowed: allowed.into() }
     }
 
     /// Something of the whole formula.
@@ -29,7 +31,24 @@ impl FormulaError {
     }
 
     pub(crate) fn of_parameter(name: &str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
-        Self { at: None, parameter: Some(name.to_owned()), found: found.into(), allowed: allowed.into() }
+        Self { parameter: Some(name.to_owned()), ..Self::new(None, found, allowed) }
+    }
+
+    /// Of a key of a carried state.
+    pub(crate) fn of_state(self, name: &str, key: &'static str) -> Self {
+        // A parameter that is at fault is named before the state that uses it.
+        let state = self.parameter.is_none().then(|| (name.to_owned(), key));
+        Self { state, ..self }
+    }
+
+    /// The key at fault within the formula of a wall file, whose own key is given.
+    pub fn key(&self, own: &str) -> String {
+        match (&self.parameter, &self.state) {
+            (Some(name), _) => format!("parameters.{name}"),
+            (None, Some((name, ""))) => format!("states.{name}"),
+            (None, Some((name, key))) => format!("states.{name}.{key}"),
+            (None, None) => own.to_owned(),
+        }
     }
 
     /// What was found, with its place in the formula.

@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
+use crate::carried::{CarriedState, ranges_of};
 use crate::compile::compile;
 use crate::dimension::{self, Dimension, Names};
 use crate::error::FormulaError;
 use crate::expression::{Expression, Function};
 use crate::jump::{Jump, jumps};
 use crate::parse::parse;
-use crate::program::{Program, State};
-use crate::range::{Range, check_values};
+use crate::program::{MOST_STATES, Program, State, state};
+use crate::range::{Gives, Range, check_values};
 use crate::switch::Branches;
 use crate::unit::dimension_of;
 
@@ -119,6 +120,8 @@ pub struct Formula {
     place: Place,
     expression: Expression,
     parameters: Vec<Parameter>,
+    states: Vec<CarriedState>,
+    rates: Vec<Expression>,
     program: Arc<Program>,
 }
 
@@ -128,6 +131,7 @@ impl PartialEq for Formula {
         self.place == other.place
             && self.expression == other.expression
             && self.parameters == other.parameters
+            && self.states == other.states
     }
 }
 
@@ -144,14 +148,44 @@ impl Formula {
     /// # Errors
     /// A text that is no formula; names that are unknown, taken or not used; units that do not go together.
     pub fn parse(text: &str, place: Place, parameters: &[Parameter]) -> Result<Self, FormulaError> {
+        Self::parse_with_states(text, place, parameters, &[])
+    }
+
+    /// The same with carried states, at the top. They are kept in the order of their names.
+    ///
+    /// # Errors
+    /// As [`Formula::parse`]; states elsewhere or too many of them; what is wrong with one.
+    pub fn parse_with_states(
+        text: &str,
+        place: Place,
+        parameters: &[Parameter],
+        states: &[CarriedState],
+    ) -> Result<Self, FormulaError> {
         let parsed = parse(text)?;
-        let mut parameters = parameters.to_vec();
+        let (mut parameters, mut states) = (parameters.to_vec(), states.to_vec());
         parameters.sort_by(|a, b| a.name.cmp(&b.name));
-        check_names(&parsed.expression, &parameters)?;
+        states.sort_by(|a, b| a.name.cmp(&b.name));
+        check_states(place, &states)?;
+        let of_state = |state: &CarriedState| {
+            parse(&state.rate).map_err(|e| e.of_state(&state.name, "rate"))
+        };
+        let parsed_rates = states.iter().map(of_state).collect::<Result<Vec<_>, _>>()?;
+        let rates: Vec<_> = parsed_rates.iter().map(|rate| rate.expression.clone()).collect();
+        for (state, rate) in states.iter_mut().zip(&rates) {
+            state.rate = rate.to_string();
+        }
+        check_names(&parsed.expression, &rates, &parameters, &states)?;
         let values: BTreeMap<_, _> = parameters.iter().map(|p| (p.name.as_str(), p.value)).collect();
-        dimension::check(&parsed, &names(place, &parameters, &values)?, place.result())?;
-        let program = Arc::new(compile(&parsed.expression, place.variables(), &values)?);
-        Ok(Self { place, expression: parsed.expression, parameters, program })
+        let names = names(place, &parameters, &states, &values)?;
+        dimension::check(&parsed, &names, place.result())?;
+        for (state, rate) in states.iter().zip(&parsed_rates) {
+            let own = names.dimensions.get(state.name.as_str()).copied().unwrap_or(Dimension::NONE);
+            let per_second = own.times(Dimension::RATE);
+            dimension::check(rate, &names, per_second).map_err(|e| e.of_state(&state.name, "rate"))?;
+        }
+        let variables = variables_of(place, &states);
+        let program = Arc::new(compile(&parsed.expression, &rates, &variables, &values)?);
+        Ok(Self { place, expression: parsed.expression, parameters, rates, program, states })
     }
 
     /// The same with other values of its parameters, in the order of [`Formula::parameters`].
@@ -161,7 +195,7 @@ impl Formula {
     pub fn with_values(&self, values: &[f64]) -> Result<Self, FormulaError> {
         let own = self.parameters.iter().cloned().zip(values);
         let parameters: Vec<_> = own.map(|(parameter, &value)| Parameter { value, ..parameter }).collect();
-        Self::parse(&self.to_string(), self.place, &parameters)
+        Self::parse_with_states(&self.to_string(), self.place, &parameters, &self.states)
     }
 
     /// Where it acts.
@@ -179,19 +213,38 @@ impl Formula {
         &self.parameters
     }
 
+    /// Its carried states, by name.
+    pub fn states(&self) -> &[CarriedState] {
+        &self.states
+    }
+
+    /// The variables at a state of the place, carried states as they start.
+    pub fn at_start(&self, of_place: [f64; 3]) -> State {
+        let mut at = state(of_place);
+        at[3..].iter_mut().zip(&self.states).for_each(|(own, state)| *own = state.start);
+        at
+    }
+
     /// Ready to run.
     pub fn program(&self) -> &Arc<Program> {
         &self.program
     }
 
-    /// Force or moment at a state, N or N m: what acts on the wall. At impacts a factor.
-    pub fn value(&self, state: State) -> f64 {
+    /// Force or moment at a state of the place, N or N m: what acts on the wall. At impacts a factor. Carried states are as they
+    /// start.
+    pub fn value(&self, of_place: [f64; 3]) -> f64 {
+        self.value_with_states(self.at_start(of_place))
+    }
+
+    /// The same with carried states.
+    pub fn value_with_states(&self, state: State) -> f64 {
         self.program.value(state, &Branches::FREE)
     }
 
-    /// The same as the expression says it, step by step: slower.
-    pub fn value_as_written(&self, state: State) -> f64 {
-        let variables = self.place.variables();
+    /// As [`Formula::value`], as the expression says it, step by step: slower.
+    pub fn value_as_written(&self, of_place: [f64; 3]) -> f64 {
+        let state = self.at_start(of_place);
+        let variables = variables_of(self.place, &self.states);
         let values = self.parameters.iter().map(|p| (p.name.as_str(), p.value)).collect();
         let of = |name: &str| variables.iter().position(|own| *own == name).map(|i| state[i]);
         self.expression.over(&values, &of).unwrap_or(f64::NAN)
@@ -202,9 +255,10 @@ impl Formula {
         self.place == Place::Top && self.depends_on(2)
     }
 
-    /// Whether a variable (0, 1 or 2) occurs.
+    /// Whether a variable of the place (0, 1 or 2) occurs.
     pub fn depends_on(&self, variable: usize) -> bool {
-        self.expression.has(self.place.variables()[variable])
+        let name = self.place.variables()[variable];
+        self.expression.has(name) || self.rates.iter().any(|rate| rate.has(name))
     }
 
     /// Refuses a formula that is not finite over a range, or no factor from 0 to 1 at impacts, or jumps where no motion
@@ -214,13 +268,78 @@ impl Formula {
     /// The subexpression, the reason and the range.
     pub fn check(&self, range: &Range) -> Result<Vec<Jump>, FormulaError> {
         let values = self.parameters.iter().map(|p| (p.name.as_str(), p.value)).collect();
-        check_values(&self.expression, self.place, &values, range)?;
+        let variables = variables_of(self.place, &self.states);
+        let over = range.with_states(&self.state_ranges(range)?);
+        check_values(&self.expression, Gives::At(self.place), &variables, &values, &over)?;
+        for (state, rate) in self.states.iter().zip(&self.rates) {
+            check_values(rate, Gives::Rate, &variables, &values, &over)
+                .map_err(|e| e.of_state(&state.name, "rate"))?;
+        }
         match self.place {
             // An impact asks once: nothing has to be followed through a jump.
             Place::Impacts => Ok(vec![Jump::None; self.program.switches.len()]),
-            _ => jumps(&self.program, self.place.variables(), range),
+            _ => jumps(&self.program, &variables, &over),
         }
     }
+
+    /// Intervals that the carried states never leave while the variables of the place are within a range, or those given.
+    ///
+    /// # Errors
+    /// A state that is not shown to be bounded.
+    pub fn state_ranges(&self, range: &Range) -> Result<Vec<[f64; 2]>, FormulaError> {
+        ranges_of(&self.states, &self.program, range)
+    }
+}
+
+/// Names of the variables of a place and of states.
+fn variables_of(place: Place, states: &[CarriedState]) -> Vec<&str> {
+    place.variables().into_iter().chain(states.iter().map(|state| state.name.as_str())).collect()
+}
+
+/// Refuses states that a law cannot carry.
+fn check_states(place: Place, states: &[CarriedState]) -> Result<(), FormulaError> {
+    if states.len() > MOST_STATES {
+        let found = format!("{} carried states", states.len());
+        return Err(FormulaError::new(None, found, format!("at most {MOST_STATES}")));
+    }
+    for (i, CarriedState { name, start, range, .. }) in states.iter().enumerate() {
+        let refused = |found: String, allowed: &str, key: &'static str| {
+            Err(FormulaError::new(None, found, allowed).of_state(name, key))
+        };
+        if place != Place::Top {
+            let found = format!("a carried state at {}", place.name());
+            return refused(found, "states of a force at the top: a closed joint bears what it must, whatever a law carries", "");
+        }
+        if let Some(problem) = problem_of_name(name) {
+            return refused(format!("a state `{name}`"), problem, "");
+        }
+        if i > 0 && states[i - 1].name == *name {
+            return refused(format!("`{name}` again"), "each state once", "");
+        }
+        if !start.is_finite() {
+            return refused(start.to_string(), "a finite number", "start");
+        }
+        if let Some([least, most]) = range {
+            if !(least.is_finite() && most.is_finite() && least < most) {
+                return refused(format!("[{least}, {most}]"), "a finite least and a larger largest value", "range");
+            }
+            if !(least..=most).contains(&start) {
+                return refused(format!("{start}"), "a start within the range", "start");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Why a name can be none of a parameter or state.
+fn problem_of_name(name: &str) -> Option<&'static str> {
+    let variables = Place::ALL.map(Place::variables).concat();
+    let functions = Function::ALL.map(Function::name);
+    if !is_name(name) {
+        return Some("letters, digits and _, and no word of Python");
+    }
+    (variables.contains(&name) || functions.contains(&name))
+        .then_some("a name that is no variable and no function")
 }
 
 fn is_name(text: &str) -> bool {
@@ -228,20 +347,33 @@ fn is_name(text: &str) -> bool {
     starts && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && !KEYWORDS.contains(&text)
 }
 
-fn check_names(expression: &Expression, parameters: &[Parameter]) -> Result<(), FormulaError> {
+/// Every parameter and state has a name of its own and a use.
+fn check_names(
+    expression: &Expression,
+    rates: &[Expression],
+    parameters: &[Parameter],
+    states: &[CarriedState],
+) -> Result<(), FormulaError> {
+    let has = |name: &str| expression.has(name) || rates.iter().any(|rate| rate.has(name));
+    for (i, CarriedState { name, .. }) in states.iter().enumerate() {
+        let of_others = rates.iter().enumerate().any(|(j, rate)| j != i && rate.has(name));
+        if !expression.has(name) && !of_others {
+            let found = format!("`{name}`, which the formula does not use");
+            return Err(FormulaError::new(None, found, "states of the formula").of_state(name, ""));
+        }
+        if parameters.iter().any(|parameter| parameter.name == *name) {
+            let found = format!("a state `{name}` beside a parameter of that name");
+            return Err(FormulaError::new(None, found, "each name once").of_state(name, ""));
+        }
+    }
     if parameters.len() > MOST_PARAMETERS {
         let found = format!("{} parameters", parameters.len());
         return Err(FormulaError::new(None, found, format!("at most {MOST_PARAMETERS}")));
     }
     for (i, Parameter { name, value, .. }) in parameters.iter().enumerate() {
-        let variables = Place::ALL.map(Place::variables).concat();
-        let functions = Function::ALL.map(Function::name);
         let refused = |found: &str, allowed: &str| Err(FormulaError::of_parameter(name, found, allowed));
-        if !is_name(name) {
-            return refused(&format!("a parameter `{name}`"), "letters, digits and _, and no word of Python");
-        }
-        if variables.contains(&name.as_str()) || functions.contains(&name.as_str()) {
-            return refused(&format!("a parameter `{name}`"), "a name that is no variable and no function");
+        if let Some(problem) = problem_of_name(name) {
+            return refused(&format!("a parameter `{name}`"), problem);
         }
         if i > 0 && parameters[i - 1].name == *name {
             return refused(&format!("`{name}` again"), "each parameter once");
@@ -249,7 +381,7 @@ fn check_names(expression: &Expression, parameters: &[Parameter]) -> Result<(), 
         if !value.is_finite() {
             return refused(&value.to_string(), "a finite number");
         }
-        if !expression.has(name) {
+        if !has(name) {
             return refused(
                 &format!("`{name}`, which the formula does not use"),
                 "parameters of the formula",
@@ -262,6 +394,7 @@ fn check_names(expression: &Expression, parameters: &[Parameter]) -> Result<(), 
 fn names<'a>(
     place: Place,
     parameters: &'a [Parameter],
+    states: &'a [CarriedState],
     values: &BTreeMap<&'a str, f64>,
 ) -> Result<Names<'a>, FormulaError> {
     let mut dimensions: BTreeMap<&str, Dimension> =
@@ -271,8 +404,13 @@ fn names<'a>(
             .map_err(|e| FormulaError::of_parameter(name, e.found_at(), e.allowed))?;
         dimensions.insert(name, dimension);
     }
+    for CarriedState { name, unit, .. } in states {
+        let dimension = dimension_of(unit, values).map_err(|e| e.of_state(name, "unit"))?;
+        dimensions.insert(name, dimension);
+    }
     let [x, v, third] = place.variables();
-    let own = parameters.iter().map(|p| format!(", {}", p.name)).collect::<String>();
+    let own = states.iter().map(|s| &s.name).chain(parameters.iter().map(|p| &p.name));
+    let own = own.map(|name| format!(", {name}")).collect::<String>();
     let known = format!("{x}, {v}, {third}{own}; a further name is a parameter to be given");
     Ok(Names { dimensions, values: values.clone(), known })
 }

@@ -7,8 +7,8 @@
 use crate::error::FormulaError;
 use crate::interval::Interval;
 use crate::number::Number;
-use crate::program::{Program, State};
-use crate::range::Range;
+use crate::program::{Program, State, Tape, VARIABLES};
+use crate::range::Over;
 use crate::switch::{Branch, Branches, Switch, SwitchAt};
 
 /// Halvings of the displacement one within another, to show that a jump is against the motion.
@@ -33,7 +33,7 @@ pub enum Jump {
 ///
 /// # Errors
 /// A jump that cannot be followed.
-pub fn jumps(program: &Program, names: [&'static str; 3], range: &Range) -> Result<Vec<Jump>, FormulaError> {
+pub(crate) fn jumps(program: &Program, names: &[&str], range: &Over) -> Result<Vec<Jump>, FormulaError> {
     let of = |(i, switch): (usize, &Switch)| jump(program, i, switch, names, range);
     program.switches.iter().enumerate().map(of).collect()
 }
@@ -42,11 +42,25 @@ fn jump(
     program: &Program,
     index: usize,
     switch: &Switch,
-    names: [&'static str; 3],
-    range: &Range,
+    names: &[&str],
+    range: &Over,
 ) -> Result<Jump, FormulaError> {
     if !switch.may_jump {
         return Ok(Jump::None);
+    }
+    if switch.depends_on_states() {
+        let jumps = |terms: &[Tape]| steps_at(terms, index, switch, range) != Some(NO_STEP);
+        return match jumps(&program.terms) || program.rates.iter().any(|rate| jumps(&rate.terms)) {
+            true => Err(FormulaError::new(
+                None,
+                "`sign` or a comparison of what a carried state has a part in, where the force or a rate jumps",
+                "what has no jump there, such as abs(z)**n*sign(z) with n above 0, or tanh(z/s) with a small s",
+            )),
+            false => Ok(Jump::None),
+        };
+    }
+    for rate in &program.rates {
+        rate_jump(&rate.tape, &rate.terms, (index, switch), names, range)?;
     }
     match &switch.at {
         SwitchAt::Line { variable: VELOCITY, value } => at_velocity(program, index, *value, names, range),
@@ -72,16 +86,57 @@ fn jump(
     }
 }
 
+const NO_STEP: Interval = Interval { low: 0.0, high: 0.0 };
+
+/// By how much a sum rises over a switch, where that is known.
+fn steps_at(terms: &[Tape], index: usize, switch: &Switch, range: &Over) -> Option<Interval> {
+    if !terms.iter().any(|term| term.uses(index)) {
+        return Some(NO_STEP);
+    }
+    let SwitchAt::Line { variable, value } = switch.at else { return None };
+    let mut at = *range;
+    (at.low[variable], at.high[variable]) = (value, value);
+    step_over(terms, index, &at, &at, MOST_HALVINGS)
+}
+
+/// A rate may jump where the displacement passes a value: the motion goes on. Where the top turns back or rests, a jump would
+/// leave open what comes next.
+fn rate_jump(
+    tape: &Tape,
+    terms: &[Tape],
+    (index, switch): (usize, &Switch),
+    names: &[&str],
+    range: &Over,
+) -> Result<(), FormulaError> {
+    if steps_at(terms, index, switch, range) == Some(NO_STEP) {
+        return Ok(());
+    }
+    let at_rest = [range.low[2], range.high[2]].into_iter().any(|third| {
+        let rest = [0.0, 0.0, third, 0.0, 0.0];
+        let [above, below] = sides(index).map(|side| tape.run(rest, &side));
+        switch.argument(rest, &Branches::FREE) == 0.0 && above != below
+    });
+    if switch.depends_on(VELOCITY) || at_rest {
+        let (x, v) = (names[DISPLACEMENT], names[VELOCITY]);
+        return Err(FormulaError::new(
+            None,
+            format!("a rate that jumps where {v} passes a value, or at {x} = 0, where the wall rests"),
+            format!("what has no jump there, such as abs({v})"),
+        ));
+    }
+    Ok(())
+}
+
 /// A jump at a displacement must not be where the wall rests: nothing says which side it rests on.
 fn at_displacement(
     program: &Program,
     index: usize,
     switch: &Switch,
-    names: [&'static str; 3],
-    range: &Range,
+    names: &[&str],
+    range: &Over,
 ) -> Result<Jump, FormulaError> {
     for third in [range.low[2], range.high[2]] {
-        let rest = [0.0, 0.0, third];
+        let rest = [0.0, 0.0, third, 0.0, 0.0];
         let [above, below] = sides(index).map(|side| program.value(rest, &side));
         if switch.argument(rest, &Branches::FREE) == 0.0 && above != below {
             let x = names[DISPLACEMENT];
@@ -103,12 +158,12 @@ fn at_velocity(
     program: &Program,
     index: usize,
     value: f64,
-    names: [&'static str; 3],
-    range: &Range,
+    names: &[&str],
+    range: &Over,
 ) -> Result<Jump, FormulaError> {
     let mut at = *range;
     (at.low[VELOCITY], at.high[VELOCITY]) = (value, value);
-    let step = step_over(program, index, &at, &at, MOST_HALVINGS);
+    let step = step_over(&program.terms, index, &at, &at, MOST_HALVINGS);
     let v = names[VELOCITY];
     match step {
         Some(Interval { low: 0.0, high: 0.0 }) => Ok(Jump::None),
@@ -129,26 +184,26 @@ fn at_velocity(
 /// By how much the value rises over a switch, over a range in which it turns. `None` where its sign is not
 /// known.
 fn step_over(
-    program: &Program,
+    terms: &[Tape],
     index: usize,
-    at: &Range,
-    whole: &Range,
+    at: &Over,
+    whole: &Over,
     halvings: usize,
 ) -> Option<Interval> {
     let over: State<Interval> = at.intervals();
     let [above, below] = sides(index);
     // Terms without the switch are the same on both sides.
-    let terms = program.terms.iter().filter(|term| term.uses(index));
-    let step = terms.map(|term| term.run(over, &above).sub(term.run(over, &below)));
+    let using = terms.iter().filter(|term| term.uses(index));
+    let step = using.map(|term| term.run(over, &above).sub(term.run(over, &below)));
     let step = step.fold(Interval::constant(0.0), |sum, step| step.add(sum));
     if step.high <= 0.0 {
         return Some(step);
     }
-    if halvings == 0 || whole.high[DISPLACEMENT] <= whole.low[DISPLACEMENT] {
+    if halvings == 0 || (0..VARIABLES).all(|i| whole.high[i] <= whole.low[i]) {
         return None;
     }
     let [first, second] = at.halves(whole);
-    let [first, second] = [first, second].map(|half| step_over(program, index, &half, whole, halvings - 1));
+    let [first, second] = [first, second].map(|half| step_over(terms, index, &half, whole, halvings - 1));
     let (first, second) = (first?, second?);
     Some(Interval::new(first.low.min(second.low), first.high.max(second.high)))
 }

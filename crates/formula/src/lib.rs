@@ -10,6 +10,7 @@
 //! | `parse` | text | an [`Expression`], or where it is none |
 //! | `dimension` | an expression, the units of its parameters | the dimension of each subexpression |
 //! | `compile`, `program` | an expression, the values of its parameters | a tape that is run, and its switches |
+//! | `carried` | the rates of carried states | intervals that the states never leave |
 //! | `range` | an expression, a range of states | whether it is finite everywhere there |
 //! | `jump` | a program, a range of states | where the force jumps, and whether that can be followed |
 //!
@@ -28,6 +29,7 @@
 //! # Ok::<(), mrbd_formula::FormulaError>(())
 //! ```
 
+mod carried;
 mod compile;
 mod dimension;
 mod error;
@@ -39,15 +41,17 @@ mod number;
 mod parse;
 mod program;
 mod range;
+mod sloped;
 mod switch;
 mod unit;
 mod written;
 
+pub use carried::CarriedState;
 pub use dimension::Dimension;
 pub use error::FormulaError;
 pub use expression::{Expression, Function, Operator};
 pub use formula::{Formula, Parameter, Place};
 pub use jump::Jump;
-pub use program::{MOST_SWITCHES, Program, State};
+pub use program::{MOST_STATES, MOST_SWITCHES, Program, State, VARIABLES, state};
 pub use range::Range;
 pub use switch::{Branch, Branches, Switch, SwitchAt};

@@ -5,8 +5,19 @@ use crate::number::{Moving, Number};
 use crate::parse::MOST_DEPTH;
 use crate::switch::{Branch, Branches, Switch, SwitchUse};
 
-/// Values of the three variables of a place.
-pub type State<N = f64> = [N; 3];
+/// Carried states of a formula at most.
+pub const MOST_STATES: usize = 2;
+
+/// The three variables of a place and the carried states.
+pub const VARIABLES: usize = 3 + MOST_STATES;
+
+/// Values of the three variables of a place, then of the carried states; zero where there is none.
+pub type State<N = f64> = [N; VARIABLES];
+
+/// The three variables of a place, without carried states.
+pub fn state([q, rate, third]: [f64; 3]) -> State {
+    [q, rate, third, 0.0, 0.0]
+}
 
 /// Switches of a formula at most.
 pub const MOST_SWITCHES: usize = 24;
@@ -53,6 +64,15 @@ pub struct Program {
     pub(crate) switches: Vec<Switch>,
     /// The terms of its sum, for what only some of them have.
     pub(crate) terms: Vec<Tape>,
+    /// How fast each carried state changes.
+    pub(crate) rates: Vec<RateTape>,
+}
+
+/// How fast a carried state changes: its tape, and the terms of its sum.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RateTape {
+    pub tape: Tape,
+    pub terms: Vec<Tape>,
 }
 
 impl Program {
@@ -64,8 +84,27 @@ impl Program {
 
     /// How fast the value changes where the variables change at these rates.
     pub fn rate(&self, state: State, rates: State, branches: &Branches) -> f64 {
-        let moving = [0, 1, 2].map(|i| Moving { value: state[i], rate: rates[i] });
-        self.tape.run(moving, branches).rate
+        self.tape.run(moving(state, rates), branches).rate
+    }
+
+    /// How many carried states there are.
+    pub fn states(&self) -> usize {
+        self.rates.len()
+    }
+
+    /// How fast each carried state changes, in its unit per second; zero where there is none.
+    #[inline]
+    pub fn state_rates(&self, state: State, branches: &Branches) -> [f64; MOST_STATES] {
+        let mut rates = [0.0; MOST_STATES];
+        for (rate, law) in rates.iter_mut().zip(&self.rates) {
+            *rate = law.tape.run(state, branches);
+        }
+        rates
+    }
+
+    /// How fast the rate of a carried state changes where the variables change at these rates.
+    pub fn rate_of_state_rate(&self, index: usize, state: State, rates: State, branches: &Branches) -> f64 {
+        self.rates[index].tape.run(moving(state, rates), branches).rate
     }
 
     /// Its switches; [`Branches`] counts them in this order. An argument depends on switches before it only.
@@ -84,6 +123,11 @@ impl Program {
         }
         branches
     }
+}
+
+/// Variables that change.
+pub(crate) fn moving(state: State, rates: State) -> State<Moving> {
+    std::array::from_fn(|i| Moving { value: state[i], rate: rates[i] })
 }
 
 impl Tape {

@@ -9,14 +9,21 @@ use crate::expression::{Expression, Function, Operator};
 use crate::formula::Place;
 use crate::interval::Interval;
 use crate::number::Number;
-use crate::program::{State, whole_exponent};
+use crate::program::{MOST_STATES, State, VARIABLES, whole_exponent};
 
 /// From the least to the largest value of each of the three variables of a place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
     /// The least.
-    pub low: State,
+    pub low: [f64; 3],
     /// The largest.
+    pub high: [f64; 3],
+}
+
+/// The same of all variables, carried states too.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Over {
+    pub low: State,
     pub high: State,
 }
 
@@ -29,16 +36,30 @@ const MOST_VALUE: f64 = 1e15;
 /// Intervals are rounded outwards: a factor that is 1 somewhere is found this much above it, and one that is 0 below.
 const ROUNDINGS: f64 = 1e-9;
 
-impl Place {
-    /// The values that a formula may have, what others are, and how they are told.
+/// What an expression gives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Gives {
+    /// What a formula gives at its place.
+    At(Place),
+    /// How fast a carried state changes.
+    Rate,
+}
+
+impl Gives {
+    /// The values that an expression may have, what others are, and how they are told.
     fn possible(self) -> (Interval, String, String) {
         match self {
-            Place::Top | Place::Ground | Place::Crack => (
+            Gives::Rate => (
+                Interval::new(-f64::MAX, f64::MAX),
+                "too large for a number".to_owned(),
+                "what is finite".to_owned(),
+            ),
+            Gives::At(Place::Top | Place::Ground | Place::Crack) => (
                 Interval::new(-MOST_VALUE, MOST_VALUE),
                 format!("beyond {MOST_VALUE:e}"),
                 format!("forces and moments within {MOST_VALUE:e}"),
             ),
-            Place::Impacts => (
+            Gives::At(Place::Impacts) => (
                 Interval::new(-ROUNDINGS, 1.0 + ROUNDINGS),
                 "below 0 or above 1".to_owned(),
                 "a factor from 0 to 1: what is kept at any speed belongs into the coefficients".to_owned(),
@@ -48,15 +69,27 @@ impl Place {
 }
 
 impl Range {
+    /// With those of carried states.
+    pub(crate) fn with_states(&self, ranges: &[[f64; 2]]) -> Over {
+        let of = |values: &[f64; 3], side: usize| {
+            let states: [f64; MOST_STATES] =
+                std::array::from_fn(|i| ranges.get(i).map_or(0.0, |range| range[side]));
+            std::array::from_fn(|i| if i < 3 { values[i] } else { states[i - 3] })
+        };
+        Over { low: of(&self.low, 0), high: of(&self.high, 1) }
+    }
+}
+
+impl Over {
     /// The range as intervals.
     pub(crate) fn intervals(&self) -> State<Interval> {
-        [0, 1, 2].map(|i| Interval::new(self.low[i], self.high[i]))
+        std::array::from_fn(|i| Interval::new(self.low[i], self.high[i]))
     }
 
     /// Both halves, cut across the variable that is widest beside its whole width.
-    pub(crate) fn halves(&self, whole: &Range) -> [Range; 2] {
-        let share = |range: &Range, i: usize| (range.high[i] - range.low[i]) / (whole.high[i] - whole.low[i]);
-        let widest = (0..3).filter(|i| whole.high[*i] > whole.low[*i]);
+    pub(crate) fn halves(&self, whole: &Over) -> [Over; 2] {
+        let share = |range: &Over, i: usize| (range.high[i] - range.low[i]) / (whole.high[i] - whole.low[i]);
+        let widest = (0..VARIABLES).filter(|i| whole.high[*i] > whole.low[*i]);
         let cut = widest.max_by(|a, b| share(self, *a).total_cmp(&share(self, *b))).unwrap_or(0);
         let middle = 0.5 * (self.low[cut] + self.high[cut]);
         let (mut first, mut second) = (*self, *self);
@@ -74,10 +107,10 @@ struct Doubt {
 
 struct Search<'a> {
     expression: &'a Expression,
-    place: Place,
-    variables: [&'static str; 3],
+    gives: Gives,
+    variables: &'a [&'a str],
     values: &'a BTreeMap<&'a str, f64>,
-    whole: &'a Range,
+    whole: &'a Over,
     parts: usize,
 }
 
@@ -85,16 +118,16 @@ struct Search<'a> {
 ///
 /// # Errors
 /// The subexpression, the reason, and the range.
-pub fn check_values(
+pub(crate) fn check_values(
     expression: &Expression,
-    place: Place,
+    gives: Gives,
+    variables: &[&str],
     values: &BTreeMap<&str, f64>,
-    range: &Range,
+    range: &Over,
 ) -> Result<(), FormulaError> {
-    let variables = place.variables();
-    let mut search = Search { expression, place, variables, values, whole: range, parts: 0 };
+    let mut search = Search { expression, gives, variables, values, whole: range, parts: 0 };
     search.part(range, MOST_HALVINGS).map_err(|doubt| {
-        let over: Vec<_> = (0..3)
+        let over: Vec<_> = (0..variables.len())
             .filter(|i| expression.has(variables[*i]))
             .map(|i| format!("{} from {} to {}", variables[i], written(range.low[i]), written(range.high[i])))
             .collect();
@@ -109,16 +142,16 @@ fn written(value: f64) -> f64 {
 }
 
 impl Search<'_> {
-    fn part(&mut self, range: &Range, halvings: usize) -> Result<(), Doubt> {
+    fn part(&mut self, range: &Over, halvings: usize) -> Result<(), Doubt> {
         self.parts += 1;
         let Err(doubt) = self.value(range.intervals()) else { return Ok(()) };
-        let varies =
-            (0..3).any(|i| self.whole.high[i] > self.whole.low[i] && self.expression.has(self.variables[i]));
+        let varies = (0..self.variables.len())
+            .any(|i| self.whole.high[i] > self.whole.low[i] && self.expression.has(self.variables[i]));
         if halvings == 0 || self.parts >= MOST_PARTS || !varies {
             return Err(doubt);
         }
         // A state at which it fails needs no halves.
-        let middle = [0, 1, 2].map(|i| Interval::constant(0.5 * (range.low[i] + range.high[i])));
+        let middle = std::array::from_fn(|i| Interval::constant(0.5 * (range.low[i] + range.high[i])));
         self.value(middle)?;
         let [first, second] = range.halves(self.whole);
         self.part(&first, halvings - 1)?;
@@ -128,7 +161,7 @@ impl Search<'_> {
     /// Whether the value is shown to be a possible one.
     fn value(&self, over: State<Interval>) -> Result<(), Doubt> {
         let value = self.of(self.expression, over)?;
-        let (possible, beyond, allowed) = self.place.possible();
+        let (possible, beyond, allowed) = self.gives.possible();
         if value.low >= possible.low && value.high <= possible.high {
             return Ok(());
         }

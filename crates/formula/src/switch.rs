@@ -2,7 +2,7 @@
 
 use crate::interval::Interval;
 use crate::number::Moving;
-use crate::program::{MOST_SWITCHES, State, Tape};
+use crate::program::{MOST_STATES, MOST_SWITCHES, State, Tape, VARIABLES, moving};
 
 /// On which side of a switch a formula is taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -94,7 +94,7 @@ pub(crate) struct SwitchUse {
 /// Where a switch turns.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SwitchAt {
-    /// Where a variable (0, 1 or 2) passes a value.
+    /// Where a variable (0, 1 or 2, then the carried states) passes a value.
     Line {
         /// Which variable.
         variable: usize,
@@ -110,7 +110,7 @@ pub enum SwitchAt {
 pub struct Surface {
     pub(crate) tape: Tape,
     /// Which variables occur in it.
-    pub(crate) variables: [bool; 3],
+    pub(crate) variables: [bool; VARIABLES],
 }
 
 /// A switch: the formula is smooth on both sides of it.
@@ -136,8 +136,7 @@ impl Switch {
         match &self.at {
             SwitchAt::Line { variable, value } => (state[*variable] - value, rates[*variable]),
             SwitchAt::Surface(surface) => {
-                let moving = [0, 1, 2].map(|i| Moving { value: state[i], rate: rates[i] });
-                let Moving { value, rate } = surface.tape.run(moving, branches);
+                let Moving { value, rate } = surface.tape.run(moving(state, rates), branches);
                 (value, rate)
             }
         }
@@ -148,18 +147,24 @@ impl Switch {
         match &self.at {
             SwitchAt::Line { variable, .. } => errors[*variable],
             SwitchAt::Surface(surface) => {
-                let around = [0, 1, 2].map(|i| Interval::new(state[i] - errors[i], state[i] + errors[i]));
+                let around =
+                    std::array::from_fn(|i| Interval::new(state[i] - errors[i], state[i] + errors[i]));
                 let width = surface.tape.run(around, branches).width();
                 if width.is_nan() { 0.0 } else { width }
             }
         }
     }
 
-    /// Whether a variable (0, 1 or 2) has a part in it.
+    /// Whether a variable (0, 1 or 2, then the carried states) has a part in it.
     pub fn depends_on(&self, variable: usize) -> bool {
         match &self.at {
             SwitchAt::Line { variable: own, .. } => *own == variable,
             SwitchAt::Surface(surface) => surface.variables[variable],
         }
+    }
+
+    /// Whether a carried state has a part in it.
+    pub fn depends_on_states(&self) -> bool {
+        (VARIABLES - MOST_STATES..VARIABLES).any(|variable| self.depends_on(variable))
     }
 }

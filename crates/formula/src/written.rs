@@ -4,6 +4,7 @@ use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
 use crate::formula::{Formula, Parameter};
+use crate::carried::CarriedState;
 
 /// Parameters by name, in their order.
 struct Parameters<'a>(&'a [Parameter]);
@@ -12,6 +13,27 @@ struct Parameters<'a>(&'a [Parameter]);
 struct Number<'a> {
     value: f64,
     unit: &'a str,
+}
+
+/// Carried states by name, in their order.
+struct States<'a>(&'a [CarriedState]);
+
+#[derive(Serialize)]
+struct State<'a> {
+    rate: &'a str,
+    start: f64,
+    unit: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    range: Option<[f64; 2]>,
+}
+
+impl Serialize for States<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let states = self.0.iter().map(|s| {
+            (&s.name, State { rate: &s.rate, start: s.start, unit: &s.unit, range: s.range })
+        });
+        serializer.collect_map(states)
+    }
 }
 
 impl Formula {
@@ -25,6 +47,10 @@ impl Serialize for Formula {
         map.serialize_entry("kind", Self::KIND)?;
         map.serialize_entry("place", self.place().name())?;
         map.serialize_entry(self.place().key(), &self.to_string())?;
+        // A formula without states is written as before there were any: its hash stays.
+        if !self.states().is_empty() {
+            map.serialize_entry("states", &States(self.states()))?;
+        }
         map.serialize_entry("parameters", &Parameters(self.parameters()))?;
         map.end()
     }

@@ -83,8 +83,8 @@ proptest! {
         if law.check(&RANGE).is_err() {
             return Ok(());
         }
-        let (state, value) = ([x, v, 0.0], law.value([x, v, 0.0]));
-        let branches = law.program().branches_at(state, [0.0; 3]);
+        let (state, value) = (mrbd_formula::state([x, v, 0.0]), law.value([x, v, 0.0]));
+        let branches = law.program().branches_at(state, mrbd_formula::state([0.0; 3]));
         if law.program().switches().iter().any(|switch| switch.argument(state, &branches) == 0.0) {
             return Ok(());
         }
@@ -105,9 +105,9 @@ proptest! {
     #[test]
     fn analytic_the_rate_is_the_slope(e in expressions(), x in -0.5..0.5_f64, v in -10.0..10.0_f64) {
         let Some(law) = formula(e) else { return Ok(()) };
-        let (state, rates) = ([x, v, 0.0], [1.0, 3.0, 0.0]);
-        let branches = law.program().branches_at(state, [0.0; 3]);
-        let at = |h: f64| law.program().value([x + h, v + 3.0 * h, 0.0], &branches);
+        let [state, rates] = [[x, v, 0.0], [1.0, 3.0, 0.0]].map(mrbd_formula::state);
+        let branches = law.program().branches_at(state, mrbd_formula::state([0.0; 3]));
+        let at = |h: f64| law.program().value(mrbd_formula::state([x + h, v + 3.0 * h, 0.0]), &branches);
         let (h, rate) = (1e-6, law.program().rate(state, rates, &branches));
         let slopes = [(at(h) - at(-h)) / (2.0 * h), (at(0.5 * h) - at(-0.5 * h)) / h];
         // Where the difference has converged: elsewhere the formula turns within a millionth.

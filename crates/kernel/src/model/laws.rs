@@ -171,7 +171,7 @@ impl PiecewiseLaws {
     /// The regime at a displacement and velocity of the top. The plastic displacement moves to where the
     /// spring holds no more than its force, and the largest to no less than the displacement.
     pub fn regime_at(&self, x_c_m: f64, v_c_m_s: f64, memory: TopMemory) -> Regime {
-        let TopMemory { plastic_m, largest_m } = memory;
+        let TopMemory { plastic_m, largest_m, .. } = memory;
         let gap = if x_c_m.abs() > self.gap_m { Side::of(x_c_m) } else { Side::Between };
         let plastic_m = self.yielding.map_or(plastic_m, |spring| spring.plastic_m(plastic_m, x_c_m));
         let leans = if x_c_m == 0.0 { Side::of(v_c_m_s) } else { Side::of(x_c_m) };

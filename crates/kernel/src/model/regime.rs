@@ -7,6 +7,7 @@
 
 use super::MechanicsError;
 use super::contact::Contact;
+use super::formula::CarriedStates;
 use super::geometry::Pair;
 use super::joint_forces::Reactions;
 use super::laws::PiecewiseLaws;
@@ -76,6 +77,8 @@ pub struct TopMemory {
     pub plastic_m: f64,
     /// The largest |x_C| so far, m.
     pub largest_m: f64,
+    /// The carried states of formulas; `None`: as they are.
+    pub carried: Option<CarriedStates>,
 }
 
 /// Where a regime ends.
@@ -136,6 +139,9 @@ impl RockingWall {
 
     /// Enters the regime of a state that nothing went before, but for what the laws at the top keep.
     pub fn enter_regime_of_state(&mut self, contact: Contact, state: &State, memory: TopMemory) {
+        if let Some(carried) = memory.carried {
+            self.put_carried(&carried);
+        }
         if let Some(piecewise_laws) = self.piecewise_laws {
             let [x_c, v_c, _] = self.motion(contact).top(state.theta, state.omega, [0.0; 2]);
             self.enter_regime(piecewise_laws.regime_at(x_c, v_c, memory));

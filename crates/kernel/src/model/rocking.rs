@@ -168,11 +168,24 @@ impl RockingWall {
         (mass / stiffness).sqrt()
     }
 
+    /// Moment about the foot that a rotation of the whole wall needs, N m: that of the spring and of weight, as
+    /// [`RockingWall::response_time_s`] counts them.
+    pub(super) fn turning_stiffness_n_m(&self) -> f64 {
+        let p = self.wall.parameters();
+        let at_top = self.stiffest_n_per_m() + self.slopes.top_at_rest_n_per_m;
+        at_top * p.height_m * p.height_m + self.weight_n() * p.height_m / 2.0
+    }
+
     /// Rate at which small motions of the wall can change, 1/s: the fastest over the contact states.
     pub fn fastest_rate_per_s(&self) -> f64 {
         let stiffness = self.stiffest_n_per_m();
         let rate = |motion: &Motion| motion.fastest_rate_per_s(stiffness, &self.slopes);
-        self.motions.iter().map(rate).fold(0.0, f64::max)
+        let fastest = self.motions.iter().map(rate).fold(0.0, f64::max);
+        if !self.formulas.carry() {
+            return fastest;
+        }
+        let [half_m, speed_m_s] = self.carried_motion();
+        fastest + self.formulas.fastest_carried_per_s(half_m, speed_m_s)
     }
 
     /// Stiffness at the top while every spring acts, N/m.

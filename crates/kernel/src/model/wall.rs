@@ -241,13 +241,15 @@ impl Wall {
     }
 }
 
-/// The sums of all effects. The lanes do formulas, but not those of which friction holds the top.
+/// The sums of all effects. The lanes do formulas, but not those of which friction holds the top, nor carried states.
 fn sums(p: &WallParameters) -> EffectSums {
     let sums = EffectSums::of(&p.effects);
     if p.formulas.is_empty() {
         sums
     } else {
-        EffectSums { lanes: sums.lanes.max(Lanes::WhileSliding), ..sums }
+        let carries = p.formulas.iter().any(|formula| !formula.states().is_empty());
+        let lanes = if carries { Lanes::Unknown } else { Lanes::WhileSliding };
+        EffectSums { lanes: sums.lanes.max(lanes), ..sums }
     }
 }
 

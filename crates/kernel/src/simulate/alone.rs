@@ -31,8 +31,7 @@ pub(super) fn to_its_end<O: Observer>(mut run: Run<O>) -> Response {
                 continue;
             }
         }
-        let mut step = run.step_request().take(&mut reactions);
-        run.finish_step(&mut step, &reactions);
+        run.step_alone(&mut reactions);
         quiet = if run.advances() { quiet + 1 } else { 0 };
     }
     run.end()

@@ -1,6 +1,7 @@
 //! What happens first inside a step: a joint closes or opens, a law has a kink, a body collapses.
 
 use super::bed_events::BedChange;
+use super::run::CarriedStep;
 use super::switches::first_turn;
 use crate::model::{Contact, Joint, Kink, Pair, RockingWall, Touching, opening};
 use crate::solver::{Bernstein, Point, Quintic, hermite};
@@ -205,15 +206,15 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
 pub(super) fn first_kink(
     wall: &RockingWall,
     contact: Contact,
-    start: &Point,
-    end: &Point,
+    [start, end]: [&Point; 2],
     h: f64,
+    carried: Option<&CarriedStep>,
 ) -> Option<(Kink, f64)> {
     let named = wall.piecewise_laws().and_then(|_| first_of(wall, contact, start, end, h));
     if !wall.formulas().have_switches() {
         return named;
     }
-    let turn = first_turn(wall, contact, start, end, h);
+    let turn = first_turn(wall, contact, [start, end], h, carried);
     sooner(named, turn)
 }
 

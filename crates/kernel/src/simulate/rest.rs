@@ -132,6 +132,12 @@ impl RestLimits {
         self.conditions().map(|condition| condition.at(ground)).fold(f64::INFINITY, f64::min)
     }
 
+    /// The same where friction has a part in it, without the corners that it holds.
+    pub fn reserve_by_friction(&self, ground: Vector) -> f64 {
+        let conditions = self.with_friction.iter().map(|condition| condition.at(ground));
+        conditions.reduce(f64::min).unwrap_or_else(|| self.reserve(ground))
+    }
+
     fn conditions(&self) -> impl Iterator<Item = &CornerForce> {
         self.corners.iter().chain(&self.with_friction)
     }

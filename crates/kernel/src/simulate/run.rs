@@ -2,6 +2,7 @@
 
 mod bed;
 mod boarding;
+mod carried;
 mod ending;
 mod event;
 mod rest;
@@ -20,6 +21,8 @@ use crate::model::{
     opening,
 };
 use crate::solver::{Controller, Point, Quintic, STAGES, Step};
+use carried::CarriedRun;
+pub(super) use carried::CarriedStep;
 pub(super) use step::StepRequest;
 
 /// A contact state, and the motion in it where that is known.
@@ -55,6 +58,8 @@ pub(super) struct Run<O> {
     offset_s: f64,
     task: Task,
     stopped: Option<Stop>,
+    /// The carried states of formulas.
+    carried: Option<Box<CarriedRun>>,
 }
 
 /// What the requested step is for.
@@ -88,6 +93,8 @@ impl<O: Observer> Run<O> {
         wall.enter_branches(&placed.state, placed.crushed_rad);
         let contact = wall.with_beds_as_at(placed.contact, placed.state.theta);
         wall.enter_regime_of_state(contact, &placed.state, placed.memory);
+        let carried = simulator.carried_weights_rad;
+        let carried = carried.map(|weights_rad| CarriedRun::new(weights_rad, wall.formulas().carried()));
         Self {
             rest: simulator.rest.clone(),
             collapse_rad: simulator.wall.wall().collapse_rotation_rad(),
@@ -96,6 +103,7 @@ impl<O: Observer> Run<O> {
             totals: Totals::new(simulator.wall.joints().count()),
             observer,
             contact,
+            carried: carried.map(Box::new),
             now: Point { position: placed.state.theta, velocity: placed.state.omega, ..Point::default() },
             quadrature_rate: [0.0; 2],
             corner_force: None,
@@ -188,6 +196,7 @@ impl<O: Observer> Run<O> {
                         self.refine_event(event, &piece, step, reactions, most_s, corrections)
                     }
                     _ => {
+                        self.unrefine_states();
                         let reactions = self.reactions(&before.end, piece.at(self.offset_s + before.h));
                         self.apply_event(event, &piece, &before, &reactions)
                     }
@@ -238,7 +247,7 @@ impl<O: Observer> Run<O> {
         self.totals.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
-        self.corner_force = reserve;
+        self.corner_force = if self.shares_load_at_rest() { Some(self.reserve_at_rest(ground)) } else { reserve };
         self.top_velocity_m_s = top_velocity_m_s;
         Ok(())
     }
@@ -268,10 +277,10 @@ impl<O: Observer> Run<O> {
         };
         self.now.velocity = self.wall.with_slow_top_stopped(contact, &self.state());
         let state = self.state();
-        if self.wall.rests_in(contact) && piecewise_laws.remembers() {
-            // A spring that has yielded leans on the wall at rest.
+        if self.wall.rests_in(contact) && (piecewise_laws.remembers() || self.carried.is_some()) {
+            // A spring that has yielded leans on the wall at rest, and so may a carried state.
             let Regime { plastic_m, largest_m, .. } = self.wall.regime();
-            self.wall.enter_regime_of_state(contact, &state, TopMemory { plastic_m, largest_m });
+            self.wall.enter_regime_of_state(contact, &state, TopMemory { plastic_m, largest_m, carried: None });
             self.rest = RestLimits::new(&self.wall);
         }
         let rest_reserve = self.rest.reserve(ground);
@@ -288,7 +297,7 @@ impl<O: Observer> Run<O> {
                 return Ok(true);
             }
             while self.offset_s < length_s {
-                if !self.wall.rests_in(self.contact) {
+                if !self.wall.rests_in(self.contact) || self.carried.is_some() {
                     let left_s = length_s - self.offset_s;
                     let h = self.controller.next_s(left_s);
                     self.totals.work.tolerance_steps += u64::from(h < left_s);
@@ -302,7 +311,7 @@ impl<O: Observer> Run<O> {
             if self.observer.seen_enough() {
                 return Err(Stop::SeenEnough);
             }
-            if self.wall.rests_in(self.contact) {
+            if self.wall.rests_in(self.contact) && self.carried.is_none() {
                 self.k = self.rest_through_pieces(self.k);
             }
             self.piece = self.ground.piece(self.k);
@@ -323,6 +332,7 @@ impl<O: Observer> Run<O> {
         self.totals.forces(&reactions.forces);
         self.totals.energy(step.quadrature);
         self.observer.moved(start_s, self.contact, motion);
+        self.keep_states();
         self.now = step.end;
         self.quadrature_rate = step.end_quadrature_rate;
         if self.wall.is_held() {

@@ -175,9 +175,7 @@ impl<'w, O: Observer> Pool<'w, O> {
             match kind {
                 Some(kind) => return Some(kind),
                 None => {
-                    let mut reactions = Reactions::default();
-                    let mut step = run.step_request().take(&mut reactions);
-                    run.finish_step(&mut step, &reactions);
+                    run.step_alone(&mut Reactions::default());
                 }
             }
         }

@@ -7,7 +7,7 @@ use super::rest::RestLimits;
 use super::run::Run;
 use super::side_by_side::Prepared;
 use super::{Accuracy, Shaking};
-use crate::model::{Contact, Joint, Pivot, RockingWall, State, TopMemory, Vector, Wall, opening};
+use crate::model::{CarriedStates, Contact, Joint, Pivot, RockingWall, State, TopMemory, Vector, Wall, opening};
 use crate::solver::{Controller, ErrorScale};
 
 /// Error of a step allowed, as a share of the error of a run. Impacts magnify what is there before them. With
@@ -41,12 +41,15 @@ pub struct Start {
     pub crushed_rad: [[f64; 2]; 2],
     /// The largest |x_C| before, m, which formulas may depend on (`x_max`). Where the start is farther out, that is it.
     pub largest_displacement_m: f64,
+    /// The carried states of formulas, in the order of the formulas and of their names there, each in its unit; `None`: as they
+    /// start.
+    pub carried: Option<CarriedStates>,
 }
 
 impl Start {
     /// In a state at a time in s, with what the laws at the top keep of the past.
     pub fn with_memory(time_s: f64, state: State, contact: Contact, memory: TopMemory) -> Self {
-        let TopMemory { plastic_m, largest_m } = memory;
+        let TopMemory { plastic_m, largest_m, carried } = memory;
         let contact = Some(contact);
         Self {
             time_s,
@@ -54,12 +57,17 @@ impl Start {
             contact,
             plastic_displacement_m: plastic_m,
             largest_displacement_m: largest_m,
+            carried,
             ..Self::default()
         }
     }
 
     fn memory(&self) -> TopMemory {
-        TopMemory { plastic_m: self.plastic_displacement_m, largest_m: self.largest_displacement_m }
+        TopMemory {
+            plastic_m: self.plastic_displacement_m,
+            largest_m: self.largest_displacement_m,
+            carried: self.carried,
+        }
     }
 }
 
@@ -70,6 +78,8 @@ pub struct Simulator {
     pub(super) wall: RockingWall,
     pub(super) rest: RestLimits,
     pub(super) controller: Controller,
+    /// Rotation that a unit of each carried state turns the wall by, rad; `None` without any.
+    pub(super) carried_weights_rad: Option<CarriedStates>,
     /// The ground motion as recorded, and as the wall's effects make it.
     record: GroundPath,
     ground: GroundPath,
@@ -106,7 +116,16 @@ impl Simulator {
         };
         let share = if wall.rolls() { STEP_SHARE_ON_BEDS } else { STEP_SHARE };
         let controller = Controller::new(scale, share * accuracy.tolerance, ground.step_s());
-        Self { rest: RestLimits::new(&rocking), controller, wall: rocking, record, ground }
+        let [lower_rad, _] = wall.alpha_i_rad();
+        let weights = rocking.carries().then(|| rocking.carried_weights());
+        Self {
+            rest: RestLimits::new(&rocking),
+            controller,
+            carried_weights_rad: weights.map(|weights| weights.map(|weight| weight * lower_rad)),
+            wall: rocking,
+            record,
+            ground,
+        }
     }
 
     /// The wall, ready to move.

@@ -2,6 +2,7 @@
 //! both.
 
 use super::events::{ROUNDINGS, first_end};
+use super::run::CarriedStep;
 use crate::model::{Contact, Kink, Pair, Path, RockingWall, Turn};
 use crate::solver::{Bernstein, Point, hermite};
 
@@ -32,21 +33,28 @@ fn through(values: [f64; 6]) -> Bernstein<6> {
 pub(super) fn first_turn(
     wall: &RockingWall,
     contact: Contact,
-    start: &Point,
-    end: &Point,
+    ends: [&Point; 2],
     h: f64,
+    carried: Option<&CarriedStep>,
 ) -> Option<(Kink, f64)> {
     let held = wall.is_held();
-    // A top that is held moves by roundings only.
-    let turns = wall.formulas().turns().filter(|turn| !(held && turn.is_at_top()));
+    // A top that is held moves by roundings only; what it carries along moves on.
+    let turns = wall.formulas().turns();
+    let turns = turns.filter(|turn| !(held && turn.is_at_top() && !turn.depends_on_states()));
     let found = turns.filter_map(|turn| {
-        let share = share_of(wall, contact, &turn, [start, end], h)?;
+        let share = share_of(wall, contact, &turn, ends, (h, carried))?;
         Some((Kink::Turns { formula: turn.formula, switch: turn.index }, share))
     });
     found.reduce(|a, b| if b.1 < a.1 { b } else { a })
 }
 
-fn share_of(wall: &RockingWall, contact: Contact, turn: &Turn, ends: [&Point; 2], h: f64) -> Option<f64> {
+fn share_of(
+    wall: &RockingWall,
+    contact: Contact,
+    turn: &Turn,
+    ends: [&Point; 2],
+    (h, carried): (f64, Option<&CarriedStep>),
+) -> Option<f64> {
     let of = |p: &Point| [p.position, p.velocity, p.acceleration];
     let [from, to] = ends.map(|end| turn.place(wall, contact, of(end)));
     let errors = ends.map(|end| wall.place_errors(turn, contact, [end.position, end.velocity]));
@@ -68,7 +76,11 @@ fn share_of(wall: &RockingWall, contact: Contact, turn: &Turn, ends: [&Point; 2]
             let (displacement, rates) = (hermite(from, to, h), rates(from, to, h));
             let at = |k: usize| {
                 let share = k as f64 / 5.0;
-                turn.argument([displacement.value(share), rates.value(share), 0.0]).0
+                let place = [displacement.value(share), rates.value(share), 0.0];
+                match carried {
+                    Some(carried) => turn.argument_with(place, turn.own_states(&carried.at(share))).0,
+                    None => turn.argument(place).0,
+                }
             };
             let rounding = turn.rounding(from, errors).max(turn.rounding(to, errors));
             end_of(through(std::array::from_fn(at)).times(side), GATHERED * rounding)

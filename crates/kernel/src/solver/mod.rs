@@ -5,10 +5,12 @@
 //! [`Quintic`] through them, which is as accurate as the step itself.
 
 mod bernstein;
+mod beside;
 mod controller;
 mod nystrom;
 mod quintic;
 
+pub(crate) use beside::Beside;
 pub use bernstein::Bernstein;
 pub(crate) use controller::ErrorRow;
 pub use controller::{Controller, ErrorScale};

@@ -1,5 +1,6 @@
 //! Laws written as formulas: the same runs as the laws of the catalogue, exact kinks, energy accounted for.
 
+mod carried;
 mod impacts;
 mod memory;
 
@@ -261,6 +262,21 @@ fn strangers() -> Vec<Formula> {
         top("-k*sign(x)*max(abs(x) - a*x_max, 0)", &[("k", 20e3, "N/m"), ("a", 0.4, "1")]),
         top("-F*(1 + x_max/g)*sign(v)", &[("F", 100.0, "N"), ("g", 0.01, "m")]),
         top("-k*x*(x_max < g)", &[("k", 20e3, "N/m"), ("g", 0.008, "m")]),
+        carried::maxwell(20e3, 0.3),
+        carried::maxwell(20e6, 1e-4),
+        carried::bouc_wen(30e3, 0.01),
+        // Two in a row: the second follows the first.
+        carried::carrying(
+            "-z - k*y",
+            &[("z", "k*v - z/tau", 0.0, "N"), ("y", "(z/k - y)/tau", 0.0, "m")],
+            &[("k", 10e3, "N/m"), ("tau", 0.2, "s")],
+        ),
+        // A wall that is held by friction goes on relaxing.
+        carried::carrying(
+            "-z - F*sign(v)",
+            &[("z", "k*v - max(abs(z) - F, 0)*sign(z)/tau", 0.0, "N")],
+            &[("k", 20e3, "N/m"), ("tau", 0.05, "s"), ("F", 100.0, "N")],
+        ),
         top("-c*max(0, v + x/t)", &[("c", 1500.0, "N*s/m"), ("t", 0.1, "s")]),
         formula(
             Place::Crack,

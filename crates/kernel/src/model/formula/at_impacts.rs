@@ -44,12 +44,12 @@ impl RockingWall {
         if factors.is_empty() && fading_s_per_m == 0.0 {
             return 1.0;
         }
-        let closing = |joint| {
+        let closing = |joint: super::super::contact::Joint| {
             let rate_rad_s = opening(joint, omega).abs();
-            [self.width_m(joint) * rate_rad_s, rate_rad_s, self.wall().weights_n()[joint as usize]]
+            mrbd_formula::state([self.width_m(joint) * rate_rad_s, rate_rad_s, self.wall().weights_n()[joint as usize]])
         };
         let touching = self.joints().filter(|joint| touching.at(*joint)).map(closing);
-        let fastest = touching.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or([0.0; 3]);
+        let fastest = touching.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or(mrbd_formula::state([0.0; 3]));
         let written: f64 = factors.iter().map(|factor| factor.value(fastest, &Branches::FREE)).product();
         libm::exp(-fading_s_per_m * fastest[0]) * written
     }

@@ -6,6 +6,7 @@ use mrbd_formula::{Formula, FormulaError, Jump, Place, Range};
 
 use super::super::contact::Joint;
 use super::super::wall::{G_M_S2, ImpossibleWall, Wall};
+use super::carried::{Carried, check_count};
 use super::laws::{FormulaLaw, joint_of};
 
 /// Speeds up to this many times that of a fall from the wall's own height. A wall that stands is far slower.
@@ -18,11 +19,14 @@ const FALLS: f64 = 2.0;
 pub(in crate::model) fn checked(wall: &Wall) -> Result<Vec<FormulaLaw>, ImpossibleWall> {
     let formulas = wall.parameters().formulas.iter().enumerate();
     let of_motion = formulas.filter(|(_, formula)| formula.place() != Place::Impacts);
-    of_motion.map(|(i, formula)| law(wall, formula).map_err(|e| refused(i, formula, e))).collect()
+    let laws = of_motion.map(|(i, formula)| law(wall, formula).map_err(|e| refused(i, formula, e)));
+    let laws = laws.collect::<Result<Vec<_>, _>>()?;
+    check_count(&laws)?;
+    Ok(laws)
 }
 
 pub(super) fn refused(i: usize, formula: &Formula, error: FormulaError) -> ImpossibleWall {
-    let key = Cow::Owned(format!("formulas.{i}.{}", formula.place().key()));
+    let key = Cow::Owned(format!("formulas.{i}.{}", error.key(formula.place().key())));
     ImpossibleWall { key, found: error.found_at(), allowed: error.allowed }
 }
 
@@ -41,7 +45,7 @@ fn law(wall: &Wall, formula: &Formula) -> Result<FormulaLaw, FormulaError> {
     let jumps = formula.check(&range)?;
     let friction = jumps.iter().position(|jump| *jump == Jump::AgainstMotion);
     let weight_n = if joint.is_some() { range.high[2] } else { 0.0 };
-    let law = FormulaLaw::new(formula, weight_n, friction);
+    let law = FormulaLaw::new(formula, weight_n, friction, Carried::of(wall, formula, &range)?);
     match joint {
         Some(_) if friction.is_some() => Err(FormulaError::found(
             "a moment that jumps at w = 0",

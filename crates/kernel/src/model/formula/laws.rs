@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use mrbd_formula::{Branch, Branches, Formula, Place, Program, State};
+use mrbd_formula::{Branch, Branches, Formula, MOST_STATES, Place, Program, State};
 
 use super::super::contact::Joint;
 use super::super::geometry::Pair;
 use super::super::regime::Side;
+use super::carried::Carried;
 
 /// The joint of a place, where it is at one.
 pub(super) fn joint_of(place: Place) -> Option<Joint> {
@@ -48,22 +49,30 @@ pub(crate) struct FormulaLaw {
     /// The switch at which it jumps against the motion.
     pub(super) friction: Option<usize>,
     pub(super) branches: Branches,
+    pub(super) carried: Carried,
 }
 
 impl FormulaLaw {
     /// In the branches of rest; friction holds.
-    pub fn new(formula: &Formula, weight_n: f64, friction: Option<usize>) -> Self {
+    pub(super) fn new(formula: &Formula, weight_n: f64, friction: Option<usize>, carried: Carried) -> Self {
         let program = Arc::clone(formula.program());
-        let at_rest = program.branches_at([0.0, 0.0, weight_n], [0.0; 3]);
+        let [z_1, z_2] = carried.now;
+        let at_rest = program.branches_at([0.0, 0.0, weight_n, z_1, z_2], [0.0; 5]);
         let new = Largest { grows: Side::Between, before_m: 0.0 };
         let branches = friction.map_or(at_rest, |switch| at_rest.with(switch, Branch::Zero));
         let joint = joint_of(formula.place());
-        Self { program, joint, weight_n, largest: formula.remembers().then_some(new), friction, branches }
+        let largest = formula.remembers().then_some(new);
+        Self { program, joint, weight_n, largest, friction, branches, carried }
     }
 
     /// The variables at a displacement or rotation and its rate.
     pub(super) fn state(&self, q: f64, rate: f64) -> State {
-        [q, rate, self.largest.map_or(self.weight_n, |largest| largest.at(q))]
+        self.state_with(q, rate, self.carried.now)
+    }
+
+    /// The same with other values of the carried states.
+    pub(super) fn state_with(&self, q: f64, rate: f64, [z_1, z_2]: [f64; MOST_STATES]) -> State {
+        [q, rate, self.largest.map_or(self.weight_n, |largest| largest.at(q)), z_1, z_2]
     }
 
     /// How fast the third variable changes at a rate of displacement.
@@ -79,7 +88,8 @@ impl FormulaLaw {
     /// The variables where the top may be farther out than it is known to have been.
     fn state_anywhere(&self, q: f64, rate: f64) -> State {
         let third = self.largest.map_or(self.weight_n, |largest| largest.before_m.max(q.abs()));
-        [q, rate, third]
+        let [z_1, z_2] = self.carried.now;
+        [q, rate, third, z_1, z_2]
     }
 
     /// Force or moment on the wall, N or N m.
@@ -109,14 +119,17 @@ impl FormulaLaw {
     /// Stiffness and damping at a state, where they are finite and resist.
     fn slopes_at(&self, q: f64, rate: f64) -> Pair {
         let state = self.state_anywhere(q, rate);
-        let branches = self.program.branches_at(state, [rate, 0.0, 0.0]);
+        let branches = self.program.branches_at(state, [rate, 0.0, 0.0, 0.0, 0.0]);
         let against = |rates: State| {
             let slope = -self.program.rate(state, rates, &branches);
             if slope.is_finite() { slope.max(0.0) } else { 0.0 }
         };
-        let inside = against([1.0, 0.0, 0.0]);
-        let outwards = if self.largest.is_some() { against([1.0, 0.0, 1f64.copysign(q)]) } else { inside };
-        [inside.max(outwards), against([0.0, 1.0, 0.0])]
+        let inside = against([1.0, 0.0, 0.0, 0.0, 0.0]);
+        let outwards =
+            if self.largest.is_some() { against([1.0, 0.0, 1f64.copysign(q), 0.0, 0.0]) } else { inside };
+        // A state that follows the velocity is a stiffness: dF = F_z dz, of which dz is ż_v dx.
+        let followed: State = self.follows(state, &branches);
+        [inside.max(outwards) + against(followed), against([0.0, 1.0, 0.0, 0.0, 0.0])]
     }
 }
 
@@ -241,7 +254,7 @@ impl FormulaLaws {
     /// Takes branches and memory of the same formulas elsewhere.
     pub fn take_branches(&mut self, other: &Self) {
         for (own, law) in self.laws.iter_mut().zip(&other.laws) {
-            (own.branches, own.largest) = (law.branches, law.largest);
+            (own.branches, own.largest, own.carried.now) = (law.branches, law.largest, law.carried.now);
         }
     }
 

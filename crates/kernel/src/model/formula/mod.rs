@@ -11,12 +11,14 @@
 //! At impacts a formula is no force: it is a factor on a coefficient, of the speed at which a joint closes.
 
 mod at_impacts;
+mod carried;
 mod check;
 mod lanes;
 mod laws;
 mod switches;
 
 pub(crate) use at_impacts::ImpactFactors;
+pub use carried::{CarriedStates, MOST_CARRIED};
 pub(in crate::model) use check::checked;
 pub(crate) use lanes::FormulaRow;
 pub(in crate::model) use lanes::{FormulaLanes, angles};

@@ -1,10 +1,11 @@
 //! The switches of formulas as a wall moves: what is left to them, and on which side they are.
 
-use mrbd_formula::{Branch, Switch, SwitchAt};
+use mrbd_formula::{Branch, MOST_STATES, Switch, SwitchAt};
 
 use super::super::contact::Contact;
 use super::super::geometry::Pair;
 use super::super::rocking::{RockingWall, State, opening};
+use super::carried::CarriedStates;
 use super::laws::{FormulaLaw, FormulaLaws};
 
 /// Displacement or rotation at a place, its rate and its second rate.
@@ -17,6 +18,8 @@ pub(crate) struct Turn<'a> {
     pub formula: usize,
     pub index: usize,
     switch: &'a Switch,
+    /// Number of the first carried state of the formula among those of the wall.
+    first_state: usize,
 }
 
 /// Where the argument of a switch goes over a step.
@@ -25,7 +28,7 @@ pub(crate) enum Path {
     Displacement(f64),
     /// With its rate, from a value on.
     Rate(f64),
-    /// With both.
+    /// With both, or with what a law carries along.
     Both,
     /// Nowhere: with a weight, or with how far the top has been, which stay.
     Nowhere,
@@ -39,16 +42,22 @@ impl FormulaLaws {
 
     /// Every switch but that of friction, which the regime turns.
     pub fn turns(&self) -> impl Iterator<Item = Turn<'_>> {
-        self.laws.iter().enumerate().flat_map(|(formula, law)| {
+        let mut states = 0;
+        let firsts = self.laws.iter().map(move |law| {
+            states += law.states();
+            states - law.states()
+        });
+        self.laws.iter().zip(firsts).enumerate().flat_map(|(formula, (law, first_state))| {
             let switches = law.program.switches().iter().enumerate();
             let own = switches.filter(|(index, _)| law.friction != Some(*index));
-            own.map(move |(index, switch)| Turn { law, formula, index, switch })
+            own.map(move |(index, switch)| Turn { law, formula, index, switch, first_state })
         })
     }
 
     fn turn(&self, formula: usize, index: usize) -> Turn<'_> {
         let law = &self.laws[formula];
-        Turn { law, formula, index, switch: &law.program.switches()[index] }
+        let first_state = self.laws[..formula].iter().map(|law| law.states()).sum();
+        Turn { law, formula, index, switch: &law.program.switches()[index], first_state }
     }
 
     /// Puts a switch on its other side.
@@ -69,7 +78,7 @@ impl Turn<'_> {
         match &self.switch.at {
             SwitchAt::Line { variable: 0, value } => Path::Displacement(*value),
             SwitchAt::Line { variable: 1, value } => Path::Rate(*value),
-            SwitchAt::Line { .. } if !self.law.grows() => Path::Nowhere,
+            SwitchAt::Line { variable: 2, .. } if !self.law.grows() => Path::Nowhere,
             SwitchAt::Line { .. } | SwitchAt::Surface(_) => Path::Both,
         }
     }
@@ -88,15 +97,44 @@ impl Turn<'_> {
     }
 
     /// The argument, and its rate.
-    pub fn argument(&self, [q, rate, second]: Place) -> (f64, f64) {
-        let state = self.law.state(q, rate);
-        self.switch.argument_and_rate(state, [rate, second, self.law.third_rate(rate)], &self.law.branches)
+    pub fn argument(&self, place: Place) -> (f64, f64) {
+        self.argument_with(place, self.law.carried.now)
+    }
+
+    /// The same with other carried states of its law.
+    pub fn argument_with(&self, [q, rate, second]: Place, states: [f64; MOST_STATES]) -> (f64, f64) {
+        let state = self.law.state_with(q, rate, states);
+        let [z_1, z_2] = if self.law.states() == 0 { [0.0; 2] } else { self.law.state_rates(q, rate, states) };
+        let rates = [rate, second, self.law.third_rate(rate), z_1, z_2];
+        self.switch.argument_and_rate(state, rates, &self.law.branches)
+    }
+
+    /// The carried states of its law among those of the wall.
+    pub fn own_states(&self, carried: &CarriedStates) -> [f64; MOST_STATES] {
+        std::array::from_fn(|i| carried.get(self.first_state + i).copied().unwrap_or(0.0))
+    }
+
+    /// Whether a carried state has a part in it.
+    pub fn depends_on_states(&self) -> bool {
+        self.switch.depends_on_states()
     }
 
     /// What the argument is known to, where displacement and rate are known to these errors.
     pub fn rounding(&self, [q, rate, _]: Place, [of_q, of_rate]: Pair) -> f64 {
         let of_third = if self.law.grows() { of_q } else { 0.0 };
-        self.switch.rounding(self.law.state(q, rate), [of_q, of_rate, of_third], &self.law.branches)
+        let [of_z_1, of_z_2] = self.law.carried.size.map(|size| ROUNDINGS * f64::EPSILON * size);
+        let errors = [of_q, of_rate, of_third, of_z_1, of_z_2];
+        self.switch.rounding(self.law.state(q, rate), errors, &self.law.branches)
+    }
+
+    /// How fast the rate of an argument with carried states changes from rest, and what its rate is known to where the velocity is known to
+    /// an error.
+    fn second_rate_from_rest(&self, [q, rate, second]: Place, of_rate: f64) -> (f64, f64) {
+        let state = self.law.state(q, rate);
+        let [.., first, last] = self.law.follows(state, &self.law.branches);
+        let rates = [second, 0.0, 0.0, first * second, last * second];
+        let (_, second) = self.switch.argument_and_rate(state, rates, &self.law.branches);
+        (second, of_rate * first.abs().max(last.abs()).max(1.0))
     }
 
     /// The side that the argument is on, or, where it is zero to its rounding, goes to; `None` if it stays zero.
@@ -105,9 +143,13 @@ impl Turn<'_> {
         if argument.abs() > self.rounding(place, errors) {
             return Some(Branch::of(argument));
         }
-        // From rest, a displacement goes where it is accelerated to.
+        // From rest, a displacement goes where it is accelerated to, and so does a state that follows the velocity.
         let [_, of_rate] = errors;
-        let second = if let Path::Displacement(_) = self.path() { place[2] } else { 0.0 };
+        let (second, of_rate) = match self.path() {
+            Path::Displacement(_) => (place[2], of_rate),
+            _ if self.depends_on_states() => self.second_rate_from_rest(place, of_rate),
+            _ => (0.0, of_rate),
+        };
         let along = if rate.abs() > of_rate { rate } else { second };
         Some(Branch::of(along)).filter(|side| *side != Branch::Zero)
     }

@@ -68,6 +68,7 @@ impl<O: Observer> Run<O> {
                 plastic_displacement_m: self.plastic_displacement_m(),
                 crushed_rad: self.wall.crushed_rad(self.now.position),
                 largest_displacement_m: self.largest_displacement_m(),
+                carried: self.carried.as_ref().map(|carried| carried.now),
             },
         }
     }

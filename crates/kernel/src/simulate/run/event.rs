@@ -41,10 +41,14 @@ impl<O: Observer> Run<O> {
         }
         let from_s = self.offset_s;
         let motion = Quintic::new(&step.start, &step.end, step.h);
-        let end_force = self.wall.smallest_reserve(self.contact, reactions);
+        let end_force = match self.shares_load_at_rest() {
+            true => Some(self.reserve_at_rest(piece.at(from_s + step.h))),
+            false => self.wall.smallest_reserve(self.contact, reactions),
+        };
         let corner_force = (self.corner_force, end_force);
         let event = self.first_event(&motion, corner_force, piece, from_s);
-        let kink = first_kink(&self.wall, self.contact, &step.start, &step.end, step.h);
+        let carried = self.carried.as_ref().map(|carried| &carried.step);
+        let kink = first_kink(&self.wall, self.contact, [&step.start, &step.end], step.h, carried);
         let kink = kink.map(|(kink, share)| (Event::Kink(kink), share));
         // What happens to the joints goes first.
         let event = event.map(|(event, share)| (self.on_edges(event.into()), share));
@@ -116,6 +120,9 @@ impl<O: Observer> Run<O> {
     }
 
     fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
+        if self.carried.is_some() {
+            return self.corner_force_with_states(motion, share, ground);
+        }
         let equations = self.wall.motion(self.contact);
         let (_, reactions) =
             equations.rate_and_reactions_at(motion.position(share), motion.velocity(share), ground);
@@ -125,11 +132,13 @@ impl<O: Observer> Run<O> {
     /// Requests a step up to the event.
     fn approach_event(&mut self, event: Event, share: f64, piece: &Piece, whole_s: f64) -> Result<(), Stop> {
         if let (Event::Bed(change), true) = (event, share == 0.0) {
+            self.rewind_states();
             let from_s = self.offset_s;
             self.progress(0.0, piece.start_s + from_s)?;
             return self.change_contact(change, piece.at(from_s), piece.start_s + from_s);
         }
         if let (Event::Kink(kink), true) = (event, share == 0.0) {
+            self.rewind_states();
             let from_s = self.offset_s;
             return self.pass_kink(kink, piece.at(from_s), piece.start_s + from_s);
         }
@@ -220,11 +229,13 @@ impl<O: Observer> Run<O> {
             if late_s.abs() <= SHORT * self.ground.step_s() {
                 step.end = step.end.after(-late_s);
                 step.h -= late_s;
+                self.move_end_of_states(-late_s);
                 let reactions =
                     self.reactions_after(reactions, -late_s, &step.end, piece.at(self.offset_s + step.h));
                 return self.apply_event(event, piece, step, &reactions);
             } else if h > 0.0 && h < 2.0 * step.h {
                 let (gap, corrections) = (gap.abs(), corrections + 1);
+                self.refine_states();
                 self.task = Task::RefineEvent { event, h, most_s, step: *step, gap, corrections };
                 return Ok(());
             }
