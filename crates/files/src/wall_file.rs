@@ -96,10 +96,16 @@ pub fn load_wall(path: &Path) -> Result<Wall> {
 /// Reads a wall file for a static check, which counts forces at the top but no moments of formulas at joints.
 ///
 /// # Errors
-/// As [`load_wall`]; a formula at a joint.
+/// As [`load_wall`]; a formula at a joint; one with a carried state.
 pub fn load_static_wall(path: &Path) -> Result<Wall> {
     let wall = load_wall(path)?;
     let at_joint = |formula: &&Formula| matches!(formula.place(), Place::Ground | Place::Crack);
+    let carries = |formula: &&Formula| !formula.states().is_empty();
+    if let Some(formula) = wall.parameters().formulas.iter().find(carries) {
+        let found = format!("the force `{formula}` with a carried state");
+        let allowed = "formulas without states: a static check has no time in which they change";
+        return Err(InputError::key(path, "effects", found, allowed).into());
+    }
     match wall.parameters().formulas.iter().find(at_joint) {
         Some(formula) => {
             let found = format!("the moment `{formula}` at the {}", formula.place().name());
@@ -336,6 +342,79 @@ mod tests {
             let text = format!("{FEWEST}{friction}{}", FORMULA.replacen(found, put, 1));
             let message = read(&text).expect_err(&text).to_string();
             assert!(parts.iter().all(|part| message.contains(part)), "{parts:?} in: {message}");
+        }
+    }
+
+    const CARRIED: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-z\"\n\
+        [effects.states.z]\nrate = \"k*v - z/tau\"\nstart = 0.0\nunit = \"N\"\n\
+        [effects.parameters]\nk = { value = 2e4, unit = \"N/m\" }\ntau = { value = 0.3, unit = \"s\" }\n";
+
+    #[test]
+    fn analytic_a_formula_with_a_state_is_written_as_it_was_read() {
+        let bouc_wen = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-k*z\"\n[effects.states.z]\n\
+            rate = \"v - (b*abs(v)*abs(z)**(n - 1)*z + g*v*abs(z)**n)\"\nstart = 1e-3\nunit = \"m\"\n\
+            range = [-0.5, 0.5]\n[effects.parameters]\nk = { value = 2e4, unit = \"N/m\" }\n\
+            b = { value = 50.0, unit = \"m**(-n)\" }\ng = { value = 50.0, unit = \"m**(-n)\" }\nn = { value = 1.5, unit = \"1\" }\n";
+        for law in [CARRIED, bouc_wen] {
+            let wall = read(&format!("{FEWEST}{law}")).expect("a wall");
+            #[derive(Serialize)]
+            struct Laws {
+                effects: Vec<FurtherLaw>,
+            }
+            let text = toml::to_string(&Laws { effects: wall.further_laws() }).expect("a table");
+            assert_eq!(read(&format!("{FEWEST}{text}")).expect(&text), wall, "{text}");
+            let table = toml::from_str(&format!("{FEWEST}{law}")).expect("TOML");
+            assert_eq!(*wall_from_table(Path::new("wall.toml"), table).expect("a wall").parameters(), wall);
+        }
+        // Bounded by its rate too, as it is written by Bouc and Wen.
+        read(&format!("{FEWEST}{}", bouc_wen.replace("range = [-0.5, 0.5]\n", ""))).expect("a wall");
+    }
+
+    #[test]
+    fn rejects_states_with_file_key_and_what_is_allowed() {
+        for (found, put, parts) in [
+            ("k*v - z/tau", "k*x - z/tau", &["`k*x` in N and `z/tau` in N/s", "in `states.z.rate`"][..]),
+            ("k*v - z/tau", "k*x*tau/tau", &["`k*x*tau/tau` in N in `states.z.rate`", "allowed: N/s"]),
+            (
+                "k*v - z/tau",
+                "k*v - y/tau",
+                &["unknown name `y` in `states.z.rate`", "x, v, x_max, z, k, tau"],
+            ),
+            ("rate = \"k*v - z/tau\"\n", "", &["no `rate` for `states.z`", "[effects.states.NAME]"]),
+            ("start = 0.0\n", "", &["no `start` for `states.z`"]),
+            ("unit = \"N\"\n", "", &["no `unit` for `states.z`"]),
+            ("unit = \"N\"\n", "unit = \"kN\"\n", &["`kN` in `kN` in `states.z.unit`"]),
+            ("start = 0.0", "start = 0.0\nend = 1.0", &["`end` = 1 for `states.z`"]),
+            (
+                "start = 0.0",
+                "start = 2.0\nrange = [-1.0, 1.0]",
+                &["2 in `states.z.start`", "within the range"],
+            ),
+            ("start = 0.0", "start = 0.0\nrange = [1.0, -1.0]", &["[1, -1] in `states.z.range`"]),
+            ("states.z", "states.v", &["a state `v`", "no variable and no function"]),
+            ("states.z", "states.tau", &["a state `tau` beside a parameter of that name"]),
+            ("-z", "-k*x", &["`z`, which the formula does not use", "states of the formula"]),
+            (
+                "k*v - z/tau",
+                "k*v - z/tau - k*x*(z > 0)/tau",
+                &["carried state", "jumps", "effects.0.force_n"],
+            ),
+            (
+                "k*v - z/tau",
+                "k*v + z/tau",
+                &["effects.0.states.z.rate", "no size of z is shown to bound", "range ="],
+            ),
+            ("k*v - z/tau", "k*v - z/tau + k*sign(v)*x/tau", &["a rate that jumps where v passes a value"]),
+            (
+                "place = \"top\"\nforce_n = \"-z\"",
+                "place = \"crack\"\nmoment_n_m = \"-z\"",
+                &["a carried state at crack"],
+            ),
+        ] {
+            assert!(CARRIED.contains(found), "{found}");
+            let message =
+                read(&format!("{FEWEST}{}", CARRIED.replacen(found, put, 1))).expect_err(put).to_string();
+            assert!(parts.iter().all(|part| message.contains(part)), "{put}: {parts:?} in: {message}");
         }
     }
 

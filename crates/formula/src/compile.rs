@@ -21,9 +21,7 @@ pub(crate) fn compile(
     let mut compiler = Compiler { variables, values, switches: Vec::new() };
     let tape = compiler.whole(expression)?;
     let terms = compiler.terms(expression)?;
-    let rate = |rate: &Expression| {
-        Ok(RateTape { tape: compiler.whole(rate)?, terms: compiler.terms(rate)? })
-    };
+    let rate = |rate: &Expression| Ok(RateTape { tape: compiler.whole(rate)?, terms: compiler.terms(rate)? });
     let rates = rates.iter().map(rate).collect::<Result<Vec<_>, FormulaError>>()?;
     Ok(Program { tape, switches: compiler.switches, terms, rates })
 }

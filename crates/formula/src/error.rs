@@ -9,7 +9,7 @@ pub struct FormulaError {
     /// The parameter at fault, where it is not the formula.
     pub parameter: Option<String>,
     /// The carried state at fault, and its key.
-    pub state: Option<(String, &'static str)>,
+    pub state: Option<Box<(String, &'static str)>>,
     /// What was found.
     pub found: String,
     /// What is allowed.
@@ -37,13 +37,13 @@ impl FormulaError {
     /// Of a key of a carried state.
     pub(crate) fn of_state(self, name: &str, key: &'static str) -> Self {
         // A parameter that is at fault is named before the state that uses it.
-        let state = self.parameter.is_none().then(|| (name.to_owned(), key));
+        let state = self.parameter.is_none().then(|| Box::new((name.to_owned(), key)));
         Self { state, ..self }
     }
 
     /// The key at fault within the formula of a wall file, whose own key is given.
     pub fn key(&self, own: &str) -> String {
-        match (&self.parameter, &self.state) {
+        match (&self.parameter, self.state.as_deref()) {
             (Some(name), _) => format!("parameters.{name}"),
             (None, Some((name, ""))) => format!("states.{name}"),
             (None, Some((name, key))) => format!("states.{name}.{key}"),

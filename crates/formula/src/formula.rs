@@ -166,9 +166,7 @@ impl Formula {
         parameters.sort_by(|a, b| a.name.cmp(&b.name));
         states.sort_by(|a, b| a.name.cmp(&b.name));
         check_states(place, &states)?;
-        let of_state = |state: &CarriedState| {
-            parse(&state.rate).map_err(|e| e.of_state(&state.name, "rate"))
-        };
+        let of_state = |state: &CarriedState| parse(&state.rate).map_err(|e| e.of_state(&state.name, "rate"));
         let parsed_rates = states.iter().map(of_state).collect::<Result<Vec<_>, _>>()?;
         let rates: Vec<_> = parsed_rates.iter().map(|rate| rate.expression.clone()).collect();
         for (state, rate) in states.iter_mut().zip(&rates) {
@@ -308,7 +306,11 @@ fn check_states(place: Place, states: &[CarriedState]) -> Result<(), FormulaErro
         };
         if place != Place::Top {
             let found = format!("a carried state at {}", place.name());
-            return refused(found, "states of a force at the top: a closed joint bears what it must, whatever a law carries", "");
+            return refused(
+                found,
+                "states of a force at the top: a closed joint bears what it must, whatever a law carries",
+                "",
+            );
         }
         if let Some(problem) = problem_of_name(name) {
             return refused(format!("a state `{name}`"), problem, "");
@@ -321,7 +323,11 @@ fn check_states(place: Place, states: &[CarriedState]) -> Result<(), FormulaErro
         }
         if let Some([least, most]) = range {
             if !(least.is_finite() && most.is_finite() && least < most) {
-                return refused(format!("[{least}, {most}]"), "a finite least and a larger largest value", "range");
+                return refused(
+                    format!("[{least}, {most}]"),
+                    "a finite least and a larger largest value",
+                    "range",
+                );
             }
             if !(least..=most).contains(&start) {
                 return refused(format!("{start}"), "a start within the range", "start");
@@ -356,14 +362,14 @@ fn check_names(
 ) -> Result<(), FormulaError> {
     let has = |name: &str| expression.has(name) || rates.iter().any(|rate| rate.has(name));
     for (i, CarriedState { name, .. }) in states.iter().enumerate() {
+        if parameters.iter().any(|parameter| parameter.name == *name) {
+            let found = format!("a state `{name}` beside a parameter of that name");
+            return Err(FormulaError::new(None, found, "each name once").of_state(name, ""));
+        }
         let of_others = rates.iter().enumerate().any(|(j, rate)| j != i && rate.has(name));
         if !expression.has(name) && !of_others {
             let found = format!("`{name}`, which the formula does not use");
             return Err(FormulaError::new(None, found, "states of the formula").of_state(name, ""));
-        }
-        if parameters.iter().any(|parameter| parameter.name == *name) {
-            let found = format!("a state `{name}` beside a parameter of that name");
-            return Err(FormulaError::new(None, found, "each name once").of_state(name, ""));
         }
     }
     if parameters.len() > MOST_PARAMETERS {

@@ -183,13 +183,7 @@ fn at_velocity(
 
 /// By how much the value rises over a switch, over a range in which it turns. `None` where its sign is not
 /// known.
-fn step_over(
-    terms: &[Tape],
-    index: usize,
-    at: &Over,
-    whole: &Over,
-    halvings: usize,
-) -> Option<Interval> {
+fn step_over(terms: &[Tape], index: usize, at: &Over, whole: &Over, halvings: usize) -> Option<Interval> {
     let over: State<Interval> = at.intervals();
     let [above, below] = sides(index);
     // Terms without the switch are the same on both sides.

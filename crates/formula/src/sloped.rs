@@ -108,7 +108,11 @@ mod tests {
     fn analytic_a_slope_lies_within_that_of_its_interval() {
         let of = |x: Sloped| {
             let two = Sloped::constant(2.0);
-            x.abs().pow(Sloped::constant(1.5)).mul(x.tanh()).add(x.powi(3).div(two.add(x.exp()))).add(x.atan())
+            x.abs()
+                .pow(Sloped::constant(1.5))
+                .mul(x.tanh())
+                .add(x.powi(3).div(two.add(x.exp())))
+                .add(x.atan())
         };
         for k in -20..20 {
             let (low, high) = (f64::from(k) * 0.1, f64::from(k) * 0.1 + 0.1);
@@ -118,7 +122,10 @@ mod tests {
                 let (x, h) = (low + 0.01 * f64::from(i), 1e-6);
                 let slope = (value(x + h) - value(x - h)) / (2.0 * h);
                 // Roundings over a difference of a millionth.
-                assert!(over.slope.low - 1e-8 <= slope && slope <= over.slope.high + 1e-8, "{x}: {slope} {over:?}");
+                assert!(
+                    over.slope.low - 1e-8 <= slope && slope <= over.slope.high + 1e-8,
+                    "{x}: {slope} {over:?}"
+                );
                 assert!(over.value.low <= value(x) && value(x) <= over.value.high, "{x}");
             }
         }

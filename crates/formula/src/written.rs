@@ -3,8 +3,8 @@
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use crate::formula::{Formula, Parameter};
 use crate::carried::CarriedState;
+use crate::formula::{Formula, Parameter};
 
 /// Parameters by name, in their order.
 struct Parameters<'a>(&'a [Parameter]);
@@ -29,9 +29,10 @@ struct State<'a> {
 
 impl Serialize for States<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let states = self.0.iter().map(|s| {
-            (&s.name, State { rate: &s.rate, start: s.start, unit: &s.unit, range: s.range })
-        });
+        let states = self
+            .0
+            .iter()
+            .map(|s| (&s.name, State { rate: &s.rate, start: s.start, unit: &s.unit, range: s.range }));
         serializer.collect_map(states)
     }
 }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 
-use mrbd_formula::{Expression, Formula, Function, Operator, Parameter, Place, Range};
+use mrbd_formula::{CarriedState, Expression, Formula, Function, Operator, Parameter, Place, Range};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -49,6 +49,37 @@ fn formula(expression: Expression) -> Option<Formula> {
     let used = all.into_iter().filter(|(name, ..)| force.has(name));
     let used: Vec<_> = used.map(|(name, value, unit)| Parameter::new(name, value, unit)).collect();
     Formula::parse(&force.to_string(), Place::Top, &used).ok()
+}
+
+/// A force of a state that changes by an expression of it, x and v.
+fn carrying(expression: Expression) -> Option<Formula> {
+    let rate = Expression::binary(Operator::Multiply, Expression::name("r"), with_state(expression));
+    let all = [("F", 2.0, "N"), ("r", 3.0, "m/s"), ("g", 0.03, "m"), ("s", 0.4, "m/s"), ("p", 1.7, "1")];
+    let used = all.into_iter().filter(|(name, ..)| *name == "F" || *name == "g" || rate.has(name));
+    let used: Vec<_> = used.map(|(name, value, unit)| Parameter::new(name, value, unit)).collect();
+    let state = CarriedState {
+        name: "z".to_owned(),
+        rate: rate.to_string(),
+        start: 0.0,
+        unit: "m".to_owned(),
+        range: None,
+    };
+    Formula::parse_with_states("-F*z/g", Place::Top, &used, &[state]).ok()
+}
+
+/// The parameter p, a pure number, becomes z/g.
+fn with_state(e: Expression) -> Expression {
+    let of = |part: Box<Expression>| Box::new(with_state(*part));
+    match e {
+        Expression::Name(name) if name == "p" => {
+            Expression::binary(Operator::Divide, Expression::name("z"), Expression::name("g"))
+        }
+        Expression::Negative(a) => Expression::Negative(of(a)),
+        Expression::Binary(operator, a, b) => Expression::Binary(operator, of(a), of(b)),
+        Expression::Of(function, a) => Expression::Of(function, of(a)),
+        Expression::OfTwo(function, a, b) => Expression::OfTwo(function, of(a), of(b)),
+        other => other,
+    }
 }
 
 fn same(a: f64, b: f64) -> bool {
@@ -118,9 +149,34 @@ proptest! {
     }
 
     #[test]
+    fn analytic_a_state_that_is_shown_bounded_never_leaves(e in expressions(), decay in 0.0..3.0_f64, moves in prop::collection::vec((0.0..=1.0_f64, 0.0..=1.0_f64), 40)) {
+        // Most rates bound nothing: one that draws back, too.
+        let back = Expression::binary(Operator::Multiply, Expression::Number(decay.exp()), Expression::name("p"));
+        for rate in [e.clone(), Expression::binary(Operator::Subtract, e, back)] {
+            let Some(law) = carrying(rate) else { continue };
+            let again = Formula::parse_with_states(&law.to_string(), Place::Top, law.parameters(), law.states());
+            prop_assert_eq!(again.as_ref(), Ok(&law));
+            let (Ok(_), Ok(ranges)) = (law.check(&RANGE), law.state_ranges(&RANGE)) else { continue };
+            let [least, most] = ranges[0];
+            for (a, b) in &moves {
+                for end in [least, most] {
+                    let state = [-0.5 + a, -10.0 + 20.0 * b, 0.0, end, 0.0];
+                    let [rate, _] = law.program().state_rates(state, &mrbd_formula::Branches::FREE);
+                    prop_assert!(rate.is_finite() && rate * end.signum() <= 0.0, "{} at {:?}: {}", law.states()[0].rate, state, rate);
+                }
+                let inside = [-0.5 + b, -10.0 + 20.0 * a, 0.0, least + (most - least) * b, 0.0];
+                let [rate, _] = law.program().state_rates(inside, &mrbd_formula::Branches::FREE);
+                prop_assert!(rate.is_finite() && law.value_with_states(inside).is_finite(), "{} at {:?}", law.states()[0].rate, inside);
+            }
+        }
+    }
+
+    #[test]
     fn rejects_or_reads_any_text(bytes in prop::collection::vec(any::<u8>(), 0..120)) {
         let text = String::from_utf8_lossy(&bytes);
         let _ = Formula::parse(&text, Place::Top, &[Parameter::new("k", 1.0, &text)]);
+        let state = CarriedState { name: "z".to_owned(), rate: text.to_string(), start: 0.0, unit: text.to_string(), range: None };
+        let _ = Formula::parse_with_states(&text, Place::Top, &[], &[state]);
     }
 
     #[test]

@@ -135,7 +135,8 @@ fn analytic_a_frozen_branch_goes_on_beyond_its_end() {
     let law = good("-k*max(0, x - g)");
     let closed = Branches::FREE.with(0, Branch::Positive);
     let open = Branches::FREE.with(0, Branch::Negative);
-    let value = |x: f64, branches: &Branches| law.program().value(mrbd_formula::state([x, 0.0, 0.0]), branches);
+    let value =
+        |x: f64, branches: &Branches| law.program().value(mrbd_formula::state([x, 0.0, 0.0]), branches);
     assert_eq!(value(0.0, &closed), 370.0);
     assert_eq!(value(0.02, &open), 0.0);
     // No root is beyond the end of a branch.

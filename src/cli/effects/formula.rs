@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Example, indented, lines_of};
-use mrbd_formula::{Formula, FormulaError, Function, Parameter, Place};
+use mrbd_formula::{CarriedState, Formula, FormulaError, Function, Parameter, Place};
 
 /// A formula as an entry beside those of the catalogue.
 #[derive(Debug, Serialize)]
@@ -12,6 +12,7 @@ pub struct FormulaEntry {
     places: Vec<PlaceEntry>,
     operators: &'static str,
     functions: Vec<&'static str>,
+    states: &'static str,
     law: &'static str,
     description: &'static str,
     told_by: &'static str,
@@ -31,6 +32,8 @@ const DESCRIPTION: &str = "A force at the top, a moment at a joint or a factor a
                            met exactly, and a jump against the motion at v = 0 is friction. What Python reads, it reads \
                            the same way; a comparison is 0 or 1. The acceleration a stands for a mass: `carriage_mass` has it.";
 const OPERATORS: &str = "+ - * / ** < <= > >=";
+const STATES: &str = "A force at the top may carry up to two states along, numbers with a rate of their own: each with `rate`, `start`, `unit` and, where \
+                      its rate does not bound it, `range`.";
 const TOLD_BY: &str = "a test at another amplitude: formulas that agree in one range part beyond it";
 
 impl FormulaEntry {
@@ -59,6 +62,7 @@ impl FormulaEntry {
             places: Vec::from(places),
             operators: OPERATORS,
             functions: Function::ALL.map(Function::name).to_vec(),
+            states: STATES,
             law: LAW,
             description: DESCRIPTION,
             told_by: TOLD_BY,
@@ -80,6 +84,10 @@ impl FormulaEntry {
         // The example is a formula, as the test below shows.
         let text = example().ok().and_then(|law| toml::to_string(&Example { effects: [law] }).ok());
         lines.push(lines_of(&text.unwrap_or_default()));
+        lines.push(indented(self.states));
+        lines.push("  A spring behind a damper, Maxwell's:\n".to_owned());
+        let text = with_a_state().ok().and_then(|law| toml::to_string(&Example { effects: [law] }).ok());
+        lines.push(lines_of(&text.unwrap_or_default()));
         lines.join("\n")
     }
 }
@@ -93,6 +101,18 @@ fn example() -> Result<Formula, FormulaError> {
     Formula::parse("-k*x - c*abs(v)**p*sign(v)", Place::Top, &parameters)
 }
 
+fn with_a_state() -> Result<Formula, FormulaError> {
+    let parameters = [Parameter::new("k", 20e3, "N/m"), Parameter::new("tau", 0.3, "s")];
+    let state = CarriedState {
+        name: "z".to_owned(),
+        rate: "k*v - z/tau".to_owned(),
+        start: 0.0,
+        unit: "N".to_owned(),
+        range: None,
+    };
+    Formula::parse_with_states("-z", Place::Top, &parameters, &[state])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -101,5 +121,6 @@ mod tests {
     fn analytic_the_example_is_a_formula() {
         let text = FormulaEntry::new().for_people();
         assert!(example().is_ok() && text.contains("force_n = \"-k*x - c*abs(v)**p*sign(v)\""), "{text}");
+        assert!(with_a_state().is_ok() && text.contains("rate = \"k*v - z/tau\""), "{text}");
     }
 }

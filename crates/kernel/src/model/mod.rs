@@ -41,7 +41,7 @@ pub use effect::{
     Effect, EffectChoice, EffectEntry, EffectError, EffectKind, EffectParameter, EffectVariant, FurtherLaw,
     Lanes, Place, Quantity, Reading, Role,
 };
-pub use formula::{CarriedStates, MOST_CARRIED};
+pub use formula::{CarriedStates, MOST_CARRIED, TopMove};
 pub(crate) use formula::{Path, Turn};
 pub use geometry::Pair;
 pub use impact::Impact;

@@ -247,7 +247,8 @@ impl<O: Observer> Run<O> {
         self.totals.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
-        self.corner_force = if self.shares_load_at_rest() { Some(self.reserve_at_rest(ground)) } else { reserve };
+        self.corner_force =
+            if self.shares_load_at_rest() { Some(self.reserve_at_rest(ground)) } else { reserve };
         self.top_velocity_m_s = top_velocity_m_s;
         Ok(())
     }
@@ -280,7 +281,11 @@ impl<O: Observer> Run<O> {
         if self.wall.rests_in(contact) && (piecewise_laws.remembers() || self.carried.is_some()) {
             // A spring that has yielded leans on the wall at rest, and so may a carried state.
             let Regime { plastic_m, largest_m, .. } = self.wall.regime();
-            self.wall.enter_regime_of_state(contact, &state, TopMemory { plastic_m, largest_m, carried: None });
+            self.wall.enter_regime_of_state(
+                contact,
+                &state,
+                TopMemory { plastic_m, largest_m, carried: None },
+            );
             self.rest = RestLimits::new(&self.wall);
         }
         let rest_reserve = self.rest.reserve(ground);

@@ -7,7 +7,9 @@ use super::rest::RestLimits;
 use super::run::Run;
 use super::side_by_side::Prepared;
 use super::{Accuracy, Shaking};
-use crate::model::{CarriedStates, Contact, Joint, Pivot, RockingWall, State, TopMemory, Vector, Wall, opening};
+use crate::model::{
+    CarriedStates, Contact, Joint, Pivot, RockingWall, State, TopMemory, Vector, Wall, opening,
+};
 use crate::solver::{Controller, ErrorScale};
 
 /// Error of a step allowed, as a share of the error of a run. Impacts magnify what is there before them. With

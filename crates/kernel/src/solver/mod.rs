@@ -10,8 +10,8 @@ mod controller;
 mod nystrom;
 mod quintic;
 
-pub(crate) use beside::Beside;
 pub use bernstein::Bernstein;
+pub(crate) use beside::Beside;
 pub(crate) use controller::ErrorRow;
 pub use controller::{Controller, ErrorScale};
 pub use nystrom::{Field, Nystrom, Rate, STAGES, Step, Stride, Values};

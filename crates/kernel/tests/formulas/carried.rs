@@ -88,13 +88,11 @@ fn carried(response: &Response) -> f64 {
 fn analytic_a_state_is_its_rate_along_the_motion_through_impacts_and_rest() {
     let (k, tau, y) = (20e3, 0.3, 0.01);
     let relaxes = move |_: f64, v: f64, z: f64| k * v - z / tau;
-    let loops = move |_: f64, v: f64, z: f64| {
-        v - (z / y).abs().powf(1.6) * (0.7 * v.abs() * z.signum() + 0.3 * v)
-    };
-    for (law, rate, size) in [
-        (maxwell(k, tau), &relaxes as &dyn Fn(f64, f64, f64) -> f64, 100.0),
-        (bouc_wen(30e3, y), &loops, y),
-    ] {
+    let loops =
+        move |_: f64, v: f64, z: f64| v - (z / y).abs().powf(1.6) * (0.7 * v.abs() * z.signum() + 0.3 * v);
+    for (law, rate, size) in
+        [(maxwell(k, tau), &relaxes as &dyn Fn(f64, f64, f64) -> f64, 100.0), (bouc_wen(30e3, y), &loops, y)]
+    {
         let wall = with_formulas(std::slice::from_ref(&law), table_wall());
         let mut along = Along { wall: RockingWall::new(&wall), rate, z: 0.0, at_rest_s: 0.0 };
         let response = simulate_observed(&wall, &shaking(1.0), ACCURACY, &mut along);
@@ -157,9 +155,8 @@ fn analytic_a_block_with_a_state_moves_as_an_integrator_of_its_own_says() {
     let pulls = |_: f64, z: f64| -z;
     let relaxes = move |_: f64, v: f64, z: f64| k * v - z / tau;
     let yields = move |_: f64, z: f64| -k * z;
-    let loops = move |_: f64, v: f64, z: f64| {
-        v - (z / y).abs().powf(1.6) * (0.7 * v.abs() * z.signum() + 0.3 * v)
-    };
+    let loops =
+        move |_: f64, v: f64, z: f64| v - (z / y).abs().powf(1.6) * (0.7 * v.abs() * z.signum() + 0.3 * v);
     for (law, force_n, rate) in [
         (maxwell(k, tau), &pulls as &dyn Fn(f64, f64) -> f64, &relaxes as &dyn Fn(f64, f64, f64) -> f64),
         (bouc_wen(k, y), &yields, &loops),
@@ -171,7 +168,11 @@ fn analytic_a_block_with_a_state_moves_as_an_integrator_of_its_own_says() {
         let left = response.left;
         let state = left.state;
         // The tolerance of the run over rotations, velocities and the state of this size.
-        assert!((state.theta[0] - theta).abs() < 1e-10 && theta > 1e-3, "{law}: {} and {theta}", state.theta[0]);
+        assert!(
+            (state.theta[0] - theta).abs() < 1e-10 && theta > 1e-3,
+            "{law}: {} and {theta}",
+            state.theta[0]
+        );
         assert!((state.omega[0] - omega).abs() < 1e-9, "{law}: {} and {omega}", state.omega[0]);
         assert!((carried(&response) - z).abs() < 1e-8 * z.abs(), "{law}: {} and {z}", carried(&response));
     }
@@ -183,7 +184,12 @@ fn analytic_a_looser_run_with_a_state_is_as_near_as_its_tolerance_says() {
         let [loose, middle, tight] = [1e-4, 1e-7, 1e-11].map(|tolerance| released_for(&law, 0.5, tolerance));
         let off = |run: &Response| (run.left.state.theta[0] - tight.left.state.theta[0]).abs();
         let alpha = 0.1;
-        assert!(off(&loose) < 1e-4 * alpha && off(&middle) < 1e-7 * alpha, "{law}: {} and {}", off(&loose), off(&middle));
+        assert!(
+            off(&loose) < 1e-4 * alpha && off(&middle) < 1e-7 * alpha,
+            "{law}: {} and {}",
+            off(&loose),
+            off(&middle)
+        );
     }
 }
 
@@ -294,8 +300,9 @@ fn analytic_a_window_and_a_sequence_go_on_with_the_state() {
 
 #[test]
 fn analytic_walls_with_states_go_beside_others_with_the_same_bits() {
-    let walls = [maxwell(20e3, 0.3), formula(Place::Top, "-c*v", &[("c", 800.0, "N*s/m")]), bouc_wen(30e3, 0.01)]
-        .map(|law| with_formulas(&[law], table_wall()));
+    let walls =
+        [maxwell(20e3, 0.3), formula(Place::Top, "-c*v", &[("c", 800.0, "N*s/m")]), bouc_wen(30e3, 0.01)]
+            .map(|law| with_formulas(&[law], table_wall()));
     let alone = walls.each_ref().map(|wall| simulate(wall, &shaking(1.0), ACCURACY));
     let mut waiting = walls.iter().cycle().take(9).enumerate();
     let mut next =
@@ -325,7 +332,8 @@ fn rejects_states_that_cannot_be_followed() {
         unit: "m".to_owned(),
         range,
     };
-    let of = |range| Formula::parse_with_states("-k*z", Place::Top, &own, &[state(range)]).expect("a formula");
+    let of =
+        |range| Formula::parse_with_states("-k*z", Place::Top, &own, &[state(range)]).expect("a formula");
     let wall = with_formulas(&[of(Some([-1e-4, 1e-4]))], table_wall());
     match simulate(&wall, &shaking(1.0), ACCURACY).outcome {
         Outcome::Failed { reason, .. } => assert!(reason.contains("left its range"), "{reason}"),

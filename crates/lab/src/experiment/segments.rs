@@ -16,7 +16,7 @@ use super::misfit::{Sample, Target};
 use super::pattern::Freedom;
 use super::rotations::Sampled;
 use crate::least_squares::newton_step;
-use mrbd_kernel::model::{Contact, Pair, Pivot, State};
+use mrbd_kernel::model::{CarriedStates, Contact, Pair, Pivot, RockingWall, State, TopMove};
 use mrbd_kernel::simulate::{Outcome, Simulator, Start};
 
 /// An opening counts as one when it is this many standard deviations of the noise.
@@ -58,9 +58,11 @@ impl Segment {
 pub(crate) fn segments(target: &Target, simulator: &Simulator) -> Vec<Segment> {
     let samples = target.samples();
     let noise_rad = target.noise_rad();
+    let carried = carried_along(samples, simulator.wall());
     let start = |stretch: Stretch| {
         let part = &samples[stretch.first..stretch.end];
-        let fit = StartFit::new(simulator, part, stretch.contact, noise_rad);
+        let carried = carried.get(stretch.first).copied();
+        let fit = StartFit { carried, ..StartFit::new(simulator, part, stretch.contact, noise_rad) };
         fit.start().map(|start| (start, stretch))
     };
     let starts =
@@ -74,6 +76,29 @@ pub(crate) fn segments(target: &Target, simulator: &Simulator) -> Vec<Segment> {
         Segment { start: k.checked_sub(1).map(|k| starts[k].0), end_s, samples: part.to_vec() }
     };
     (0..=starts.len()).map(segment).filter(|segment| segment.samples.len() >= 2).collect()
+}
+
+/// The carried states of the formulas of a wall along the measured motion, by sample; empty where there are none.
+fn carried_along(samples: &[Sample], wall: &RockingWall) -> Vec<CarriedStates> {
+    if !wall.carries() {
+        return Vec::new();
+    }
+    let mut carried = wall.carried_at_start();
+    let (mut before, mut largest_m) = (None::<(f64, f64)>, 0.0_f64);
+    let at = |sample: &Sample| {
+        let (theta, now_s) = (sample.theta_rad, sample.time_s);
+        if theta.iter().all(|t| t.is_finite()) {
+            let to_m = wall.top_displacement_m(Contact::of_rotations(theta), theta);
+            if let Some((time_s, from_m)) = before {
+                let top = TopMove { from_m, to_m, largest_m, time_s: now_s - time_s };
+                carried = wall.carried_after(&carried, &top);
+            }
+            largest_m = largest_m.max(to_m.abs());
+            before = Some((now_s, to_m));
+        }
+        carried
+    };
+    samples.iter().map(at).collect()
 }
 
 /// A stretch, by the numbers of its first sample and the one after its last.
@@ -133,12 +158,14 @@ struct StartFit<'a> {
     times_s: Vec<f64>,
     contact: Contact,
     noise_rad: Pair,
+    /// The carried states of formulas there.
+    carried: Option<CarriedStates>,
 }
 
 impl<'a> StartFit<'a> {
     fn new(simulator: &'a Simulator, samples: &'a [Sample], contact: Contact, noise_rad: Pair) -> Self {
         let times_s = samples.iter().map(|sample| sample.time_s).collect();
-        Self { simulator, samples, times_s, contact, noise_rad }
+        Self { simulator, samples, times_s, contact, noise_rad, carried: None }
     }
 
     /// The start; `None` where the model does not pass through the samples.
@@ -162,7 +189,7 @@ impl<'a> StartFit<'a> {
 
     fn start_in(&self, state: State) -> Start {
         let time_s = self.times_s.first().copied().unwrap_or(0.0);
-        Start { time_s, state, contact: Some(self.contact), ..Start::default() }
+        Start { time_s, state, contact: Some(self.contact), carried: self.carried, ..Start::default() }
     }
 
     /// The first sample, and the slope to the last.

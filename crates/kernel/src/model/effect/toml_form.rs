@@ -6,7 +6,7 @@ use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use mrbd_formula::{Formula, Parameter, Place};
+use mrbd_formula::{CarriedState, Formula, Parameter, Place};
 
 use super::{Effect, EffectEntry, EffectError, EffectKind};
 
@@ -39,8 +39,13 @@ impl FurtherLaw {
             FurtherLaw::Formula(formula) => {
                 let with =
                     |p: &Parameter| format!("; {} = {} {}", p.name, p.value, p.unit).trim_end().to_owned();
+                let rates = formula.states().iter().map(|s| {
+                    let unit = if s.unit.is_empty() { "1" } else { &s.unit };
+                    format!("; d{}/dt = {} from {} {unit}", s.name, s.rate, s.start)
+                });
+                let rates: String = rates.collect();
                 let numbers: String = formula.parameters().iter().map(with).collect();
-                format!("{} ({} = {formula}{numbers})", self.name(), formula.place().key())
+                format!("{} ({} = {formula}{rates}{numbers})", self.name(), formula.place().key())
             }
         }
     }
@@ -90,8 +95,7 @@ impl<'de> Visitor<'de> for LawVisitor {
 }
 
 /// Keys of a formula in wall files.
-const FORMULA_KEYS: &str =
-    "`place`, `force_n` at the top, `moment_n_m` at a joint or `factor` at impacts, `parameters`";
+const FORMULA_KEYS: &str = "`place`, `force_n` at the top, `moment_n_m` at a joint or `factor` at impacts, `parameters`, `states` at the top";
 
 /// What of a formula is wrong.
 fn refused(found: impl Into<String>, allowed: impl Into<String>) -> EffectError {
@@ -123,14 +127,43 @@ fn formula_from_items(mut items: Items) -> Result<Formula, EffectError> {
         Some(other) => return Err(refused(format!("{other} for `parameters`"), PARAMETERS)),
         None => Vec::new(),
     };
+    let states = match take("states") {
+        Some(Item::Table(items)) => items.into_iter().map(state).collect::<Result<Vec<_>, _>>()?,
+        Some(other) => return Err(refused(format!("{other} for `states`"), STATES)),
+        None => Vec::new(),
+    };
     if let Some((key, _)) = items.first() {
         return Err(refused(format!("unknown key `{key}`"), format!("one of {FORMULA_KEYS}")));
     }
-    Formula::parse(&text, place, &parameters).map_err(|e| {
-        let key =
-            e.parameter.as_ref().map_or_else(|| place.key().to_owned(), |name| format!("parameters.{name}"));
+    Formula::parse_with_states(&text, place, &parameters, &states).map_err(|e| {
+        let key = e.key(place.key());
         refused(format!("{} in `{key}`", e.found_at()), e.allowed)
     })
+}
+
+/// What a table of carried states is.
+const STATES: &str = "a table [effects.states.NAME] for each state, with rate = \"k*v - z/tau\", start = 0.0, unit = \"N\" and, \
+                      where its rate does not bound it, range = [least, largest]";
+
+fn state((name, item): (String, Item)) -> Result<CarriedState, EffectError> {
+    let wrong = |found: String| refused(format!("{found} for `states.{name}`"), STATES);
+    let Item::Table(items) = item else { return Err(wrong(item.to_string())) };
+    let (mut rate, mut start, mut unit, mut range) = (None, None, None, None);
+    for (key, item) in items {
+        match (key.as_str(), item) {
+            ("rate", Item::Word(word)) => rate = Some(word),
+            ("start", Item::Number(number)) => start = Some(number),
+            ("unit", Item::Word(word)) => unit = Some(word),
+            ("range", Item::List(ends)) if ends.len() == 2 => range = Some([ends[0], ends[1]]),
+            (key, other) => return Err(wrong(format!("`{key}` = {other}"))),
+        }
+    }
+    match (rate, start, unit) {
+        (Some(rate), Some(start), Some(unit)) => Ok(CarriedState { name, rate, start, unit, range }),
+        (None, ..) => Err(wrong("no `rate`".to_owned())),
+        (_, None, _) => Err(wrong("no `start`".to_owned())),
+        (.., None) => Err(wrong("no `unit`".to_owned())),
+    }
 }
 
 /// What a table of parameters is.

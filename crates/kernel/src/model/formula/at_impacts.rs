@@ -46,7 +46,11 @@ impl RockingWall {
         }
         let closing = |joint: super::super::contact::Joint| {
             let rate_rad_s = opening(joint, omega).abs();
-            mrbd_formula::state([self.width_m(joint) * rate_rad_s, rate_rad_s, self.wall().weights_n()[joint as usize]])
+            mrbd_formula::state([
+                self.width_m(joint) * rate_rad_s,
+                rate_rad_s,
+                self.wall().weights_n()[joint as usize],
+            ])
         };
         let touching = self.joints().filter(|joint| touching.at(*joint)).map(closing);
         let fastest = touching.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or(mrbd_formula::state([0.0; 3]));

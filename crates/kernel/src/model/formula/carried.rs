@@ -232,6 +232,51 @@ pub(super) fn check_count(laws: &[FormulaLaw]) -> Result<(), ImpossibleWall> {
     Ok(())
 }
 
+impl FormulaLaw {
+    /// The states after a displacement of the top from one place to another in a time: each by the exponential of its own decay, of
+    /// second order and stable however fast it decays.
+    fn states_after(&self, before: [f64; MOST_STATES], top: &TopMove) -> [f64; MOST_STATES] {
+        let h = top.time_s / f64::from(TopMove::PARTS);
+        let v = (top.to_m - top.from_m) / top.time_s;
+        let mut states = before;
+        for part in 0..TopMove::PARTS {
+            let share = (f64::from(part) + 0.5) / f64::from(TopMove::PARTS);
+            let x = top.from_m + share * (top.to_m - top.from_m);
+            let state = [x, v, top.largest_m.max(x.abs()), states[0], states[1]];
+            let rates = self.program.state_rates(state, &Branches::FREE);
+            for i in 0..self.states() {
+                let mut by = [0.0; 5];
+                by[3 + i] = 1.0;
+                let slope = h * self.program.rate_of_state_rate(i, state, by, &Branches::FREE);
+                // (e^s - 1)/s, which is 1 where nothing decays.
+                let lasts =
+                    if slope.is_finite() && slope.abs() > 1e-9 { libm::expm1(slope) / slope } else { 1.0 };
+                let [least, most] = self.carried.range[i];
+                states[i] = (states[i] + h * rates[i] * lasts).clamp(least, most);
+            }
+        }
+        states
+    }
+}
+
+/// A displacement of the top at a steady velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TopMove {
+    /// From where, m.
+    pub from_m: f64,
+    /// To where, m.
+    pub to_m: f64,
+    /// The largest |x_C| before, m.
+    pub largest_m: f64,
+    /// Time that it takes, s, above zero.
+    pub time_s: f64,
+}
+
+impl TopMove {
+    /// Parts in which states are followed over a move.
+    const PARTS: u32 = 4;
+}
+
 impl Motion {
     /// Puts the carried states.
     pub(crate) fn put_carried(&mut self, carried: &CarriedStates) {
@@ -248,7 +293,7 @@ impl Motion {
 impl RockingWall {
     /// Whether a formula has a carried state.
     #[inline]
-    pub(crate) fn carries(&self) -> bool {
+    pub fn carries(&self) -> bool {
         self.formulas().carry()
     }
 
@@ -261,6 +306,29 @@ impl RockingWall {
     /// How fast the carried states change.
     pub(crate) fn carried_rates(&self, contact: Contact, theta: Pair, omega: Pair) -> CarriedStates {
         self.motion(contact).carried_rates([theta, omega])
+    }
+
+    /// The carried states as they start.
+    pub fn carried_at_start(&self) -> CarriedStates {
+        let start =
+            self.wall().formulas.iter().flat_map(|law| law.carried.now.into_iter().take(law.states()));
+        let mut carried = [0.0; MOST_CARRIED];
+        carried.iter_mut().zip(start).for_each(|(own, start)| *own = start);
+        carried
+    }
+
+    /// The carried states after a displacement of the top, such as a measured one between two samples; `before` it they are these.
+    /// Approximately: a run follows them far better.
+    pub fn carried_after(&self, before: &CarriedStates, top: &TopMove) -> CarriedStates {
+        let mut after = *before;
+        let mut first = 0;
+        for law in &self.formulas.laws {
+            let own = std::array::from_fn(|i| if i < law.states() { before[first + i] } else { 0.0 });
+            let states = law.states_after(own, top);
+            after[first..first + law.states()].copy_from_slice(&states[..law.states()]);
+            first += law.states();
+        }
+        after
     }
 
     /// The equations of a contact state, to be moved with other states.

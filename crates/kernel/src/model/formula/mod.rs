@@ -18,7 +18,7 @@ mod laws;
 mod switches;
 
 pub(crate) use at_impacts::ImpactFactors;
-pub use carried::{CarriedStates, MOST_CARRIED};
+pub use carried::{CarriedStates, MOST_CARRIED, TopMove};
 pub(in crate::model) use check::checked;
 pub(crate) use lanes::FormulaRow;
 pub(in crate::model) use lanes::{FormulaLanes, angles};

@@ -104,7 +104,8 @@ impl Turn<'_> {
     /// The same with other carried states of its law.
     pub fn argument_with(&self, [q, rate, second]: Place, states: [f64; MOST_STATES]) -> (f64, f64) {
         let state = self.law.state_with(q, rate, states);
-        let [z_1, z_2] = if self.law.states() == 0 { [0.0; 2] } else { self.law.state_rates(q, rate, states) };
+        let [z_1, z_2] =
+            if self.law.states() == 0 { [0.0; 2] } else { self.law.state_rates(q, rate, states) };
         let rates = [rate, second, self.law.third_rate(rate), z_1, z_2];
         self.switch.argument_and_rate(state, rates, &self.law.branches)
     }

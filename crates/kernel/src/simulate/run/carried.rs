@@ -28,8 +28,7 @@ impl CarriedStep {
     /// The states at a share of the step: the cubic through values and rates at both ends.
     pub fn at(&self, share: f64) -> CarriedStates {
         let left = 1.0 - share;
-        let [of_start, of_end] =
-            [left * left * (1.0 + 2.0 * share), share * share * (1.0 + 2.0 * left)];
+        let [of_start, of_end] = [left * left * (1.0 + 2.0 * share), share * share * (1.0 + 2.0 * left)];
         let [of_start_rate, of_end_rate] = [self.h * share * left * left, -self.h * share * share * left];
         std::array::from_fn(|i| {
             of_start * self.start[i]
