@@ -85,9 +85,8 @@ impl FormulaEntry {
         let text = example().ok().and_then(|law| toml::to_string(&Example { effects: [law] }).ok());
         lines.push(lines_of(&text.unwrap_or_default()));
         lines.push(indented(self.states));
-        lines.push("  A spring behind a damper, Maxwell's:\n".to_owned());
-        let text = with_a_state().ok().and_then(|law| toml::to_string(&Example { effects: [law] }).ok());
-        lines.push(lines_of(&text.unwrap_or_default()));
+        // The law is a formula, as the test below shows.
+        lines.extend(with_a_state().ok().map(|law| in_a_line(&law)));
         lines.join("\n")
     }
 }
@@ -111,6 +110,18 @@ fn with_a_state() -> Result<Formula, FormulaError> {
         range: None,
     };
     Formula::parse_with_states("-z", Place::Top, &parameters, &[state])
+}
+
+/// A law with a state in one line.
+fn in_a_line(law: &Formula) -> String {
+    let state = |s: &CarriedState| {
+        format!(
+            "[effects.states.{}] rate = \"{}\", start = {}, unit = \"{}\"",
+            s.name, s.rate, s.start, s.unit
+        )
+    };
+    let states = law.states().iter().map(state).collect::<String>();
+    indented(&format!("A spring behind a damper (Maxwell): {} = \"{law}\", {states}.", law.place().key()))
 }
 
 #[cfg(test)]

@@ -91,6 +91,9 @@ fn add(wall: &mut CompliantWall, effect: &Hidden, numbers: &WallNumbers) {
             outside(wall, law, numbers, rotation_rad * numbers.height_m, size);
         }
         Hidden::Law(atom) => match atom.site {
+            Site::Top if atom.carries() => {
+                wall.top.push(TopLaw::Carried { atom, z: 0.0, from_m: 0.0, left: 1.0 })
+            }
             Site::Top => wall.top.push(TopLaw::Drawn { atom, largest_m: 0.0 }),
             Site::Ground => wall.joint_laws[0].push(atom),
             Site::Crack => wall.joint_laws[1].push(atom),

@@ -88,7 +88,7 @@ impl<'a> Motion<'a> {
             self.time_s += h_s;
             self.state = tried.state;
             let x_m = self.bodies.top_displacement_m(&self.state.q);
-            self.bodies.wall.top.iter_mut().for_each(|law| law.remember(x_m));
+            self.bodies.wall.top.iter_mut().for_each(|law| law.remember(x_m, h_s));
             if self.scaling.look(&self.bodies, self.time_s, &mut self.state) {
                 self.h_s = self.h_s.min(1e-5);
             }

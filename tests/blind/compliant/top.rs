@@ -27,6 +27,9 @@ pub enum TopLaw {
     DisplacementDamping { coefficient_n_s_per_m2: f64 },
     /// A law drawn as a formula.
     Drawn { atom: Atom, largest_m: f64 },
+    /// One that carries a state along: its value at the start of the step, where the top was there, and half of what is left of it
+    /// after a step as the one before.
+    Carried { atom: Atom, z: f64, from_m: f64, left: f64 },
 }
 
 impl TopLaw {
@@ -58,11 +61,16 @@ impl TopLaw {
             }
             Self::DisplacementDamping { coefficient_n_s_per_m2: c } => -c * x_m.abs() * v_m_s,
             Self::Drawn { atom, largest_m } => atom.force([x_m, v_m_s, largest_m.max(x_m.abs())]),
+            // What decays over a step is taken at its middle.
+            Self::Carried { atom, z, from_m, left } => {
+                let z = atom.carried(z * left, x_m - from_m, 0.0);
+                atom.force([x_m, v_m_s, z * atom.reach[0]])
+            }
         }
     }
 
-    /// Takes note of where the top has come, at the end of a step.
-    pub fn remember(&mut self, x_m: f64) {
+    /// Takes note of where the top has come, at the end of a step of this length.
+    pub fn remember(&mut self, x_m: f64, step_s: f64) {
         match self {
             Self::Yielding { stiffness_n_per_m, limit_n, plastic_m } => {
                 let travel = *limit_n / *stiffness_n_per_m;
@@ -70,6 +78,10 @@ impl TopLaw {
             }
             Self::Degrading { largest_m, .. } | Self::Drawn { largest_m, .. } => {
                 *largest_m = largest_m.max(x_m.abs());
+            }
+            Self::Carried { atom, z, from_m, left } => {
+                *z = atom.carried(*z, x_m - *from_m, step_s);
+                (*from_m, *left) = (x_m, atom.left_after(0.5 * step_s));
             }
             _ => {}
         }

@@ -47,6 +47,10 @@ pub enum Form {
     Secant { g: f64 },
     /// sgn(q) max(|q| − a m, 0): slack that grows.
     Slack { a: f64 },
+    /// z of ż = u − z/τ, times in shares of that in which the reach is passed at its velocity: a spring behind a damper.
+    Relaxing { tau: f64 },
+    /// z of ż = (u/d)(1 − |z|ⁿ (1 + sgn(u z))/2): a spring that yields smoothly.
+    Yielding { d: f64, n: f64 },
 }
 
 /// A law of one form.
@@ -91,6 +95,48 @@ fn odd(x: f64, n: f64) -> f64 {
 }
 
 impl Atom {
+    /// Whether it carries a state along: z, which stands for the largest displacement so far, in shares of the reach.
+    pub fn carries(&self) -> bool {
+        matches!(self.form, Form::Relaxing { .. } | Form::Yielding { .. })
+    }
+
+    /// The share of z that is left after a time without motion.
+    pub fn left_after(&self, time_s: f64) -> f64 {
+        match self.form {
+            Form::Relaxing { tau } => (-time_s * self.reach[1] / self.reach[0] / tau).exp(),
+            _ => 1.0,
+        }
+    }
+
+    /// z after a displacement by dx in a time, from one of z.
+    pub fn carried(&self, z: f64, dx_m: f64, time_s: f64) -> f64 {
+        let dq = dx_m / self.reach[0];
+        match self.form {
+            Form::Relaxing { tau } => {
+                // Steady velocity over the time.
+                let steps = time_s * self.reach[1] / self.reach[0] / tau;
+                let mean = if steps > 1e-9 { (1.0 - (-steps).exp()) / steps } else { 1.0 };
+                z * (-steps).exp() + dq * mean
+            }
+            Form::Yielding { d, n } => {
+                let parts = (dq.abs() / (0.02 * d)).ceil().max(1.0);
+                let h = dq / d / parts;
+                let rate =
+                    |z: f64| 1.0 - z.abs().powf(n) * 0.5 * (1.0 + (h * z).signum() * f64::from(z != 0.0));
+                let mut z = z;
+                for _ in 0..parts as usize {
+                    let k1 = rate(z);
+                    let k2 = rate(z + 0.5 * h * k1);
+                    let k3 = rate(z + 0.5 * h * k2);
+                    let k4 = rate(z + h * k3);
+                    z += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+                }
+                z
+            }
+            _ => 0.0,
+        }
+    }
+
     /// Force or moment on the wall at a displacement, a velocity and the largest displacement so far.
     pub fn force(&self, [x, v, largest]: [f64; 3]) -> f64 {
         let (q, u, m) = (x / self.reach[0], v / self.reach[1], largest / self.reach[0]);
@@ -117,6 +163,7 @@ impl Atom {
                 Form::Weakening { g } => -q * m / (g + m),
                 Form::Secant { g } => q / (g + m),
                 Form::Slack { a } => q.signum() * (q.abs() - a * m).max(0.0),
+                Form::Relaxing { .. } | Form::Yielding { .. } => m,
             }
     }
 
@@ -185,6 +232,8 @@ impl Atom {
             Form::Weakening { .. } => vec![format!("k*{x}*x_max/(g+x_max)")],
             Form::Secant { .. } => vec![format!("-f*{x}/(g+x_max)")],
             Form::Slack { .. } => vec![format!("-k*sign({x})*max(abs({x})-a*x_max,0)")],
+            Form::Relaxing { .. } => vec!["-k*z".to_owned()],
+            Form::Yielding { .. } => vec!["-f*z".to_owned()],
         }
     }
 
@@ -219,10 +268,21 @@ impl Atom {
             Form::Weakening { g } => vec![size("k", x, per_x("1")), at("g", g)],
             Form::Secant { g } => vec![size("f", 1.0, String::new()), at("g", g)],
             Form::Slack { a } => vec![size("k", x, per_x("1")), pure("a", a)],
+            Form::Relaxing { tau } => vec![size("k", x, per_x("1")), ("tau", tau * x / v, "s".to_owned())],
+            Form::Yielding { d, n } => vec![size("f", 1.0, String::new()), at("d", d), pure("n", n)],
             Form::NearRest { d } => vec![size("c", v, per_v("1")), at("d", d)],
             Form::DragSaturation { s } | Form::Slipping { s } => {
                 vec![size("f", 1.0, String::new()), speed("s", s)]
             }
+        }
+    }
+
+    /// The rate of the state that it carries along, and its unit.
+    fn rate(&self) -> Option<(&'static str, &'static str)> {
+        match self.form {
+            Form::Relaxing { .. } => Some(("v-z/tau", "m")),
+            Form::Yielding { .. } => Some(("v/d*(1-abs(z)**n*(1+sign(v*z))/2)", "1")),
+            _ => None,
         }
     }
 
@@ -239,6 +299,14 @@ impl Atom {
         effect.insert("kind".into(), "formula".into());
         effect.insert("place".into(), self.site.name().into());
         effect.insert(self.site.key().into(), self.formula().into());
+        if let Some((rate, unit)) = self.rate() {
+            let mut state = toml::Table::new();
+            state.insert("rate".into(), rate.into());
+            state.insert("start".into(), 0.0.into());
+            state.insert("unit".into(), unit.into());
+            let states = toml::Table::from_iter([("z".to_owned(), toml::Value::Table(state))]);
+            effect.insert("states".into(), toml::Value::Table(states));
+        }
         effect.insert("parameters".into(), toml::Value::Table(parameters));
         effect
     }
@@ -247,14 +315,18 @@ impl Atom {
     pub fn told(&self) -> Value {
         let values: Map<String, Value> =
             self.parameters().into_iter().map(|(name, value, _)| (name.to_owned(), json!(value))).collect();
-        json!({
+        let mut told = json!({
             "kind": "formula",
             "place": self.site.name(),
             "formula": self.formula(),
             "spellings": self.spellings(),
             "in_grammar": self.is_in_grammar(),
             "parameters": values,
-        })
+        });
+        if let Some((rate, unit)) = self.rate() {
+            told["states"] = json!([{ "name": "z", "rate": rate, "start": 0.0, "unit": unit }]);
+        }
+        told
     }
 }
 

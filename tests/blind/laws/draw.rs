@@ -59,6 +59,9 @@ const TWO: [[&str; 2]; 5] = [
 /// Teeth come last: cases of sets before them are the same.
 const OUTSIDE: [&str; 5] = ["snapping", "hardening", "near rest", "slipping", "teeth"];
 const WITH_MEMORY: [&str; 3] = ["weakening", "secant", "slack"];
+/// Those that carry a state along. Sets whose number is less have none of them: their cases are the same.
+const WITH_STATES: [&str; 2] = ["relaxing", "yielding"];
+const FIRST_WITH_STATES: u32 = 5;
 
 /// The case of this number.
 pub fn draw(set: &str, number: u64) -> Case {
@@ -99,7 +102,7 @@ pub fn of_group(set: &str, number: u64, group: &'static str, before: usize) -> C
     let scattered = rng.random_range(0.0..1.0) < 0.5;
     let actual = if scattered { scatter(&described, prior, &mut rng) } else { described.clone() };
     let scale = Scale { wall: &actual, rotation_rad: target_rad, size };
-    let hidden = hidden_of(group, before, &scale, &mut rng);
+    let hidden = hidden_of(set, group, before, &scale, &mut rng);
     let held_out_amplitude = rng.random_range(1.5..2.0);
     Case {
         set: set.to_owned(),
@@ -134,7 +137,14 @@ fn outside(before: usize) -> &'static str {
     OUTSIDE[before % OUTSIDE.len()]
 }
 
-fn hidden_of(group: &str, before: usize, scale: &Scale, rng: &mut ChaCha8Rng) -> Vec<Hidden> {
+/// Forms with a memory, those that carry a state first.
+fn with_memory(set: &str) -> Vec<&'static str> {
+    let number = set.trim_start_matches(|c: char| !c.is_ascii_digit()).parse::<u32>();
+    let states = if number.is_ok_and(|number| number >= FIRST_WITH_STATES) { &WITH_STATES[..] } else { &[] };
+    [states, &WITH_MEMORY[..]].concat()
+}
+
+fn hidden_of(set: &str, group: &str, before: usize, scale: &Scale, rng: &mut ChaCha8Rng) -> Vec<Hidden> {
     let law = |form: &str, rng: &mut ChaCha8Rng| Hidden::Law(at_top(form, scale, rng));
     match group {
         "nothing" => vec![],
@@ -143,7 +153,10 @@ fn hidden_of(group: &str, before: usize, scale: &Scale, rng: &mut ChaCha8Rng) ->
         "two atoms" => TWO[before % TWO.len()].map(|form| law(form, rng)).to_vec(),
         "joint" => vec![Hidden::Law(at_joint(before, scale, rng))],
         "outside the grammar" => vec![law(outside(before), rng)],
-        "memory" => vec![law(WITH_MEMORY[before % WITH_MEMORY.len()], rng)],
+        "memory" => {
+            let forms = with_memory(set);
+            vec![law(forms[before % forms.len()], rng)]
+        }
         _ => vec![hidden("loose_mass", scale, rng)],
     }
 }
@@ -204,6 +217,12 @@ fn at_top(form: &str, scale: &Scale, rng: &mut ChaCha8Rng) -> Atom {
         "weakening" => (Form::Weakening { g: rng.random_range(0.8..3.0) }, 0.8),
         "secant" => (Form::Secant { g: rng.random_range(0.1..0.5) }, 0.3),
         "slack" => (Form::Slack { a: rng.random_range(0.25..0.75) }, 0.6),
+        // Times from a sixth of a swing to half of one.
+        "relaxing" => (Form::Relaxing { tau: rng.random_range(0.3..3.0) }, 0.5),
+        "yielding" => {
+            let n = exponent(&[1.0, 2.0], [0.8, 3.0], rng);
+            (Form::Yielding { d: rng.random_range(0.1..0.4), n }, 0.3)
+        }
         "near rest" => (Form::NearRest { d: rng.random_range(0.2..0.5) }, 0.3),
         _ => (Form::Slipping { s: rng.random_range(0.15..0.35) }, 0.6),
     };

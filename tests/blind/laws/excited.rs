@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::super::cases::draw::Case;
 use super::super::cases::hidden::Hidden;
 use super::super::cases::tests::{STEP_S, Test};
-use super::atom::Site;
+use super::atom::{Atom, Site};
 
 /// Most points of the tests to fit, and of those held out.
 const POINTS: usize = 300;
@@ -18,6 +18,12 @@ pub fn excited(case: &Case, tests: &[Test]) -> Value {
     let law = |hidden: &Hidden| if let Hidden::Law(atom) = hidden { Some(*atom) } else { None };
     let atoms = case.hidden.iter().filter_map(law).collect::<Vec<_>>();
     let Some(first) = atoms.first() else { return Value::Null };
+    if first.carries() {
+        // Every sample: a state follows from all before it.
+        let all = |tests: &[Test]| tests.iter().flat_map(|test| along(case, test, first)).collect::<Vec<_>>();
+        let (fit, held_out) = tests.split_at(case.fit_tests);
+        return json!({ "fit": all(fit), "held_out": all(held_out) });
+    }
     let points = |tests: &[Test]| {
         let all = tests.iter().flat_map(|test| motion(case, test, first.site)).collect::<Vec<_>>();
         let most = all.iter().fold(0.0, |most: f64, [q, ..]| most.max(q.abs()));
@@ -28,6 +34,17 @@ pub fn excited(case: &Case, tests: &[Test]) -> Value {
     };
     let (fit, held_out) = tests.split_at(case.fit_tests);
     json!({ "fit": points(fit), "held_out": points(held_out) })
+}
+
+/// The points of a test with a law that carries a state along.
+fn along(case: &Case, test: &Test, atom: &Atom) -> Vec<Value> {
+    let (mut z, mut before) = (0.0, None::<f64>);
+    let point = |[x, v, largest]: [f64; 3]| {
+        z = before.map_or(0.0, |before| atom.carried(z, x - before, STEP_S));
+        before = Some(x);
+        json!([x, v, atom.force([x, v, z * atom.reach[0]]), largest])
+    };
+    motion(case, test, atom.site).into_iter().map(point).collect()
 }
 
 /// Displacement, velocity and largest displacement so far at a place. At the top they are those of small rotations, enough to

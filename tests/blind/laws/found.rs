@@ -1,9 +1,10 @@
 //! The formulas of an answer, held against what is hidden: by how they are written, and by the force that they are.
 
-use mrbd_formula::{Formula, Parameter, Place};
-use mrbd_lab::diagnose::answer::{ForceCurve, FoundEffect, Summary};
+use mrbd_formula::{Branches, CarriedState, Formula, Parameter, Place, VARIABLES};
+use mrbd_lab::diagnose::answer::{ForceCurve, FoundEffect, FoundState, Summary};
 use serde_json::Value;
 
+use super::super::cases::tests::STEP_S;
 use super::super::score::reading::{list, text, texts};
 
 /// Displacement, velocity, the true force or moment, and the largest displacement so far at a place.
@@ -14,7 +15,16 @@ fn formula(effect: &FoundEffect) -> Option<Formula> {
     let unit = |name: &String| effect.units.get(name).cloned().unwrap_or_default();
     let parameter = |(name, value): (&String, &f64)| Parameter::new(name, *value, &unit(name));
     let parameters = effect.parameters.iter().map(parameter).collect::<Vec<_>>();
-    Formula::parse(effect.formula.as_ref()?, Place::named(&effect.place)?, &parameters).ok()
+    let state = |state: &FoundState| CarriedState {
+        name: state.name.clone(),
+        rate: state.rate.clone(),
+        start: state.start,
+        unit: state.unit.clone(),
+        range: None,
+    };
+    let states = effect.states.iter().map(state).collect::<Vec<_>>();
+    let place = Place::named(&effect.place)?;
+    Formula::parse_with_states(effect.formula.as_ref()?, place, &parameters, &states).ok()
 }
 
 /// The root mean square by which the force of an answer is off, over that of the true force.
@@ -39,12 +49,58 @@ pub fn force_error(
         return None;
     }
     let softer = if place == "top" { softer(answer, stiffness_n_per_m)? } else { 0.0 };
-    let found = |[q, u, _, largest]: &Excited| {
-        formulas.iter().map(|(_, formula)| formula.value([*q, *u, *largest])).sum::<f64>() + softer * q
-    };
-    let off = points.iter().map(|point| (found(point) - point[2]).powi(2)).sum::<f64>();
+    let carries = |formula: &Formula| !formula.states().is_empty();
+    let told_of_all = list(answer, "/effects").iter().any(|effect| effect.get("states").is_some());
+    if !told_of_all && formulas.iter().any(|(_, formula)| carries(formula)) {
+        // A state follows from all samples before, of which some are told alone.
+        return None;
+    }
+    let mut found = points.iter().map(|[q, ..]| softer * q).collect::<Vec<_>>();
+    for (_, formula) in &formulas {
+        let along = match carries(formula) {
+            true => along(formula, points),
+            false => points.iter().map(|[q, u, _, largest]| formula.value([*q, *u, *largest])).collect(),
+        };
+        found.iter_mut().zip(along).for_each(|(sum, force)| *sum += force);
+    }
+    let off = found.iter().zip(points).map(|(found, point)| (found - point[2]).powi(2)).sum::<f64>();
     let all = points.iter().map(|[_, _, force, _]| force.powi(2)).sum::<f64>();
     (all > 0.0).then(|| (off / all).sqrt())
+}
+
+/// A formula that carries states along samples of tests, one after another: where the largest displacement falls, a test begins.
+fn along(formula: &Formula, points: &[Excited]) -> Vec<f64> {
+    const PARTS: u32 = 8;
+    let start = formula.at_start([0.0; 3]);
+    let (mut at, mut before) = (start, None::<Excited>);
+    let value = |point: &Excited| {
+        let [q, u, _, largest] = *point;
+        match before.filter(|before| before[3] <= largest) {
+            None => at = start,
+            Some([from, ..]) => {
+                let h = STEP_S / f64::from(PARTS);
+                let v = (q - from) / STEP_S;
+                let rates = |x: f64, z: &[f64]| {
+                    formula.program().state_rates([x, v, largest, z[0], z[1]], &Branches::FREE)
+                };
+                for part in 0..PARTS {
+                    let x = |share: f64| from + v * h * (f64::from(part) + share);
+                    let z = [at[VARIABLES - 2], at[VARIABLES - 1]];
+                    let plus = |rate: [f64; 2], h: f64| [z[0] + h * rate[0], z[1] + h * rate[1]];
+                    let r1 = rates(x(0.0), &z);
+                    let r2 = rates(x(0.5), &plus(r1, 0.5 * h));
+                    let r3 = rates(x(0.5), &plus(r2, 0.5 * h));
+                    let r4 = rates(x(1.0), &plus(r3, h));
+                    for i in 0..2 {
+                        at[VARIABLES - 2 + i] += h / 6.0 * (r1[i] + 2.0 * r2[i] + 2.0 * r3[i] + r4[i]);
+                    }
+                }
+            }
+        }
+        before = Some(*point);
+        formula.value_with_states([q, u, largest, at[VARIABLES - 2], at[VARIABLES - 1]])
+    };
+    points.iter().map(value).collect()
 }
 
 /// Of a force without a formula, over what the tests held out excited inside its range: the root mean square by which it is

@@ -90,6 +90,7 @@ impl Findings<'_> {
             written_as: None,
             sets_in_over_m: None,
             formula: None,
+            states: Vec::new(),
             units: BTreeMap::new(),
             range: BTreeMap::new(),
         };
@@ -190,6 +191,7 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
             written_as: Some(addition.name()),
             sets_in_over_m: Some(friction.onset_m),
             formula: None,
+            states: Vec::new(),
             units: BTreeMap::new(),
             range: BTreeMap::new(),
         };
@@ -205,6 +207,7 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
         written_as: None,
         sets_in_over_m: None,
         formula: None,
+        states: Vec::new(),
         units: BTreeMap::new(),
         range: BTreeMap::new(),
     }

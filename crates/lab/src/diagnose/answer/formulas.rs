@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::Findings;
-use super::summary::{ForceCurve, FoundEffect};
+use super::summary::{ForceCurve, FoundEffect, FoundState};
 use crate::diagnose::certainty::intervals;
 use crate::diagnose::force::Against;
-use crate::diagnose::formula::{Curve, Law, Part, Site, Written};
+use crate::diagnose::formula::{Curve, Law, Part, Site, Written, WrittenState};
 use crate::diagnose::trials::FittedHypothesis;
 use crate::diagnose::verdict::Verdict;
 use mrbd_formula::Formula;
@@ -47,6 +47,7 @@ impl Findings<'_> {
             parameters: formula.parameters().iter().map(|p| (p.name.clone(), p.value)).collect(),
             interval: BTreeMap::new(),
             written_as: None,
+            states: Vec::new(),
             sets_in_over_m: None,
             formula: Some(formula.to_string()),
             units: formula.parameters().iter().map(|p| (p.name.clone(), p.unit.clone())).collect(),
@@ -85,6 +86,10 @@ impl Findings<'_> {
     /// A formula with its numbers alone.
     pub(super) fn without_intervals(&self, written: &Written) -> FoundEffect {
         let named = || written.parameters.iter();
+        let state = |state: &WrittenState| {
+            let WrittenState { name, rate, unit } = state.clone();
+            FoundState { name, rate, start: 0.0, unit }
+        };
         FoundEffect {
             kind: Some(FORMULA.to_owned()),
             name: Some(FORMULA.to_owned()),
@@ -92,6 +97,7 @@ impl Findings<'_> {
             parameters: named().map(|p| (p.name.clone(), p.value)).collect(),
             interval: BTreeMap::new(),
             written_as: None,
+            states: written.states.iter().map(state).collect(),
             sets_in_over_m: None,
             formula: Some(written.text.clone()),
             units: named().map(|p| (p.name.clone(), p.unit.clone())).collect(),

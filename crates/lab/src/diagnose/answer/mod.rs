@@ -26,8 +26,8 @@ use rows::ForceBeforeAfter;
 pub use rows::Tables;
 pub use summary::{
     Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, ForceCurve, ForceSize,
-    FoundEffect, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, Stages, Summary, TestErrors, WallFit,
-    WindowCounts,
+    FoundEffect, FoundState, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, Stages, Summary,
+    TestErrors, WallFit, WindowCounts,
 };
 
 /// A diagnosis: the verdict with everything it rests on.

@@ -156,12 +156,28 @@ pub struct FoundEffect {
     /// A law outside the catalogue: the force or moment on the wall, as formulas of wall files have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub formula: Option<String>,
+    /// The states that it carries along.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub states: Vec<FoundState>,
     /// Units of its parameters by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub units: BTreeMap<String, String>,
     /// What the tests excited of its variables: `x_m` and `v_m_s` at the top, `phi_rad` and `w_rad_s` at joints.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub range: BTreeMap<String, [f64; 2]>,
+}
+
+/// A state that a law carries along, as formulas of wall files have it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FoundState {
+    /// Its name in the formula.
+    pub name: String,
+    /// How fast it changes.
+    pub rate: String,
+    /// Its value at the start.
+    pub start: f64,
+    /// Its unit; empty for a pure number.
+    pub unit: String,
 }
 
 /// A law that was refused.

@@ -58,14 +58,11 @@ pub fn law_of(tried: &FittedHypothesis) -> Option<Law> {
 /// Largest difference of the forces of two laws over what was excited, over the largest force of the first at its place.
 pub fn difference(points: &Points, one: &Law, other: &Law) -> f64 {
     let at = |site: Site| {
-        let force = |law: &Law, motion: [f64; 3]| {
-            law.atoms().filter(|atom| atom.site == site).map(|atom| atom.force(motion)).sum::<f64>()
-        };
+        let [one, other] = [one, other].map(|law| points.forces(law, site));
         let (mut apart, mut largest) = (0.0_f64, 0.0_f64);
-        for motion in points.excited(site) {
-            let forces = [one, other].map(|law| force(law, motion));
-            apart = apart.max((forces[0] - forces[1]).abs());
-            largest = forces.iter().fold(largest, |most, f| most.max(f.abs()));
+        for (one, other) in one.into_iter().zip(other) {
+            apart = apart.max((one - other).abs());
+            largest = largest.max(one.abs()).max(other.abs());
         }
         if largest > 0.0 { apart / largest } else { 0.0 }
     };

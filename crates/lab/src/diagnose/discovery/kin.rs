@@ -115,9 +115,10 @@ fn nearest_on_either_side(own: f64, found: Vec<(f64, Start)>) -> Vec<Start> {
 /// A law of one atom, of the size that brings its force nearest to that of another over what was excited.
 fn as_large(law: Law, other: &Law, points: &Points) -> Law {
     let unit = Atom { size: 1.0, ..law.first };
-    let both = |motion: [f64; 3]| [unit.force(motion), other.first.force(motion)];
+    let [own, others] = [Law::of(unit), Law::of(other.first)].map(|law| points.forces(&law, unit.site));
     let sum = |[own, with]: [f64; 2], [one, other]: [f64; 2]| [own + one * one, with + one * other];
-    let [own, with] = points.excited(unit.site).map(both).fold([0.0; 2], sum);
+    let both = own.into_iter().zip(others).map(|(own, other)| [own, other]);
+    let [own, with] = both.fold([0.0; 2], sum);
     Law::of(Atom { size: with / own, ..unit })
 }
 

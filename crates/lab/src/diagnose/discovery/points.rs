@@ -66,7 +66,44 @@ impl Points {
     /// Rows of a law of one atom of size 1.
     pub fn column(&self, atom: &Atom) -> DVector<f64> {
         let one = Atom { size: 1.0, ..*atom };
+        if one.shape.carries() {
+            return self.column_of_carried(&one);
+        }
         self.column_of(atom.site, |motion| one.force(motion))
+    }
+
+    /// The same of an atom that carries a state along each test.
+    fn column_of_carried(&self, atom: &Atom) -> DVector<f64> {
+        let mut rows = Vec::with_capacity(self.missing.len());
+        for (stretch, forces) in self.stretches.iter().zip(self.carried_forces(atom)) {
+            rows.extend(stretch.by_law(atom.site, &forces));
+        }
+        DVector::from_vec(rows)
+    }
+
+    /// Forces of an atom that carries a state, of every stretch: along the measured displacement from the start of its test.
+    fn carried_forces(&self, atom: &Atom) -> impl Iterator<Item = Vec<f64>> {
+        let mut along: Option<(usize, Vec<f64>)> = None;
+        self.stretches.iter().map(move |stretch| {
+            if along.as_ref().is_none_or(|(test, _)| *test != stretch.test) {
+                along = Some((stretch.test, atom.forces_along(&stretch.path)));
+            }
+            let forces = along.as_ref().map_or(&[][..], |(_, forces)| &forces[..]);
+            forces[stretch.from..stretch.from + stretch.samples.len()].to_vec()
+        })
+    }
+
+    /// Force or moment of a law at a site in every sample, in the order of [`Points::excited`].
+    pub fn forces(&self, law: &Law, site: Site) -> Vec<f64> {
+        let of = |atom: Atom| match atom.shape.carries() {
+            true => self.carried_forces(&atom).flatten().collect::<Vec<_>>(),
+            false => self.excited(site).map(|motion| atom.force(motion)).collect(),
+        };
+        let mut sum = vec![0.0; self.excited(site).count()];
+        for atom in law.atoms().filter(|atom| atom.site == site) {
+            sum.iter_mut().zip(of(atom)).for_each(|(sum, force)| *sum += force);
+        }
+        sum
     }
 
     /// Rows of a force or moment at a site by displacement, velocity and largest displacement so far there.

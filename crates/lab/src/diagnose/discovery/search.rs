@@ -460,6 +460,41 @@ mod tests {
     }
 
     #[test]
+    fn analytic_laws_that_carry_a_state_are_found_by_it() {
+        let law = |text: &str, rate: &str, unit: &str, own: &str| {
+            format!(
+                "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"{text}\"\n[effects.states.z]\nrate = \"{rate}\"\n\
+                 start = 0.0\nunit = \"{unit}\"\n[effects.parameters]\n{own}"
+            )
+        };
+        let relaxing = law(
+            "-k*z",
+            "v - z/tau",
+            "m",
+            "k = { value = 2e4, unit = \"N/m\" }\ntau = { value = 0.15, unit = \"s\" }\n",
+        );
+        let yielding = law(
+            "-f*z",
+            "v/d*(1 - abs(z)**n*(1 + sign(v*z))/2)",
+            "1",
+            "f = { value = 600.0, unit = \"N\" }\nd = { value = 0.01, unit = \"m\" }\nn = { value = 1.5, unit = \"1\" }\n",
+        );
+        for (law, shape, value) in [(relaxing, Shape::Relaxing, 2e4), (yielding, Shape::Yielding, 600.0)] {
+            let points = points_of(&tests_of(&wall_with(&law), NOISE_RAD));
+            let found = search(&points).expect("laws");
+            let [best, next] = [&found.singles[0], &found.singles[1]];
+            assert_eq!(
+                (best.law.first.site, best.law.first.shape),
+                (Site::Top, shape),
+                "{best:?} and {next:?}"
+            );
+            assert!(best.evidence > next.evidence + EQUIVALENT, "{best:?} and {next:?}");
+            let own = best.law.written().remove(0).parameters[0].value;
+            assert!((own / value - 1.0).abs() < 0.1, "{best:?}: {own}");
+        }
+    }
+
+    #[test]
     fn analytic_where_nothing_is_hidden_no_law_is_worth_its_price() {
         let (atom, evidence, _) = best("");
         assert!(evidence < 0.0, "{atom:?} {evidence}");

@@ -214,25 +214,30 @@ fn elastic_along_m(test: &TestData, physics: &Physics, wall: &RockingWall) -> Ve
     (0..test.theta_rad.len()).map(at).collect()
 }
 
-/// The carried states of the formulas of a wall at every sample of a test. Over samples that were not measured the top moves straight.
-fn carried_along(test: &TestData, wall: &RockingWall) -> Vec<CarriedStates> {
-    let mut carried = wall.carried_at_start();
-    let mut before: Option<(f64, f64)> = None;
-    let mut largest_m = 0.0_f64;
+/// Times (s) and displacements of the top (m) of a test. Over samples that were not measured the top stays, and then moves at once.
+pub fn top_path(test: &TestData, wall: &RockingWall) -> Vec<[f64; 2]> {
+    let mut x_c = 0.0;
     let at = |k: usize| {
         let theta = smoothed(test, k, &PARABOLA);
         if theta.iter().all(|t| t.is_finite()) {
-            let to_m = wall.top_displacement_m(Contact::of_rotations(theta), theta);
-            if let Some((time_s, from_m)) = before {
-                let top = TopMove { from_m, to_m, largest_m, time_s: test.time_s[k] - time_s };
-                carried = wall.carried_after(&carried, &top);
-            }
-            largest_m = largest_m.max(to_m.abs());
-            before = Some((test.time_s[k], to_m));
+            x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
         }
-        carried
+        [test.time_s[k], x_c]
     };
     (0..test.theta_rad.len()).map(at).collect()
+}
+
+/// The carried states of the formulas of a wall at every sample of a test.
+fn carried_along(test: &TestData, wall: &RockingWall) -> Vec<CarriedStates> {
+    let path = top_path(test, wall);
+    let (mut carried, mut largest_m) = (wall.carried_at_start(), 0.0_f64);
+    let steps = path.windows(2).map(|ends| {
+        let [[from_s, from_m], [to_s, to_m]] = [ends[0], ends[1]];
+        largest_m = largest_m.max(from_m.abs());
+        carried = wall.carried_after(&carried, &TopMove { from_m, to_m, largest_m, time_s: to_s - from_s });
+        carried
+    });
+    std::iter::once(wall.carried_at_start()).chain(steps).take(path.len()).collect()
 }
 
 /// The largest displacement of the top so far, m, at every sample of a test.

@@ -1,7 +1,9 @@
 //! The residual of the equations of motion as a force at the top, by the weak form and its test function.
 
+use std::sync::Arc;
+
 use super::jumps::{Stretch, stretches};
-use crate::diagnose::fit::{TopPast, largest_so_far_m, shaken};
+use crate::diagnose::fit::{TopPast, largest_so_far_m, shaken, top_path};
 use crate::diagnose::hypothesis::Physics;
 use crate::experiment::{Freedom, TestData, rest_offset_rad};
 use crate::limits::DIRECTION_CLEAR;
@@ -69,6 +71,8 @@ pub(super) struct Residual {
     past: TopPast,
     /// The largest |x_C| so far, m, by sample.
     pub(super) largest_m: Vec<f64>,
+    /// Time (s) and displacement of the top (m) by sample.
+    pub(super) path: Arc<[[f64; 2]]>,
 }
 
 impl Residual {
@@ -88,6 +92,7 @@ impl Residual {
             index,
             past: TopPast::new(&test, physics),
             largest_m: largest_so_far_m(&test, &wall),
+            path: top_path(&test, &wall).into(),
             wall,
             simulator: Simulator::new(&physics.wall, &shaking, Accuracy::default()),
             test,

@@ -3,6 +3,8 @@
 //! A law of the mean is not the mean of the law: a stretch keeps its samples, and what a law does at each of them is
 //! weighed with the test function as the measured motion is.
 
+use std::sync::Arc;
+
 use super::jumps::Stretch;
 use super::points::{Kernel, Residual};
 use crate::diagnose::formula::Site;
@@ -29,6 +31,10 @@ pub struct WeakStretch {
     pub test: usize,
     /// Every sample of the stretch.
     pub samples: Vec<Sample>,
+    /// The first of them, by sample of the test.
+    pub from: usize,
+    /// Times (s) and displacements of the top (m) of the whole test, for laws that carry a state along.
+    pub path: Arc<[[f64; 2]]>,
     /// Middles of the supports of the test function, by sample of the stretch.
     middles: Vec<usize>,
     kernel: Kernel,
@@ -66,6 +72,8 @@ impl WeakStretch {
         let bodies = bodies(stretch.freedom, test.noise_rad, kernel.curvature_noise(test.step_s));
         let mut weak = Self {
             test: index,
+            from: stretch.from,
+            path: Arc::clone(&residual.path),
             samples: (0..stretch.states.len()).map(|i| sample(residual, stretch, i)).collect(),
             correlations: correlations(&kernel, half, middles.len())?,
             middles,

@@ -2,8 +2,8 @@
 
 use super::Site;
 use super::law::Law;
-use super::written::{Written, WrittenParameter};
-use mrbd_formula::{Formula, Parameter, Place};
+use super::written::{Written, WrittenParameter, WrittenState};
+use mrbd_formula::{CarriedState, Formula, Parameter, Place};
 
 impl Law {
     /// The formulas that it is, one a place; `None` where one is refused.
@@ -17,7 +17,16 @@ impl Written {
     fn formula(&self) -> Option<Formula> {
         let parameter = |p: &WrittenParameter| Parameter::new(&p.name, p.value, &p.unit);
         let parameters = self.parameters.iter().map(parameter).collect::<Vec<_>>();
-        Formula::parse(&self.text, place(self.site), &parameters).ok()
+        let states = self.states.iter().map(WrittenState::carried).collect::<Vec<_>>();
+        Formula::parse_with_states(&self.text, place(self.site), &parameters, &states).ok()
+    }
+}
+
+impl WrittenState {
+    /// As the kernel takes it: bounded by its rate.
+    pub fn carried(&self) -> CarriedState {
+        let Self { name, rate, unit } = self.clone();
+        CarriedState { name, rate, start: 0.0, unit, range: None }
     }
 }
 
@@ -46,7 +55,12 @@ mod tests {
                     let formula = law.formulas().unwrap_or_else(|| panic!("{:?}", law.written())).remove(0);
                     for (q, u) in [(0.03, -0.2), (-0.045, 0.1), (0.01, 0.25), (-0.004, -0.3)] {
                         let motion = [q, u, 0.046];
-                        let [own, written] = [atom.force(motion), formula.value(motion)];
+                        let mut at = formula.at_start(motion);
+                        if shape.carries() {
+                            // A state in metres, or in shares of its largest.
+                            at[3] = motion[2] / if shape == Shape::Yielding { atom.reach[0] } else { 1.0 };
+                        }
+                        let [own, written] = [atom.force(motion), formula.value_with_states(at)];
                         // Two ways to the same number, of a few roundings each.
                         assert!(
                             (own - written).abs() <= 1e-12 * 300.0,

@@ -72,6 +72,7 @@ impl Atom {
             Meaning::Exponent | Meaning::Share => 1.0,
             Meaning::Displacement => self.reach[0],
             Meaning::Velocity => self.reach[1],
+            Meaning::Time => self.reach[0] / self.reach[1],
         }
     }
 
@@ -84,7 +85,20 @@ impl Atom {
         free.collect::<Vec<_>>().into_iter()
     }
 
-    /// Force or moment on the wall at a displacement, a velocity and the largest displacement so far.
+    /// Forces along a path of times and displacements, N, of a shape that carries a state along; the state starts at zero.
+    pub fn forces_along(&self, path: &[[f64; 2]]) -> Vec<f64> {
+        let unit_s = self.reach[0] / self.reach[1];
+        let mut z = 0.0;
+        let steps = path.windows(2).map(|ends| {
+            let [[from_s, from], [to_s, to]] = [ends[0], ends[1]];
+            z = self.shape.carried(self.numbers, z, (to - from) / self.reach[0], (to_s - from_s) / unit_s);
+            -self.size * z
+        });
+        std::iter::once(0.0).chain(steps).take(path.len()).collect()
+    }
+
+    /// Force or moment on the wall at a displacement, a velocity and the largest displacement so far. Nothing tells it of a shape that
+    /// carries a state: [`Atom::forces_along`] does.
     pub fn force(&self, [q, u, m]: [f64; 3]) -> f64 {
         let [of_q, of_u] = self.reach;
         -self.size * self.shape.value(self.numbers, [q / of_q, u / of_u, m / of_q])
@@ -163,7 +177,11 @@ impl Law {
 
     /// Its formulas with their places, for tables: `-c*v*abs(v) at top`.
     pub fn name(&self) -> String {
-        let one = |written: &super::Written| format!("{} at {}", written.text, written.site.name());
+        let one = |written: &super::Written| {
+            let rates =
+                written.states.iter().map(|state| format!(" with d{}/dt = {}", state.name, state.rate));
+            format!("{}{} at {}", written.text, rates.collect::<String>(), written.site.name())
+        };
         self.written().iter().map(one).collect::<Vec<_>>().join(" and ")
     }
 

@@ -19,7 +19,7 @@ pub use curve::{BOTH, Curve, Part, SIDE};
 pub use exact::nearest_exact;
 pub use law::{Atom, Law, LawSlot};
 pub use shape::{Meaning, Shape, ShapeNumber, Side};
-pub use written::{Written, WrittenParameter};
+pub use written::{Written, WrittenParameter, WrittenState};
 
 /// Where a law acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -2,7 +2,8 @@
 //!
 //! All are written in shares of the largest displacement q and velocity u that the tests reach. The force on the wall is
 //! minus the value: of size 1 each resists, but for a weakening, which takes off what the floor resists. Some remember how
-//! far the top has been: m is the largest |q| so far.
+//! far the top has been: m is the largest |q| so far. Others carry a state z along, which has a rate of its own; time is in
+//! shares of that in which q is passed at u.
 
 /// A side of the wall's rest, or a direction of its motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -65,6 +66,10 @@ pub enum Shape {
     Secant,
     /// sgn(q) max(|q| − a m, 0): slack that grows.
     Slack,
+    /// z of ż = u − z/τ: a spring behind a damper (Maxwell).
+    Relaxing,
+    /// z of ż = (u/d)(1 − |z|ⁿ (1 + sgn(u z))/2): a spring that yields smoothly (Bouc and Wen).
+    Yielding,
 }
 
 /// A power of displacement or velocity, and the number of the shape that it is.
@@ -87,6 +92,8 @@ pub enum Meaning {
     Velocity,
     /// A share of a displacement.
     Share,
+    /// A time.
+    Time,
 }
 
 /// A number of a shape: its letter, what it is, and the values that are looked at.
@@ -142,9 +149,20 @@ const SLACK: &[ShapeNumber] = &[ShapeNumber {
     grid: &[0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9],
 }];
 
+/// Times in which a force relaxes: one that does so faster is a damper, one that does so more slowly a spring.
+const RELAXING: &[ShapeNumber] = &[ShapeNumber {
+    letter: "tau",
+    meaning: Meaning::Time,
+    grid: &[0.1, 0.17, 0.3, 0.5, 0.9, 1.5, 2.7, 4.6, 8.0],
+}];
+const YIELDING: &[ShapeNumber] = &[
+    threshold("d", &[0.03, 0.05, 0.08, 0.13, 0.2, 0.28, 0.36, 0.45, 0.54, 0.63]),
+    exponent(&[0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0]),
+];
+
 impl Shape {
     /// Every shape.
-    pub const ALL: [Self; 25] = [
+    pub const ALL: [Self; 27] = [
         Self::Spring,
         Self::EvenSpring,
         Self::OneSidedSpring(Side::Positive),
@@ -170,6 +188,8 @@ impl Shape {
         Self::Weakening,
         Self::Secant,
         Self::Slack,
+        Self::Relaxing,
+        Self::Yielding,
     ];
 
     /// The shapes that are looked for at joints, where laws are simpler and the tests tell less.
@@ -204,13 +224,43 @@ impl Shape {
             | Self::OneSidedOpening(_)
             | Self::Weakening
             | Self::Secant
-            | Self::Slack => false,
+            | Self::Slack
+            | Self::Relaxing
+            | Self::Yielding => false,
         }
     }
 
-    /// Whether it depends on how far the top has been. It then takes energy for good where its size is positive.
+    /// Whether it depends on how far the top has been, or carries a state along. It then takes energy for good where its size is
+    /// positive.
     pub fn remembers(self) -> bool {
-        matches!(self, Self::Weakening | Self::Secant | Self::Slack)
+        matches!(self, Self::Weakening | Self::Secant | Self::Slack) || self.carries()
+    }
+
+    /// Whether it carries a state along.
+    pub fn carries(self) -> bool {
+        matches!(self, Self::Relaxing | Self::Yielding)
+    }
+
+    /// The state after one of z, where a displacement changes by dq within a time; both in shares.
+    pub fn carried(self, [first, second]: [f64; 2], z: f64, dq: f64, time: f64) -> f64 {
+        match self {
+            Self::Relaxing => {
+                let decay = (-time / first).exp();
+                z * decay + dq * first / time * (1.0 - decay)
+            }
+            Self::Yielding => {
+                // By the middle of short parts: a force that yields depends on the path, not on time.
+                let parts = (dq.abs() / (PART * first)).ceil().clamp(1.0, MOST_PARTS);
+                let part = dq / (parts * first);
+                let rate = |z: f64| match dq * z > 0.0 {
+                    true => 1.0 - z.abs().powf(second),
+                    false => 1.0,
+                };
+                let after = |z: f64| (z + part * rate(z + 0.5 * part * rate(z))).clamp(-1.0, 1.0);
+                (0..parts as usize).fold(z, |z, _| after(z))
+            }
+            _ => 0.0,
+        }
     }
 
     /// Its numbers but for its size.
@@ -231,6 +281,8 @@ impl Shape {
             Self::Weakening => SCALES,
             Self::Secant => SECANT,
             Self::Slack => SLACK,
+            Self::Relaxing => RELAXING,
+            Self::Yielding => YIELDING,
         }
     }
 
@@ -247,7 +299,9 @@ impl Shape {
             | Self::Clipped
             | Self::Weakening
             | Self::Secant
-            | Self::Slack => false,
+            | Self::Slack
+            | Self::Relaxing
+            | Self::Yielding => false,
             Self::Drag
             | Self::Opening
             | Self::DragSaturation
@@ -271,18 +325,20 @@ impl Shape {
             Self::Opening => [of(0, first), of(1, second)],
             Self::OneSidedOpening(_) => [of(0, first), line],
             Self::DampedBeyond(_) | Self::DampedFar => [None, line],
-            Self::Weakening | Self::Slack => [line, None],
+            Self::Weakening | Self::Slack | Self::Relaxing => [line, None],
             Self::Saturation
             | Self::SlowSaturation
             | Self::Clipped
             | Self::DragSaturation
             | Self::SlowDragSaturation
             | Self::Stribeck
-            | Self::Secant => [None, None],
+            | Self::Secant
+            | Self::Yielding => [None, None],
         }
     }
 
-    /// Its value at a displacement, a velocity, and the largest displacement so far, as shares of the largest of all.
+    /// Its value at a displacement, a velocity, and the largest displacement so far, as shares of the largest of all. Of a shape that
+    /// carries a state the state stands in the place of the largest displacement.
     pub fn value(self, numbers: [f64; 2], [q, u, m]: [f64; 3]) -> f64 {
         let [first, second] = numbers;
         let power = |x: f64, n: f64| if n == 0.0 { 1.0 } else { x.powf(n) };
@@ -325,9 +381,15 @@ impl Shape {
             Self::Weakening => -q * m / (first + m),
             Self::Secant => q / (first + m),
             Self::Slack => q.signum() * (q.abs() - first * m).max(0.0),
+            Self::Relaxing | Self::Yielding => m,
         }
     }
 }
+
+/// Length of a part of a path over which a force yields, as a share of the displacement at which it does ...
+const PART: f64 = 0.1;
+/// ... and parts of a path between two samples at most.
+const MOST_PARTS: f64 = 64.0;
 
 #[cfg(test)]
 mod tests {
@@ -380,14 +442,19 @@ mod tests {
     fn analytic_shapes_with_memory_take_energy_over_every_cycle() {
         for shape in Shape::ALL.into_iter().filter(|shape| shape.remembers()) {
             for numbers in corners(shape) {
+                // Each piece takes its length.
+                let mut z = 0.0;
                 // Out to ever more, and back: the work against the force, over paths of straight pieces.
                 let turns = [0.0, 0.3, -0.2, 0.7, -0.9, 1.0, 0.0];
                 let (mut m, mut work) = (0.0_f64, 0.0);
                 for ends in turns.windows(2) {
                     let at = |k: u32| ends[0] + (ends[1] - ends[0]) * (f64::from(k) + 0.5) / 1e4;
+                    let dq = (ends[1] - ends[0]) / 1e4;
                     for q in (0..10_000).map(at) {
                         m = m.max(q.abs());
-                        work += shape.value(numbers, [q, 0.0, m]) * (ends[1] - ends[0]) / 1e4;
+                        let third = if shape.carries() { z + 0.5 * dq } else { m };
+                        work += shape.value(numbers, [q, 0.0, third]) * dq;
+                        z = shape.carried(numbers, z, dq, dq.abs());
                     }
                 }
                 assert!(work > 0.0, "{shape:?} {numbers:?}: {work}");

@@ -8,6 +8,8 @@ pub struct Names<'n> {
     pub x: &'n str,
     /// Velocity.
     pub v: &'n str,
+    /// The carried state.
+    pub z: &'n str,
     /// Numbers of the shape.
     pub numbers: &'n [Number<'n>; 2],
 }
@@ -43,7 +45,7 @@ pub fn force(shape: Shape, coefficient: &str, names: &Names) -> String {
 }
 
 /// Whether the force has a minus before it, and what follows the coefficient.
-fn signed(shape: Shape, Names { x, v, numbers: [first, second] }: &Names) -> (bool, String) {
+fn signed(shape: Shape, Names { x, v, z, numbers: [first, second] }: &Names) -> (bool, String) {
     let on = |side: Side, x: &str, beyond: Option<&str>| match (side, beyond) {
         (Side::Positive, None) => format!("max({x},0)"),
         (Side::Negative, None) => format!("max(-{x},0)"),
@@ -76,6 +78,19 @@ fn signed(shape: Shape, Names { x, v, numbers: [first, second] }: &Names) -> (bo
         Shape::Weakening => (false, format!("{x}*x_max/({text}+x_max)")),
         Shape::Secant => (true, format!("{x}/({text}+x_max)")),
         Shape::Slack => (true, format!("sign({x})*max(abs({x})-{text}*x_max,0)")),
+        Shape::Relaxing | Shape::Yielding => (true, (*z).to_owned()),
+    }
+}
+
+/// The rate of the state that a shape carries along.
+pub fn rate(shape: Shape, Names { v, z, numbers: [first, second], .. }: &Names) -> Option<String> {
+    let text = first.text();
+    match shape {
+        Shape::Relaxing => Some(format!("{v}-{z}/{text}")),
+        Shape::Yielding => {
+            Some(format!("{v}/{text}*(1-{}*(1+sign({v}*{z}))/2)", power(&format!("abs({z})"), *second)))
+        }
+        _ => None,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Site;
 use super::law::{Atom, Law, LawSlot};
 use super::shape::Meaning;
-use super::text::{Names, Number, force};
+use super::text::{Names, Number, force, rate};
 
 /// A parameter of a written law.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +18,17 @@ pub struct WrittenParameter {
     pub of: Vec<usize>,
 }
 
+/// A carried state of a written law, which starts at zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WrittenState {
+    /// Its name in the formula.
+    pub name: String,
+    /// How fast it changes.
+    pub rate: String,
+    /// Its unit; empty for a pure number.
+    pub unit: String,
+}
+
 /// The atoms of a law at one place as one formula.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
@@ -25,6 +36,8 @@ pub struct Written {
     pub site: Site,
     /// The force or moment on the wall.
     pub text: String,
+    /// Carried states.
+    pub states: Vec<WrittenState>,
     /// Parameters.
     pub parameters: Vec<WrittenParameter>,
 }
@@ -42,6 +55,7 @@ impl Law {
                     let sign = if own.text.starts_with('-') { '-' } else { '+' };
                     written.text = format!("{} {sign} {}", written.text, own.text.trim_start_matches('-'));
                     written.parameters.extend(own.parameters);
+                    written.states.extend(own.states);
                 }
                 None => all.push(own),
             }
@@ -78,8 +92,16 @@ impl Law {
             of: fitted(i).into_iter().collect(),
         }));
         let [x, v] = atom.site.variables();
-        let text = force(atom.shape, &letter, &Names { x, v, numbers: &names });
-        Written { site: atom.site, text, parameters }
+        let state = format!("z{suffix}");
+        let names = Names { x, v, z: &state, numbers: &names };
+        let text = force(atom.shape, &letter, &names);
+        let carried = rate(atom.shape, &names).map(|rate| WrittenState {
+            rate,
+            // What its coefficient has not.
+            unit: if coefficient.letter == "f" { String::new() } else { "m".to_owned() },
+            name: state.clone(),
+        });
+        Written { site: atom.site, text, states: carried.into_iter().collect(), parameters }
     }
 
     /// Intervals of the parameters of a formula where those of the fitted numbers are known.
@@ -161,6 +183,7 @@ fn unit_of(site: Site, meaning: Meaning) -> &'static str {
         Meaning::Exponent | Meaning::Share => "",
         Meaning::Displacement => displacement,
         Meaning::Velocity => velocity,
+        Meaning::Time => "s",
     }
 }
 

@@ -191,6 +191,7 @@ fn law_unknowns(law: &Law, index: usize) -> Vec<Unknown> {
                     Meaning::Exponent | Meaning::Share => "",
                     Meaning::Displacement => displacement,
                     Meaning::Velocity => velocity,
+                    Meaning::Time => "s",
                 };
                 let scale = value.abs().max(f64::MIN_POSITIVE);
                 bounds(value, scale, ends.map(|end| end * atoms[a].unit_of(k)), number.letter, unit)
