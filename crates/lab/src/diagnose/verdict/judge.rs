@@ -196,7 +196,8 @@ impl<P: Progress> Gap<'_, P> {
         // Beside a second effect factors on impacts may be found that follow to the noise, and say no more than that impacts are
         // those of another formulation. What leaves more has no name by what it leaves between them.
         let tried = self.trials.ordered(tried);
-        if answer.as_ref().is_some_and(|answer| answer.between_impacts) && self.only_other_impacts(&tried) {
+        let between = answer.as_ref().filter(|answer| answer.between_impacts);
+        if between.is_some_and(|answer| self.follow_other_impacts(&answer.after, &tried)) {
             return self.other_impacts(tried);
         }
         let Some(answer) = answer else {
@@ -293,6 +294,12 @@ impl<P: Progress> Gap<'_, P> {
         let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
         let best = best_answer(closing.iter().copied());
         best.is_some_and(|best| is_near_other_impacts(&self.trials.data, best, &closing))
+    }
+
+    /// Whether impacts of another formulation, however little they keep beside sharp edges, close the gap and do as well as a name.
+    fn follow_other_impacts(&self, named: &FittedHypothesis, tried: &[FittedHypothesis]) -> bool {
+        let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
+        is_near_other_impacts(&self.trials.data, named, &closing)
     }
 
     /// Impacts of another formulation: nothing is missing where a wall without effects leaves noise all the same, else the place.
