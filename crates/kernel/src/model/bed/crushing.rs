@@ -94,7 +94,7 @@ impl CrushingJoint {
 
     /// B, m: the width that is left.
     pub fn left_m(&self) -> f64 {
-        self.width_m - self.lost_m(Pivot::Right) - self.lost_m(Pivot::Left)
+        self.width_m - (self.lost_m(Pivot::Right) + self.lost_m(Pivot::Left))
     }
 
     /// How far to the right the middle of what is left lies, m.

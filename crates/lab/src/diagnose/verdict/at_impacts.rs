@@ -9,7 +9,7 @@ use crate::Progress;
 use crate::diagnose::fit::nats;
 use crate::diagnose::hypothesis::{Addition, FADES};
 use crate::diagnose::trials::{
-    BetweenImpacts, FittedHypothesis, Trials, best_answer, does_something, kinds, leave_noise,
+    BetweenImpacts, Data, FittedHypothesis, Trials, against, best_answer, does_something, kinds, leave_noise,
 };
 use crate::limits::{
     EQUIVALENT, KEPT_AT_IMPACTS, LEFT_AT_IMPACTS, NOT_TOLD_SD, SIGNIFICANT_SD, WORTH_A_NAME,
@@ -86,8 +86,16 @@ pub fn worth_two_between<P: Progress>(
     })
 }
 
+/// Whether impacts that keep what those of another formulation may keep do as well as the best of hypotheses that close a gap, or are
+/// of it.
+pub fn is_near_other_impacts(data: &Data, best: &FittedHypothesis, closing: &[&FittedHypothesis]) -> bool {
+    let limit = against(data, best) + EQUIVALENT;
+    let do_as_well = |t: &&&FittedHypothesis| against(data, t) < limit;
+    closing.iter().filter(do_as_well).any(|t| keeps_as_another_formulation(t))
+}
+
 /// Whether a hypothesis has impacts, and all that they are told to keep is what those of another formulation may keep.
-pub fn keeps_as_another_formulation(tried: &FittedHypothesis) -> bool {
+fn keeps_as_another_formulation(tried: &FittedHypothesis) -> bool {
     let h = &tried.hypothesis;
     // What is kept changes by this much with a number.
     let share = |i: usize| if h.unknowns[i].fades() { FADES / h.unknowns[i].scale } else { 1.0 };
@@ -141,7 +149,7 @@ fn sum(sides: &[f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::fit::Fit;
+    use crate::diagnose::fit::{Fit, Problem, WindowFit};
     use crate::diagnose::hypothesis::example::starter_with;
     use nalgebra::DMatrix;
 
@@ -167,6 +175,34 @@ mod tests {
         assert!(!kept(&["impact_dissipation"], less, 1e-3));
         assert!(kept(&["impact_dissipation"], less, 0.2), "not told");
         assert!(!kept(&["impact_dissipation"], [1.2, 1.0, 1.0, 1.0, 1.0, 1.0], 1e-3), "more than any");
+    }
+
+    #[test]
+    fn analytic_what_impacts_of_another_formulation_do_as_well_is_near_them() {
+        const NOTHING: Problem<'static> = Problem { tests: &[], windows: &[], budget: None };
+        let data = Data { fit: NOTHING, held_out: NOTHING };
+        let of = |names: &[&str], factors: &[f64], squares: f64| {
+            let hypothesis = starter_with(names);
+            let mut values = hypothesis.start();
+            let first = values.len() - factors.len();
+            values[first..].copy_from_slice(factors);
+            let count = values.len();
+            let covariance = Some(DMatrix::from_diagonal_element(count, count, 1e-6));
+            let windows = vec![WindowFit { x: vec![0.0; 4], squares, freedom: 200.0 }; 20];
+            let held_out = Fit { values: Vec::new(), windows: Vec::new(), cost: 0.0, covariance: None };
+            let fit = Fit { values, windows, cost: 0.0, covariance };
+            FittedHypothesis { hypothesis, fit, held_out }
+        };
+        let springs = of(&["impact_dissipation"], &[1.002; 6], 200.0);
+        let less = of(&["impact_dissipation"], &[0.9; 6], 200.0);
+        // The same error in every window, and one that speaks against it by some hundred logarithms.
+        let [as_well, worse] = [200.0, 260.0].map(|squares| of(&["record_gain"], &[0.98], squares));
+        assert!(is_near_other_impacts(&data, &springs, &[&springs]));
+        assert!(is_near_other_impacts(&data, &as_well, &[&as_well, &springs]));
+        assert!(is_near_other_impacts(&data, &worse, &[&worse, &springs]), "which are better");
+        assert!(!is_near_other_impacts(&data, &as_well, &[&as_well, &less]));
+        let far = of(&["impact_dissipation"], &[1.002; 6], 260.0);
+        assert!(!is_near_other_impacts(&data, &as_well, &[&as_well, &far]));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use super::at_impacts::{
-    NamedBetween, keeps_as_another_formulation, named_between, only_impacts, worth_two_between,
+    NamedBetween, is_near_other_impacts, named_between, only_impacts, worth_two_between,
 };
 use super::on_beds::{BedsBeside, on_beds_instead, on_beds_last};
 use super::worth_naming::{could_show, place, worth_two};
@@ -193,6 +193,13 @@ impl<P: Progress> Gap<'_, P> {
             return found;
         }
         let (answer, tried) = self.with_pairs(one, singles);
+        // Beside a second effect factors on impacts may be found that follow to the noise, and say no more than that impacts are
+        // those of another formulation. What leaves more has no name by what it leaves between them.
+        let tried = self.trials.ordered(tried);
+        let between = answer.as_ref().filter(|answer| answer.between_impacts);
+        if between.is_some_and(|answer| self.follow_other_impacts(&answer.after, &tried)) {
+            return self.other_impacts(tried);
+        }
         let Some(answer) = answer else {
             let found = beds.and_then(|beds| beds.leaving_little(self.trials, &self.wall, &tried));
             if let Some(found) = found {
@@ -219,7 +226,6 @@ impl<P: Progress> Gap<'_, P> {
             return self.beyond_a_wrong_name(&answer.after, &kin, other_law, tried);
         }
         let better = if answer.between_impacts { None } else { self.better_formula(&answer.after, &tried) };
-        let tried = self.trials.ordered(tried);
         match better {
             Some((discovered, formula)) => {
                 let other_law = Some(other_law);
@@ -271,7 +277,8 @@ impl<P: Progress> Gap<'_, P> {
     fn closing(&self, tried: &[FittedHypothesis], simpler: &FittedHypothesis) -> Option<Answer> {
         let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
         let best = best_answer(closing.iter().copied())?;
-        if self.gain(simpler, best) < WORTH_A_NAME || self.is_near_other_impacts(best, &closing) {
+        if self.gain(simpler, best) < WORTH_A_NAME || is_near_other_impacts(&self.trials.data, best, &closing)
+        {
             return None;
         }
         // A number of the wall that does clearly better than every effect: a symptom, no answer.
@@ -282,18 +289,17 @@ impl<P: Progress> Gap<'_, P> {
         Some(Answer::named(best.clone(), self.equivalent(best, &closing)))
     }
 
-    /// Whether impacts that keep what those of another formulation may keep do as well as the best hypothesis, or are of it.
-    fn is_near_other_impacts(&self, best: &FittedHypothesis, closing: &[&FittedHypothesis]) -> bool {
-        let limit = against(&self.trials.data, best) + EQUIVALENT;
-        let do_as_well = |t: &&&FittedHypothesis| against(&self.trials.data, t) < limit;
-        closing.iter().filter(do_as_well).any(|t| keeps_as_another_formulation(t))
+    /// Whether hypotheses in order say no more than that impacts keep what those of another formulation may keep.
+    fn only_other_impacts(&self, tried: &[FittedHypothesis]) -> bool {
+        let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
+        let best = best_answer(closing.iter().copied());
+        best.is_some_and(|best| is_near_other_impacts(&self.trials.data, best, &closing))
     }
 
-    /// Whether single effects say no more than that impacts keep what those of another formulation may keep.
-    fn only_other_impacts(&self, singles: &[FittedHypothesis]) -> bool {
-        let closing = singles.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
-        let best = best_answer(closing.iter().copied());
-        best.is_some_and(|best| self.is_near_other_impacts(best, &closing))
+    /// Whether impacts of another formulation, however little they keep beside sharp edges, close the gap and do as well as a name.
+    fn follow_other_impacts(&self, named: &FittedHypothesis, tried: &[FittedHypothesis]) -> bool {
+        let closing = tried.iter().filter(|t| closes(t, self.error)).collect::<Vec<_>>();
+        is_near_other_impacts(&self.trials.data, named, &closing)
     }
 
     /// Impacts of another formulation: nothing is missing where a wall without effects leaves noise all the same, else the place.
