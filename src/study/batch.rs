@@ -4,8 +4,6 @@
 //! the number of threads. No histories are held. A thread takes the next run as soon as a lane is free. An incremental
 //! analysis is runs at growing intensities, until one exceeds a limit.
 
-use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,11 +12,10 @@ use super::chain;
 use super::ladder::Search;
 use super::pipeline::{Limit, Variant};
 use super::plan::{Growth, Plan, Run};
+use super::shared::{Share, run_shared};
 use indicatif::ProgressBar;
 use mrbd_kernel::model::Wall;
-use mrbd_kernel::simulate::{
-    Accuracy, Outcome, Prepared, Response, Shaking, Simulator, Start, simulate, simulate_side_by_side,
-};
+use mrbd_kernel::simulate::{Accuracy, Outcome, Prepared, Response, Shaking, Simulator, Start, simulate};
 
 /// A run, of a plan or told otherwise, and what came of it.
 #[derive(Debug, Clone)]
@@ -139,15 +136,6 @@ impl Simulate for SideBySide {
     }
 }
 
-/// Runs that threads share: each takes the next as it comes free.
-pub(super) trait Share: Sync {
-    /// Number of the run that is next, and its position in the plan.
-    fn next(&self) -> Option<(usize, u64)>;
-
-    /// Takes what came of a run.
-    fn done(&self, number: usize, finished: Finished);
-}
-
 /// Runs at these positions of a plan, and what came of them.
 struct Listed {
     positions: Vec<u64>,
@@ -183,22 +171,6 @@ pub fn run_all(
     let mut done = listed.done.into_inner().unwrap_or_else(PoisonError::into_inner);
     done.sort_unstable_by_key(|(number, _)| *number);
     done.into_iter().map(|(_, finished)| finished).collect()
-}
-
-/// Runs what the threads of the current pool share, of a plan without sequences, until there is no more.
-pub(super) fn run_shared<S: Simulate + Sync>(
-    plan: &Plan,
-    share: &impl Share,
-    simulate: &S,
-    progress: &ProgressBar,
-) {
-    rayon::broadcast(|_| {
-        let thread = Thread { plan, share, progress };
-        match simulate.goes_side_by_side() {
-            true => thread.run_side_by_side(),
-            false => thread.run_one_by_one(simulate),
-        }
-    });
 }
 
 /// Runs one run; a façade that is no wall, or a panic of the simulator, is a failure of this run, not of the study.
@@ -300,68 +272,8 @@ fn exceeds(limit: Limit, trial: &Finished) -> Result<bool, Failed> {
     Ok(limit.exceeded_by(response))
 }
 
-/// What one thread does.
-struct Thread<'a, S> {
-    plan: &'a Plan,
-    share: &'a S,
-    progress: &'a ProgressBar,
-}
-
-impl<S: Share> Thread<'_, S> {
-    fn run_one_by_one(&self, simulate: &impl Simulate) {
-        while let Some((number, position)) = self.share.next() {
-            self.finish(number, run_one(self.plan.run(position), simulate));
-        }
-    }
-
-    fn run_side_by_side(&self) {
-        loop {
-            // Runs that have begun and not ended, by their number.
-            let at_work = RefCell::new(BTreeMap::new());
-            let all = catch_unwind(AssertUnwindSafe(|| self.run_rows(&at_work)));
-            if all.is_ok() {
-                return;
-            }
-            // One of them panics: each once more, alone, to tell which; the thread then goes on.
-            for (number, finished) in at_work.into_inner() {
-                self.finish(number, run_one(finished.run, &SideBySide));
-            }
-        }
-    }
-
-    fn run_rows(&self, at_work: &RefCell<BTreeMap<usize, Finished>>) {
-        let mut ready: Ready = None;
-        let mut motion = None;
-        let mut next = || {
-            loop {
-                let (number, position) = self.share.next()?;
-                let run = self.plan.run(position);
-                if run.growth().is_some() || run.wall.is_err() {
-                    // Searches go step by step; a façade that is no wall has nothing to run.
-                    self.finish(number, run_one(run, &SideBySide));
-                    continue;
-                }
-                // Noted before it is made ready, which may panic.
-                let mut at_work = at_work.borrow_mut();
-                let planned = at_work.entry(number).or_insert(Finished::planned(run));
-                return Some((number, prepare_run(&planned.run, &mut motion, &mut ready)?));
-            }
-        };
-        simulate_side_by_side(&mut next, &mut |number, response| {
-            if let Some(finished) = at_work.borrow_mut().remove(&number) {
-                self.finish(number, answered(finished, response));
-            }
-        });
-    }
-
-    fn finish(&self, number: usize, finished: Finished) {
-        self.share.done(number, finished);
-        self.progress.inc(1);
-    }
-}
-
 /// The motion of a run, told by where it comes from.
-struct MotionOf {
+pub(super) struct MotionOf {
     variant: Arc<Variant>,
     record_index: usize,
     factor: f64,
@@ -381,7 +293,7 @@ impl MotionOf {
 }
 
 /// Makes a run of a plan ready; `motion` is that of the run before.
-fn prepare_run(run: &Run, motion: &mut Option<MotionOf>, ready: &mut Ready) -> Option<Prepared> {
+pub(super) fn prepare_run(run: &Run, motion: &mut Option<MotionOf>, ready: &mut Ready) -> Option<Prepared> {
     let (wall, accuracy) = (run.wall.as_ref().ok()?, run.accuracy());
     let shaking = match (&*motion, &*ready) {
         (Some(motion), Some((shaking, _))) if motion.shakes(run) => shaking.clone(),

@@ -20,5 +20,6 @@ pub mod pipeline;
 pub mod plan;
 pub mod runs;
 pub mod sequence;
+mod shared;
 mod study_table;
 mod variance_table;

@@ -302,21 +302,25 @@ mod tests {
         [effects.parameters]\nk = { value = 37e3, unit = \"N/m\" }\np = { value = 1.7, unit = \"1\" }\n\
         d = { value = 900, unit = \"N*(s/m)**p\" }\n";
 
+    /// Laws of a wall file come back as they were when they are written and read, as text and as a table.
+    fn assert_written_as_read(laws: &str, wall: &WallParameters) {
+        #[derive(Serialize)]
+        struct Laws {
+            effects: Vec<FurtherLaw>,
+        }
+        let text = toml::to_string(&Laws { effects: wall.further_laws() }).expect("a table");
+        assert_eq!(read(&format!("{FEWEST}{text}")).expect(&text), *wall, "{text}");
+        let table = toml::from_str(&format!("{FEWEST}{laws}")).expect("TOML");
+        assert_eq!(wall_from_table(Path::new("wall.toml"), table).expect("a wall").parameters(), wall);
+    }
+
     #[test]
     fn analytic_a_formula_of_a_wall_file_is_written_as_it_was_read() {
         let friction = "[[effects]]\nkind = \"coulomb_friction\"\nforce_n = 300.0\n";
         let wall = read(&format!("{FEWEST}{FORMULA}{friction}")).expect("a wall");
         assert_eq!((wall.effects.len(), wall.formulas.len()), (1, 1));
         assert_eq!(wall.formulas[0].to_string(), "-k*x - d*abs(v)**p*sign(v)");
-        #[derive(Serialize)]
-        struct Laws {
-            effects: Vec<FurtherLaw>,
-        }
-        let text = toml::to_string(&Laws { effects: wall.further_laws() }).expect("a table");
-        assert_eq!(read(&format!("{FEWEST}{text}")).expect(&text), wall, "{text}");
-        let table = toml::from_str(&format!("{FEWEST}{FORMULA}{friction}")).expect("TOML");
-        let of_table = wall_from_table(Path::new("wall.toml"), table).expect("a wall");
-        assert_eq!(*of_table.parameters(), wall);
+        assert_written_as_read(&format!("{FORMULA}{friction}"), &wall);
     }
 
     #[test]
@@ -357,14 +361,7 @@ mod tests {
             b = { value = 50.0, unit = \"m**(-n)\" }\ng = { value = 50.0, unit = \"m**(-n)\" }\nn = { value = 1.5, unit = \"1\" }\n";
         for law in [CARRIED, bouc_wen] {
             let wall = read(&format!("{FEWEST}{law}")).expect("a wall");
-            #[derive(Serialize)]
-            struct Laws {
-                effects: Vec<FurtherLaw>,
-            }
-            let text = toml::to_string(&Laws { effects: wall.further_laws() }).expect("a table");
-            assert_eq!(read(&format!("{FEWEST}{text}")).expect(&text), wall, "{text}");
-            let table = toml::from_str(&format!("{FEWEST}{law}")).expect("TOML");
-            assert_eq!(*wall_from_table(Path::new("wall.toml"), table).expect("a wall").parameters(), wall);
+            assert_written_as_read(law, &wall);
         }
         // Bounded by its rate too, as it is written by Bouc and Wen.
         read(&format!("{FEWEST}{}", bouc_wen.replace("range = [-0.5, 0.5]\n", ""))).expect("a wall");

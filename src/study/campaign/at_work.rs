@@ -9,7 +9,8 @@ use std::sync::{Mutex, PoisonError};
 
 use super::Work;
 use super::shard::Block;
-use crate::study::batch::{Finished, Share, Simulate, run_all, run_shared};
+use crate::study::batch::{Finished, Simulate, run_all};
+use crate::study::shared::{Share, run_shared};
 
 /// A block whose runs are all done, in the order of the plan.
 pub(super) type Whole = (Block, Vec<Finished>);

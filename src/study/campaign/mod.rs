@@ -131,8 +131,8 @@ pub struct Work<'a, S> {
 
 /// Runs the blocks of a shard that are missing and stores each as soon as it is done; `watch` sees its runs.
 ///
-/// Threads take runs across the ends of blocks, and blocks are stored while others run. Being killed loses the blocks at work, two
-/// a thread at most, and as many that wait to be stored.
+/// Threads take runs across the ends of blocks, and blocks are stored while others run. Being killed loses the blocks that are not
+/// whole, and those that wait to be stored.
 ///
 /// # Errors
 /// [`mrbd_files::Error::Io`] or [`crate::Error::Table`] if the disk refuses, which leaves what is stored as it is.

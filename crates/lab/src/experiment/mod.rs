@@ -20,6 +20,7 @@
 
 pub mod alignment;
 mod bodies;
+mod carried;
 pub mod channel_table;
 mod channels;
 pub mod file;
@@ -38,6 +39,7 @@ mod test_table;
 pub mod windows;
 
 pub use alignment::Alignment;
+pub(crate) use carried::{carried_along, top_path};
 pub use file::{ExperimentFile, Purpose};
 pub use measured::Measured;
 pub use misfit::Target;

@@ -12,11 +12,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::carried::{carried_along, top_path};
 use super::misfit::{Sample, Target};
 use super::pattern::Freedom;
 use super::rotations::Sampled;
 use crate::least_squares::newton_step;
-use mrbd_kernel::model::{CarriedStates, Contact, Pair, Pivot, RockingWall, State, TopMove};
+use mrbd_kernel::model::{CarriedStates, Contact, Pair, Pivot, RockingWall, State};
 use mrbd_kernel::simulate::{Outcome, Simulator, Start};
 
 /// An opening counts as one when it is this many standard deviations of the noise.
@@ -58,7 +59,7 @@ impl Segment {
 pub(crate) fn segments(target: &Target, simulator: &Simulator) -> Vec<Segment> {
     let samples = target.samples();
     let noise_rad = target.noise_rad();
-    let carried = carried_along(samples, simulator.wall());
+    let carried = carried_by_sample(samples, simulator.wall());
     let start = |stretch: Stretch| {
         let part = &samples[stretch.first..stretch.end];
         let carried = carried.get(stretch.first).copied();
@@ -79,26 +80,12 @@ pub(crate) fn segments(target: &Target, simulator: &Simulator) -> Vec<Segment> {
 }
 
 /// The carried states of the formulas of a wall along the measured motion, by sample; empty where there are none.
-fn carried_along(samples: &[Sample], wall: &RockingWall) -> Vec<CarriedStates> {
+fn carried_by_sample(samples: &[Sample], wall: &RockingWall) -> Vec<CarriedStates> {
     if !wall.carries() {
         return Vec::new();
     }
-    let mut carried = wall.carried_at_start();
-    let (mut before, mut largest_m) = (None::<(f64, f64)>, 0.0_f64);
-    let at = |sample: &Sample| {
-        let (theta, now_s) = (sample.theta_rad, sample.time_s);
-        if theta.iter().all(|t| t.is_finite()) {
-            let to_m = wall.top_displacement_m(Contact::of_rotations(theta), theta);
-            if let Some((time_s, from_m)) = before {
-                let top = TopMove { from_m, to_m, largest_m, time_s: now_s - time_s };
-                carried = wall.carried_after(&carried, &top);
-            }
-            largest_m = largest_m.max(to_m.abs());
-            before = Some((now_s, to_m));
-        }
-        carried
-    };
-    samples.iter().map(at).collect()
+    let motion = samples.iter().map(|sample| (sample.time_s, sample.theta_rad));
+    carried_along(&top_path(motion, wall), wall)
 }
 
 /// A stretch, by the numbers of its first sample and the one after its last.

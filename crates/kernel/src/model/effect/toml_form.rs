@@ -95,7 +95,8 @@ impl<'de> Visitor<'de> for LawVisitor {
 }
 
 /// Keys of a formula in wall files.
-const FORMULA_KEYS: &str = "`place`, `force_n` at the top, `moment_n_m` at a joint or `factor` at impacts, `parameters`, `states` at the top";
+const FORMULA_KEYS: &str = "`place`, `force_n` at the top, `moment_n_m` at a joint or `factor` at impacts, \
+                            `parameters`, `states` at the top";
 
 /// What of a formula is wrong.
 fn refused(found: impl Into<String>, allowed: impl Into<String>) -> EffectError {

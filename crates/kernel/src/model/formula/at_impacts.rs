@@ -6,9 +6,9 @@
 
 use std::sync::Arc;
 
-use mrbd_formula::{Branches, Formula, Place, Program};
+use mrbd_formula::{Branches, Formula, Place, Program, state};
 
-use super::super::contact::Touching;
+use super::super::contact::{Joint, Touching};
 use super::super::geometry::Pair;
 use super::super::rocking::{RockingWall, opening};
 use super::super::wall::{ImpossibleWall, Wall};
@@ -44,16 +44,12 @@ impl RockingWall {
         if factors.is_empty() && fading_s_per_m == 0.0 {
             return 1.0;
         }
-        let closing = |joint: super::super::contact::Joint| {
+        let closing = |joint: Joint| {
             let rate_rad_s = opening(joint, omega).abs();
-            mrbd_formula::state([
-                self.width_m(joint) * rate_rad_s,
-                rate_rad_s,
-                self.wall().weights_n()[joint as usize],
-            ])
+            state([self.width_m(joint) * rate_rad_s, rate_rad_s, self.wall().weights_n()[joint as usize]])
         };
         let touching = self.joints().filter(|joint| touching.at(*joint)).map(closing);
-        let fastest = touching.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or(mrbd_formula::state([0.0; 3]));
+        let fastest = touching.max_by(|a, b| a[0].total_cmp(&b[0])).unwrap_or(state([0.0; 3]));
         let written: f64 = factors.iter().map(|factor| factor.value(fastest, &Branches::FREE)).product();
         libm::exp(-fading_s_per_m * fastest[0]) * written
     }

@@ -9,7 +9,7 @@ use crate::diagnose::force::Against;
 use crate::diagnose::formula::{Curve, Law, Part, Site, Written, WrittenState};
 use crate::diagnose::trials::FittedHypothesis;
 use crate::diagnose::verdict::Verdict;
-use mrbd_formula::Formula;
+use mrbd_formula::{CarriedState, Formula};
 
 /// Kind of such an effect in wall files.
 const FORMULA: &str = "formula";
@@ -87,8 +87,8 @@ impl Findings<'_> {
     pub(super) fn without_intervals(&self, written: &Written) -> FoundEffect {
         let named = || written.parameters.iter();
         let state = |state: &WrittenState| {
-            let WrittenState { name, rate, unit } = state.clone();
-            FoundState { name, rate, start: 0.0, unit }
+            let CarriedState { name, rate, start, unit, .. } = state.carried();
+            FoundState { name, rate, start, unit }
         };
         FoundEffect {
             kind: Some(FORMULA.to_owned()),

@@ -10,9 +10,9 @@
 
 use super::Budget;
 use crate::diagnose::hypothesis::Physics;
-use crate::experiment::{Freedom, Sampled, TestData, Window, held_state};
+use crate::experiment::{self, Freedom, Sampled, TestData, Window, carried_along, held_state};
 use mrbd_formula::Formula;
-use mrbd_kernel::model::{CarriedStates, Contact, Pair, RockingWall, Role, TopMemory, TopMove};
+use mrbd_kernel::model::{CarriedStates, Contact, Pair, RockingWall, Role, TopMemory};
 use mrbd_kernel::simulate::{
     Accuracy, Observer, Prepared, Response, Shaking, Simulator, Start, simulate_watched_side_by_side,
 };
@@ -182,7 +182,7 @@ impl TopPast {
                 largest_m = largest_so_far_m(test, &wall);
             }
             if carries {
-                carried = carried_along(test, &wall);
+                carried = carried_along(&top_path(test, &wall), &wall);
             }
         }
         Self { elastic_m, largest_m, carried }
@@ -214,30 +214,10 @@ fn elastic_along_m(test: &TestData, physics: &Physics, wall: &RockingWall) -> Ve
     (0..test.theta_rad.len()).map(at).collect()
 }
 
-/// Times (s) and displacements of the top (m) of a test. Over samples that were not measured the top stays, and then moves at once.
+/// Times (s) and displacements of the top (m) of a test.
 pub fn top_path(test: &TestData, wall: &RockingWall) -> Vec<[f64; 2]> {
-    let mut x_c = 0.0;
-    let at = |k: usize| {
-        let theta = smoothed(test, k, &PARABOLA);
-        if theta.iter().all(|t| t.is_finite()) {
-            x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
-        }
-        [test.time_s[k], x_c]
-    };
-    (0..test.theta_rad.len()).map(at).collect()
-}
-
-/// The carried states of the formulas of a wall at every sample of a test.
-fn carried_along(test: &TestData, wall: &RockingWall) -> Vec<CarriedStates> {
-    let path = top_path(test, wall);
-    let (mut carried, mut largest_m) = (wall.carried_at_start(), 0.0_f64);
-    let steps = path.windows(2).map(|ends| {
-        let [[from_s, from_m], [to_s, to_m]] = [ends[0], ends[1]];
-        largest_m = largest_m.max(from_m.abs());
-        carried = wall.carried_after(&carried, &TopMove { from_m, to_m, largest_m, time_s: to_s - from_s });
-        carried
-    });
-    std::iter::once(wall.carried_at_start()).chain(steps).take(path.len()).collect()
+    let at = |k: usize| (test.time_s[k], smoothed(test, k, &PARABOLA));
+    experiment::top_path((0..test.theta_rad.len()).map(at), wall)
 }
 
 /// The largest displacement of the top so far, m, at every sample of a test.

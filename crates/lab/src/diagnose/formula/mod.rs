@@ -69,6 +69,17 @@ impl Site {
         }
     }
 
+    /// Unit of a number of a shape there; empty of a pure number.
+    pub fn unit_of(self, meaning: Meaning) -> &'static str {
+        let [displacement, velocity] = self.motion_units();
+        match meaning {
+            Meaning::Exponent | Meaning::Share => "",
+            Meaning::Displacement => displacement,
+            Meaning::Velocity => velocity,
+            Meaning::Time => "s",
+        }
+    }
+
     /// Units of both.
     pub fn motion_units(self) -> [&'static str; 2] {
         match self {

@@ -2,7 +2,6 @@
 
 use super::Site;
 use super::law::{Atom, Law, LawSlot};
-use super::shape::Meaning;
 use super::text::{Names, Number, force, rate};
 
 /// A parameter of a written law.
@@ -88,7 +87,7 @@ impl Law {
         parameters.extend(atom.free().map(|i| WrittenParameter {
             name: letters[i].clone(),
             value: atom.numbers[i] * atom.unit_of(i),
-            unit: unit_of(atom.site, atom.meaning(i)).to_owned(),
+            unit: atom.site.unit_of(atom.meaning(i)).to_owned(),
             of: fitted(i).into_iter().collect(),
         }));
         let [x, v] = atom.site.variables();
@@ -174,16 +173,6 @@ fn per(site: Site, variable: usize, power: Number) -> String {
         Number::Exact(0.0) => String::new(),
         Number::Exact(1.0) => base.to_owned(),
         power => format!("{base}**{}", power.text()),
-    }
-}
-
-fn unit_of(site: Site, meaning: Meaning) -> &'static str {
-    let [displacement, velocity] = site.motion_units();
-    match meaning {
-        Meaning::Exponent | Meaning::Share => "",
-        Meaning::Displacement => displacement,
-        Meaning::Velocity => velocity,
-        Meaning::Time => "s",
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::unknown::{Measure, Slot, wall_number};
 use super::{Scales, Unknown, WallNumber};
-use crate::diagnose::formula::{Law, LawSlot, Meaning};
+use crate::diagnose::formula::{Law, LawSlot};
 use crate::limits::{FACTOR_SD, MOST_OF_LAW, PRIOR_REACH, STRONGEST_DAMPER};
 use mrbd_kernel::model::{
     EffectKind, EffectParameter, EffectVariant, Joint, Place, Quantity, Role, WallParameters,
@@ -186,13 +186,7 @@ fn law_unknowns(law: &Law, index: usize) -> Vec<Unknown> {
             LawSlot::Number(a, k) => {
                 let number = &atoms[a].shape.numbers()[k];
                 let ends = atoms[a].bounds(k);
-                let [displacement, velocity] = atoms[a].site.motion_units();
-                let unit = match number.meaning {
-                    Meaning::Exponent | Meaning::Share => "",
-                    Meaning::Displacement => displacement,
-                    Meaning::Velocity => velocity,
-                    Meaning::Time => "s",
-                };
+                let unit = atoms[a].site.unit_of(number.meaning);
                 let scale = value.abs().max(f64::MIN_POSITIVE);
                 bounds(value, scale, ends.map(|end| end * atoms[a].unit_of(k)), number.letter, unit)
             }
