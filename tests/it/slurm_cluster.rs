@@ -15,6 +15,9 @@ const PATIENCE: Duration = Duration::from_secs(150);
 /// Folder of the results, by a name that scripts trip over.
 const OUT: &str = "the user's 10%A out";
 
+/// Runs of a block: a few hundredths of a second.
+const BLOCK_RUNS: &str = "20";
+
 /// Bit of SIGTERM, number 15, in the masks of /proc/PID/status.
 const TERM: u64 = 1 << 14;
 
@@ -107,11 +110,13 @@ fn starts(log: &str) -> usize {
 #[test]
 #[ignore = "needs a Slurm cluster: make test-slurm"]
 fn regress_killed_warned_lost_and_cancelled_tasks_in_slurm_end_in_the_bits_of_one_process() {
-    // A tolerance at which a task takes long enough to be caught at work.
-    let folder = study(&SMALL.replace("[sweep]\n", "[assumptions]\ntolerance = 1e-13\n[sweep]\n"));
+    // Runs that take milliseconds, and seconds of them for each task: long enough to be caught at work.
+    let many: Vec<f64> = (0..120).map(|step| 10.0 + 0.1 * f64::from(step)).collect();
+    let slow = SMALL.replace("[sweep]\n", "[assumptions]\ntolerance = 1e-13\n[sweep]\n");
+    let folder = study(&slow.replace("[10.0, 14.0, 18.0]", &format!("{many:?}")));
     let at = folder.path();
-    let told = stdout(&mrbd(at, &["run", "study.toml", "--out", "whole", "--block-runs", "2"]));
-    let mut command = vec!["slurm", "study.toml", "--out", OUT, "--block-runs", "2", "--tasks", "4"];
+    let told = stdout(&mrbd(at, &["run", "study.toml", "--out", "whole", "--block-runs", BLOCK_RUNS]));
+    let mut command = vec!["slurm", "study.toml", "--out", OUT, "--block-runs", BLOCK_RUNS, "--tasks", "4"];
     command.extend(["--cpus", "1", "--time", "10", "--warning-s", "59", "--partition", "main"]);
     command.extend(["--account", "the o'hara \"lab\"", "--sbatch=--comment=a b"]);
     let command = stdout(&mrbd(at, &command));
