@@ -34,12 +34,12 @@ fn errors(experiment: &Experiment, bed: Option<[f64; 2]>, coefficient: f64) -> V
 fn measured_releases_are_followed_by_joints_that_give() {
     let releases = experiment("experiment_a.toml");
     // What `make measured` finds, as docs/measured-walls.md has it.
-    let of_a = errors(&releases, Some([3.50e7, 0.0103]), 1.0);
-    let of_b = errors(&releases, Some([3.93e7, 0.0113]), 1.0);
+    let of_a = errors(&releases, Some([3.52e7, 0.0105]), 1.0);
+    let of_b = errors(&releases, Some([4.08e7, 0.0113]), 1.0);
     println!("over the thickness: joints of a {of_a:.3?}, of b {of_b:.3?}");
-    // Fitted 3.2 and 4.1 %, held out 7.5 and 6.8 %: half a percent more for other rounding of the numbers.
-    assert!(of_a[0] < 0.037 && of_b[1] < 0.046, "to fit: {of_a:?} {of_b:?}");
-    assert!(of_a[1] < 0.080 && of_b[0] < 0.073, "held out: {of_a:?} {of_b:?}");
+    // Fitted 3.2 and 4.3 %, held out 7.4 and 7.1 %: half a percent more for other rounding of the numbers.
+    assert!(of_a[0] < 0.037 && of_b[1] < 0.048, "to fit: {of_a:?} {of_b:?}");
+    assert!(of_a[1] < 0.079 && of_b[0] < 0.076, "held out: {of_a:?} {of_b:?}");
     for coefficient in [0.7, 0.8, 0.9, 1.0] {
         let sharp = errors(&releases, None, coefficient);
         assert!(sharp.iter().all(|error| *error > 0.145), "C = {coefficient}: {sharp:?}");
@@ -50,8 +50,8 @@ fn measured_releases_are_followed_by_joints_that_give() {
 fn measured_releases_are_followed_from_after_their_first_passage() {
     let late = experiment("after_a.toml");
     // What `make measured` finds from 0.55 s on.
-    let of_a = errors(&late, Some([3.52e7, 0.0094]), 1.0);
-    let of_b = errors(&late, Some([3.97e7, 0.0091]), 1.0);
+    let of_a = errors(&late, Some([3.55e7, 0.0094]), 1.0);
+    let of_b = errors(&late, Some([3.97e7, 0.0092]), 1.0);
     println!("from 0.55 s on, over the thickness: joints of a {of_a:.4?}, of b {of_b:.4?}");
     // Half a percent more than found for other rounding of the numbers; the target held out is 4 %.
     assert!(of_a[0] < 0.030 && of_b[1] < 0.030, "to fit: {of_a:?} {of_b:?}");

@@ -132,8 +132,9 @@ fn analytic_a_wall_on_ever_stiffer_beds_moves_as_on_sharp_edges() {
     for (sharp, on_beds) in cases {
         let (_, sharp) = released(sharp, 1.0);
         let apart = [1e10, 1e11, 1e12].map(|k| farthest(on_beds(k), &sharp));
-        // The edge is b sqrt(φ_c/φ) wide: a tenth of the compliance takes at least a third of the distance away.
-        assert!(apart.windows(2).all(|pair| pair[1] < 0.4 * pair[0]), "{apart:?}");
+        // The edge is b sqrt(φ_c/φ) wide, and a passage keeps r/(r + 0.02) of what an impact takes: both fall with the square root of
+        // the compliance at last. Of slow passages r is still about 0.02 at 1e12 Pa/m, as on rows of springs (docs/model.md).
+        assert!(apart.windows(2).all(|pair| pair[1] < 0.9 * pair[0]), "{apart:?}");
     }
     // The largest stiffness is the sharp edge itself, to the bit.
     let (sharp, _) = released(table_wall(Vec::new(), [0.02, 0.03]), 1.0);

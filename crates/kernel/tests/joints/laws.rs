@@ -198,14 +198,16 @@ fn analytic_limits_are_the_laws_they_narrow_to() {
         rows.flat_map(|(a, b)| [0, 1].map(|i| (a.theta_rad[i] - b.theta_rad[i]).abs())).fold(0.0, f64::max)
     };
     let (_, sharp) = released(table_wall(Vec::new(), [0.02, 0.03]), 1.0);
-    for size in [&[1e-3, 1e-4, 1e-5, 1e-6][..], &[1e-3, 1e-4, 1e-5]] {
+    for size in [&[1e-4, 1e-5, 1e-6, 1e-7][..], &[1e-3, 1e-4, 1e-5]] {
         let of = |x: f64| match size.len() {
             4 => effect("trilinear_joint.both", &[1.0, x, 0.0, 0.0]),
             _ => effect("rounded_edges.both", &[x, 100.0 * x]),
         };
         let apart: Vec<f64> = size.iter().map(|x| farthest(vec![of(*x)], &sharp)).collect();
-        // A tenth of what is worn takes at least half of the distance away.
-        assert!(apart.windows(2).all(|pair| pair[1] < 0.5 * pair[0]), "{apart:?}");
+        // A tenth of what is worn takes at least half of the distance away; of lines less, for passages keep r/(r + 0.02) of what an
+        // impact takes.
+        let most = if size.len() == 4 { 0.9 } else { 0.5 };
+        assert!(apart.windows(2).all(|pair| pair[1] < most * pair[0]), "{apart:?}");
     }
 }
 

@@ -92,9 +92,9 @@ limits! {
     /// Windows that are asked whether joints give.
     BEDS_WINDOWS: usize = 30, "";
     /// Stiffness of beds that are looked at first.
-    BED_DECADES: [f64; 3] = [1e8, 1e9, 1e10], "Pa/m";
-    /// Stiffness of beds that are looked at where these promise something.
-    BED_HALF_DECADES: [f64; 4] = [3e7, 3e8, 3e9, 3e10], "Pa/m";
+    ///
+    /// What a passage takes changes so much over a decade that beds halfway would not be seen to be asked for.
+    BED_HALF_DECADES: [f64; 7] = [3e7, 1e8, 3e8, 1e9, 3e9, 1e10, 3e10], "Pa/m";
     /// Damping time with which beds are looked at.
     BED_DAMPING: f64 = 1e-3, "s";
     /// The same beside it where the top is held: nothing else takes energy from such a strip.

@@ -130,13 +130,19 @@ impl BedsBeside {
         Some(Self { effect, alone, best: best.clone(), near })
     }
 
-    /// The verdict where they follow to the noise, and no effect on sharp edges does nearly as well beside the same effect.
+    /// The verdict where they follow to the noise, and no effect on sharp edges does nearly as well beside the same effect; or where
+    /// the bed does so without the effect, by which it was only found.
     pub fn following<P: Progress>(
         &self,
         trials: &Trials<P>,
         wall: &WallFits,
         tried: &[FittedHypothesis],
     ) -> Option<Found> {
+        if !is_worth_it(trials, wall, &self.alone, &self.best)
+            && let Some(found) = following_alone(trials, wall, std::slice::from_ref(&self.alone), tried)
+        {
+            return Some(found);
+        }
         if !follows(trials, wall, &self.best, tried) {
             return None;
         }
@@ -276,13 +282,15 @@ fn with_effect<P: Progress>(
     if leaves_noise(alone) || trials.is_held() {
         return Some(OnBeds { best: alone.clone(), near: Vec::new(), pairs: Vec::new(), rivals: None });
     }
-    let (pairs, rivals) = match worth_it(trials, wall, alone, &pairs) {
-        None if leaves_more_than_another_model(wall, alone) => {
-            let rivals = trials.rivals_of_beds(&wall.before);
-            let found = trials.beds_beside_rivals(alone, &rivals);
-            ([found, pairs].concat(), Some(rivals))
-        }
-        _ => (pairs, None),
+    // A pair that leaves more than noise may stand for another, which is found from sharp edges alone.
+    let to_noise = worth_it(trials, wall, alone, &pairs).is_some_and(|(two, _)| is_noise(&two));
+    let (pairs, rivals) = if !to_noise && leaves_more_than_another_model(wall, alone) {
+        let rivals = trials.rivals_of_beds(&wall.before);
+        let mut all = [trials.beds_beside_rivals(alone, &rivals), pairs].concat();
+        all.sort_by(|a, b| excess(&all_windows(a)).total_cmp(&excess(&all_windows(b))));
+        (all, Some(rivals))
+    } else {
+        (pairs, None)
     };
     let (best, near) = worth_it(trials, wall, alone, &pairs).unwrap_or_else(|| (alone.clone(), Vec::new()));
     Some(OnBeds { best, near, pairs, rivals })

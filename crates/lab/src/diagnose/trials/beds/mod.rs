@@ -1,11 +1,11 @@
 //! Joints that give, looked for where windows ask for them.
 //!
 //! A wall on beds takes long to simulate, so it is tried in steps, each of which may be the last. Windows are short, and
-//! begin from measured states: there is no chaos in them, and few of them tell the stiffness by decades.
+//! begin from measured states: there is no chaos in them, and few of them tell the stiffness by half decades.
 //!
 //! | step | windows | what moves |
 //! | --- | --- | --- |
-//! | probe | few | stiffness by decades, at the ground, at the crack and at both |
+//! | probe | few | stiffness by half decades, at the ground, at the crack and at both |
 //! | begin | few | stiffness and damping |
 //! | fit | all | these and the wall's own numbers |
 //!

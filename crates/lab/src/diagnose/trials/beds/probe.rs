@@ -6,7 +6,7 @@ use crate::Progress;
 use crate::diagnose::fit::{Fit, WindowFit};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
 use crate::diagnose::trials::{FittedHypothesis, Trials};
-use crate::limits::{BED_DAMPING, BED_DECADES, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_WINDOWS, HELD_DAMPING};
+use crate::limits::{BED_DAMPING, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_WINDOWS, HELD_DAMPING};
 use rayon::prelude::*;
 
 /// A bed looked at in few windows.
@@ -28,7 +28,7 @@ pub struct Probe<'t, P> {
 }
 
 impl<'t, P: Progress> Probe<'t, P> {
-    /// Beds by decades under a wall, where the best of them takes away a share of what is left `without`; `None`: where they are
+    /// Beds by half decades under a wall, where the best of them takes away a share of what is left `without`; `None`: where they are
     /// fitted anyhow.
     pub fn new(
         trials: &'t Trials<'t, P>,
@@ -42,7 +42,7 @@ impl<'t, P: Progress> Probe<'t, P> {
         (probe.least() < most).then_some(probe)
     }
 
-    /// Beds by decades beside an effect, in windows half of which are those that another follows worst.
+    /// Beds by half decades beside an effect, in windows half of which are those that another follows worst.
     pub fn beside(
         trials: &'t Trials<'t, P>,
         effect: &'t FittedHypothesis,
@@ -53,7 +53,7 @@ impl<'t, P: Progress> Probe<'t, P> {
 
     fn of(trials: &'t Trials<'t, P>, wall: &'t FittedHypothesis, few: Few) -> Self {
         let mut probe = Self { trials, few, wall, beds: Vec::new() };
-        probe.beds = probe.probed(&BED_DECADES);
+        probe.beds = probe.probed(&BED_HALF_DECADES);
         probe
     }
 
@@ -68,8 +68,7 @@ impl<'t, P: Progress> Probe<'t, P> {
     }
 
     /// Of each bed the best stiffness, fitted to the few windows with its damping and with what is uncertain of the wall.
-    pub fn begun(mut self) -> Vec<(Hypothesis, Fit)> {
-        self.beds.extend(self.probed(&BED_HALF_DECADES));
+    pub fn begun(self) -> Vec<(Hypothesis, Fit)> {
         let best = |bed: &Addition| {
             let own = self.beds.iter().filter(|p| p.bed == *bed);
             own.min_by(|a, b| a.excess.total_cmp(&b.excess))
