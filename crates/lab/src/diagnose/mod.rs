@@ -37,8 +37,8 @@ use answer::Findings;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use trials::{
-    Data, FirstFits, FittedHypothesis, Trials, Unfinished, WallFits, gain_misread, opened_as_given,
-    opened_enough, opened_windows, own_error, reads_better, set_gain,
+    Data, FirstFits, FittedHypothesis, Trials, Unfinished, WallFits, gain_misread, misses_windows,
+    opened_as_given, opened_enough, opened_windows, own_error, reads_better, set_gain,
 };
 pub use verdict::Verdict;
 use verdict::{Found, beside_beds, judge, leaves_noise, on_beds};
@@ -129,13 +129,15 @@ impl<P: Progress> Flow<'_, P> {
         Ok(found.map(|found| (windows, found)))
     }
 
-    /// The windows with both bodies free where a wall on beds follows them so, if it nearly follows the tests and these are enough.
+    /// The windows with both bodies free where a wall on beds follows them so, if it nearly follows the tests and these are enough. What
+    /// follows all windows together to the noise may still miss some that begin with a joint shut.
     fn with_free_bodies(
         &self,
         windows: &[Vec<Window>; 2],
         on_beds: &FittedHypothesis,
     ) -> Option<[Vec<Window>; 2]> {
-        let nearly = own_error(on_beds) < BESIDE_BEDS_GAP && !leaves_noise(on_beds);
+        let follows = leaves_noise(on_beds) && !misses_windows(on_beds);
+        let nearly = own_error(on_beds) < BESIDE_BEDS_GAP && !follows;
         nearly.then(|| opened_enough(&Data::new(&self.tests, windows), on_beds)).flatten()
     }
 

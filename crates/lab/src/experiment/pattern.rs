@@ -49,6 +49,16 @@ impl Freedom {
         }
     }
 
+    /// Changes of these numbers within what the noise of even samples leaves open.
+    ///
+    /// A cubic through 17 samples knows its value to 0.37 and its slope to 0.125 of the noise a sample: about that for the value, a
+    /// fifth of it for the slope, over which the motion is still linear.
+    pub fn spread(self, test: &TestData) -> Vec<f64> {
+        let largest = test.noise_rad[0].max(test.noise_rad[1]);
+        let spread = [0.5 * largest, 0.025 * largest / test.step_s];
+        spread.iter().copied().cycle().take(self.numbers()).collect()
+    }
+
     /// The numbers of a state near these rotations, rad, and velocities, rad/s, of both bodies.
     pub fn numbers_of(self, theta: Pair, omega: Pair) -> Vec<f64> {
         match self {
@@ -122,12 +132,7 @@ pub fn measured_state(test: &TestData, k: usize) -> Option<MeasuredState> {
     };
     let fits = [lower_fit, upper_fit];
     let numbers = freedom.numbers_of(fits.map(|fit| fit.value), fits.map(|fit| fit.slope / test.step_s));
-    // A cubic through 17 samples knows its value to 0.37 and its slope to 0.125 of the noise a sample: about that for the
-    // value, a fifth of it for the slope, over which the motion is still linear.
-    let largest = noise[0].max(noise[1]);
-    let spread = [0.5 * largest, 0.025 * largest / test.step_s];
-    let spread = spread.iter().copied().cycle().take(freedom.numbers()).collect();
-    Some(MeasuredState { freedom, numbers, spread })
+    Some(MeasuredState { freedom, numbers, spread: freedom.spread(test) })
 }
 
 /// Spread of a value, and of a slope, over the standard deviation by which a cubic knows it: as of 17 even samples.

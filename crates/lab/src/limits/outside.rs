@@ -80,8 +80,9 @@ limits! {
     /// Least exponent of velocity at a joint.
     ///
     /// Nothing holds a joint that is open, and a moment that jumps at rest is refused of a wall file. Chosen: one that nearly jumps
-    /// is taken to be what once kept a look at eight pairs from ending; with this limit it took 1.3 s.
-    LEAST_AT_JOINTS: f64 = 0.5, "";
+    /// is taken to be what once kept a look at eight pairs from ending. It lies clear of 0.5: with that as the limit a root of the
+    /// joint's velocity lay at the end of what was looked at, was refused, and a damper at the top told in its place.
+    LEAST_AT_JOINTS: f64 = 0.3, "";
     /// What one fit of a law, a curve or an answer may work, for each number that it looks for: evaluations of the equations of
     /// motion for each second of the windows fitted.
     ///

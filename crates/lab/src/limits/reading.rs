@@ -52,6 +52,11 @@ limits! {
     ///
     /// Chosen: two numbers that say nothing take away two, from the best of forty starts some ten.
     GAINED_BY_OPENING: f64 = 60.0, "squared noise";
+    /// The same of a window that a wall on beds follows with the joint shut.
+    ///
+    /// No joint is shut on a bed: one that turns by less than the noise pulls its stiffness off. The two numbers more gain 2 by
+    /// chance, and as much as this once in 150 times.
+    GAINED_ON_BEDS: f64 = 10.0, "squared noise";
     /// Gap above which a joint does not read as closed.
     ///
     /// 17 samples know each rotation to 0.37 of the noise, and their difference to half of it; three times that.

@@ -20,7 +20,12 @@ const LEAST_PROMISE: f64 = 0.005;
 /// Share of the spread of a smoothed state over which sensitivities to it are taken.
 const CHANGE_SHARE: f64 = 0.1;
 /// Other starts drawn about the smoothed state, and how many of the best are refined.
-const DRAWS: usize = 32;
+///
+/// Half of them lie farther off in velocity: where a joint shuts and opens again within the samples that are smoothed, the smoothed
+/// velocity is several spreads off.
+const DRAWS: usize = 64;
+/// Spreads within which values, and velocities, are drawn: of the first half and of the second.
+const DRAWN_WITHIN: [[f64; 2]; 2] = [[3.0, 3.0], [3.0, 12.0]];
 const REFINED: usize = 3;
 
 /// Fewest windows that are worth a thread: what goes side by side ends one by one.
@@ -249,8 +254,9 @@ fn drawn_states(window: &Window) -> impl Iterator<Item = Vec<f64>> {
     let seed = (window.test as u64) << 32 | window.samples.start as u64;
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let count = if window.measured.is_empty() { 0 } else { DRAWS };
-    (0..count).map(move |_| {
-        let about = |(m, s): (&f64, &f64)| m + 3.0 * s * random.random_range(-1.0..1.0);
-        window.measured.iter().zip(&window.spread).map(about).collect()
+    (0..count).map(move |draw| {
+        let within = DRAWN_WITHIN[2 * draw / DRAWS];
+        let about = |((m, s), share): ((&f64, &f64), &f64)| m + share * s * random.random_range(-1.0..1.0);
+        window.measured.iter().zip(&window.spread).zip(within.iter().cycle()).map(about).collect()
     })
 }

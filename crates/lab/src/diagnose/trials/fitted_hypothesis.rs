@@ -114,6 +114,12 @@ pub fn closes(tried: &FittedHypothesis, before: f64) -> bool {
     closes_held_out(tried) && follows_to_noise(tried, before)
 }
 
+/// Whether windows are followed badly: more than may be, or more of those held out.
+pub fn misses_windows(tried: &FittedHypothesis) -> bool {
+    too_many_poor(&all_windows(tried))
+        || more_poor_held_out_sd(&tried.fit.windows, &tried.held_out.windows) >= MISSED_HELD_OUT_SD
+}
+
 /// Whether the tests held out are followed as those fitted are.
 pub fn closes_held_out(tried: &FittedHypothesis) -> bool {
     tried.errors()[1].is_none_or(|error| error < HELD_OUT_ERROR)

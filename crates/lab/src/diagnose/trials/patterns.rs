@@ -4,14 +4,15 @@
 //! and not even the true gain follows them. The gain itself is found all the same: without it patterns are read again.
 //!
 //! A joint that is open by less than the noise reads as closed. What it does soon shows, so no wall follows a window that
-//! starts so. A wall may, once the bodies are free.
+//! starts so. A wall may, once the bodies are free. On a bed no joint is shut at all: one that turns by less than the noise pulls the
+//! numbers of the bed off, and one that reads as rest may swing.
 
 use super::{Data, FirstFits, FittedHypothesis, best_answer, untouched};
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Fit, Problem, Replay, WindowFit, fit_windows, nats};
 use crate::diagnose::hypothesis::{Hypothesis, Physics};
 use crate::experiment::{Freedom, TestData, Window};
-use crate::limits::{GAINED_BY_OPENING, READS_CLOSED, WORTH_OPENING};
+use crate::limits::{GAINED_BY_OPENING, GAINED_ON_BEDS, READS_CLOSED, WORTH_OPENING};
 use mrbd_kernel::model::{EffectKind, Pair};
 use rayon::prelude::*;
 
@@ -83,7 +84,7 @@ pub fn opened_under(data: &Data, tried: &FittedHypothesis) -> Option<([Vec<Windo
 }
 
 /// The windows of fits under one hypothesis, and how many of them are changed. One that is followed badly has both
-/// bodies free at its start, where that helps.
+/// bodies free at its start, where that helps; so has every other one of a wall on beds, where no joint is shut.
 fn opened(
     tests: &[TestData],
     physics: &Physics,
@@ -91,9 +92,15 @@ fn opened(
     windows: &[Window],
 ) -> (Vec<Window>, usize) {
     let replay = Replay::new(tests, physics);
+    let gives = physics.wall.gives();
+    let may_be_open = |window: &Window, closed: &WindowFit| match window.freedom {
+        Freedom::Monolithic | Freedom::Upper => gives || closed.is_poor(),
+        // Sharp edges at rest stay there.
+        Freedom::Rest => gives && closed.is_poor(),
+        Freedom::Both | Freedom::Held => false,
+    };
     let open = |(window, closed): (&Window, &WindowFit)| {
-        let doubt = closed.is_poor() && matches!(window.freedom, Freedom::Monolithic | Freedom::Upper);
-        if doubt { with_free_bodies(&replay, tests, window, closed) } else { None }
+        if may_be_open(window, closed) { with_free_bodies(&replay, tests, window, closed) } else { None }
     };
     let found = windows.par_iter().zip(fits).map(open).collect::<Vec<_>>();
     let count = found.iter().flatten().count();
@@ -108,22 +115,38 @@ fn with_free_bodies(
     window: &Window,
     closed: &WindowFit,
 ) -> Option<Window> {
-    let spread = [&window.spread[..], &window.spread].concat();
-    let free = Window { freedom: Freedom::Both, opened: true, spread, ..window.clone() };
-    let starts = [&window.measured, &closed.x].map(|x| openings(&tests[window.test], window.freedom, x));
-    let starts = starts.into_iter().flatten().map(|x| (&free, x.to_vec())).collect();
-    let fits = fit_windows(replay, starts, STEPS).into_iter();
     let test = &tests[window.test];
+    let spread = match window.freedom {
+        Freedom::Rest => Freedom::Both.spread(test),
+        _ => [&window.spread[..], &window.spread].concat(),
+    };
+    let free = Window { freedom: Freedom::Both, opened: true, spread, ..window.clone() };
+    let starts = starts(test, window, closed).into_iter().map(|x| (&free, x)).collect();
+    let fits = fit_windows(replay, starts, STEPS).into_iter();
     let reads_closed = |x: &[f64]| gap_in_noise(test, window.freedom, x).abs() < READS_CLOSED;
     let fit = fits.filter(|fit| reads_closed(&fit.x)).min_by(|a, b| a.squares.total_cmp(&b.squares))?;
-    let follows = !fit.is_poor() && closed.squares - fit.squares > GAINED_BY_OPENING;
+    let worth = if closed.is_poor() { GAINED_BY_OPENING } else { GAINED_ON_BEDS };
+    let follows = !fit.is_poor() && closed.squares - fit.squares > worth;
     follows.then_some(Window { measured: fit.x, ..free })
+}
+
+/// States of both bodies from which a window with a closed joint is fitted: that of the joint shut, and where it is followed badly so
+/// all about it that could read as shut.
+fn starts(test: &TestData, window: &Window, closed: &WindowFit) -> Vec<Vec<f64>> {
+    let about = |x: &[f64]| openings(test, window.freedom, x).map(Vec::from).collect::<Vec<_>>();
+    match (window.freedom, closed.is_poor()) {
+        (Freedom::Rest, _) => hardly_at_rest(test),
+        (_, true) => [&window.measured, &closed.x].map(|x| about(x)).concat(),
+        (Freedom::Upper, false) => vec![[&[0.0; 2], &closed.x[..]].concat()],
+        (_, false) => vec![[&closed.x[..], &closed.x].concat()],
+    }
 }
 
 /// How far the closed joint of a pattern is open in a state of both bodies, in the noise of a channel.
 fn gap_in_noise(test: &TestData, closed: Freedom, x: &[f64]) -> f64 {
     match closed {
         Freedom::Upper => x[0] / test.noise_rad[0],
+        Freedom::Rest => f64::max(x[0].abs() / test.noise_rad[0], x[2].abs() / test.noise_rad[1]),
         _ => (x[2] - x[0]) / test.noise_rad[0].max(test.noise_rad[1]),
     }
 }
@@ -144,6 +167,13 @@ fn openings(test: &TestData, freedom: Freedom, closed: &[f64]) -> impl Iterator<
     })
 }
 
+/// States of both bodies that 17 samples could read as rest: the upper one swings, and the lower one a little.
+fn hardly_at_rest(test: &TestData) -> Vec<Vec<f64>> {
+    let noise_rad = test.noise_rad[1];
+    let swings = [0.0, 0.1, -0.1, 0.3, -0.3].map(|share| [0.0, share * noise_rad / test.step_s]);
+    swings.into_iter().flat_map(|upper| openings(test, Freedom::Upper, &upper)).map(Vec::from).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use std::path::Path;
@@ -158,11 +188,12 @@ mod tests {
     const NOISE_RAD: f64 = 3e-4;
     const COUNT: usize = 120;
 
-    /// A window of free rocking that reads as pattern 3, of a wall that starts in a state of both bodies; the wall.
-    fn reads_as_closed(x: &[f64; 4]) -> (TestData, Window, Physics) {
-        let wall =
-            parse_wall(Path::new("wall.toml"), include_str!("../../../../../src/cli/starter/wall.toml"))
-                .expect("the starter's wall");
+    const STARTER: &str = include_str!("../../../../../src/cli/starter/wall.toml");
+    const BED: &str = "\n[[effects]]\nkind = \"compliant_joint\"\njoint = \"crack\"\nstiffness_pa_per_m = 3e8\ndamping_s = 1e-3\n";
+
+    /// A window of free rocking that reads as a pattern, of a wall that starts in a state of both bodies; the wall.
+    fn reads_as(freedom: Freedom, wall: &str, x: &[f64; 4]) -> (TestData, Window, Physics) {
+        let wall = parse_wall(Path::new("wall.toml"), wall).expect("the starter's wall");
         let physics = Physics { wall, reversed_ratio: 0.0 };
         let mut test = TestData {
             name: "free rocking".to_owned(),
@@ -196,11 +227,12 @@ mod tests {
             *theta = [0, 1].map(|i| normal.sample(&mut random) - left[2 * k + i] * NOISE_RAD);
         }
         // Smoothed, the state is known to about this.
-        (test, window(Freedom::Monolithic, &[x[0] + 0.3 * NOISE_RAD, x[1] - 7.0 * NOISE_RAD]), physics)
+        let smoothed = [x[0] + 0.3 * NOISE_RAD, x[1] - 7.0 * NOISE_RAD];
+        (test, window(freedom, &smoothed[..freedom.numbers()]), physics)
     }
 
-    fn opened_again(x: &[f64; 4]) -> (WindowFit, (Vec<Window>, usize)) {
-        let (test, window, physics) = reads_as_closed(x);
+    fn opened_again(freedom: Freedom, wall: &str, x: &[f64; 4]) -> (WindowFit, (Vec<Window>, usize)) {
+        let (test, window, physics) = reads_as(freedom, wall, x);
         let tests = [test];
         let start = vec![(&window, window.measured.clone())];
         let closed = fit_windows(&Replay::new(&tests, &physics), start, STEPS).swap_remove(0);
@@ -213,7 +245,7 @@ mod tests {
         // Open to either side by a third of the noise, closing or opening; each followed badly while it counts as closed.
         for (side, rate) in [(1.0, -0.01), (1.0, 0.005), (-1.0, 0.01), (-1.0, -0.012)] {
             let x = [0.01, -0.2, 0.01 + side * NOISE_RAD / 3.0, -0.2 + rate];
-            let (closed, windows) = opened_again(&x);
+            let (closed, windows) = opened_again(Freedom::Monolithic, STARTER, &x);
             assert!(closed.is_poor(), "closed it is followed to {closed:?}");
             let ([window], 1) = (&windows.0[..], windows.1) else { panic!("one window, read anew") };
             assert_eq!(window.freedom, Freedom::Both);
@@ -225,7 +257,31 @@ mod tests {
 
     #[test]
     fn analytic_a_closed_crack_stays_closed() {
-        let (closed, windows) = opened_again(&[0.02, -0.05, 0.02, -0.05]);
+        let (closed, windows) = opened_again(Freedom::Monolithic, STARTER, &[0.02, -0.05, 0.02, -0.05]);
         assert!(!closed.is_poor() && windows.1 == 0, "{closed:?}: {windows:?}");
+    }
+
+    #[test]
+    fn analytic_on_a_bed_what_reads_as_rest_may_swing_by_the_noise() {
+        let on_bed = [STARTER, BED].concat();
+        let x = [0.0, 0.0, 0.0, 0.03];
+        let (closed, windows) = opened_again(Freedom::Rest, &on_bed, &x);
+        assert!(closed.is_poor(), "at rest it is followed to {closed:?}");
+        let ([window], 1) = (&windows.0[..], windows.1) else { panic!("one window, read anew: {windows:?}") };
+        assert_eq!(window.freedom, Freedom::Both);
+        // A tenth: the noise of a hundred samples over a swing of two noises.
+        assert!((window.measured[3] / x[3] - 1.0).abs() < 0.2, "{window:?}");
+        let (closed, windows) = opened_again(Freedom::Rest, &on_bed, &[0.0; 4]);
+        assert!(!closed.is_poor() && windows.1 == 0, "{closed:?}: {windows:?}");
+        // On sharp edges rest is rest.
+        assert_eq!(opened_again(Freedom::Rest, STARTER, &x).1.1, 0);
+    }
+
+    #[test]
+    fn analytic_on_a_bed_a_crack_that_turns_by_less_than_the_noise_is_free() {
+        let on_bed = [STARTER, BED].concat();
+        let x = [0.02, -0.05, 0.02 + 0.5 * NOISE_RAD, -0.05 + 0.01];
+        let (closed, windows) = opened_again(Freedom::Monolithic, &on_bed, &x);
+        assert_eq!((windows.1, windows.0[0].freedom), (1, Freedom::Both), "{closed:?}");
     }
 }

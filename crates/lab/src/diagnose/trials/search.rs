@@ -159,8 +159,17 @@ pub fn judged(
 
 /// A fit with the tests held out beside it, whose states start from the measured ones.
 pub fn judged_from_measured(data: &Data, hypothesis: Hypothesis, fit: Fit) -> Option<FittedHypothesis> {
+    from_measured(data, hypothesis, fit, false)
+}
+
+/// The same, with other valleys of windows held out that stay poor.
+pub fn judged_thoroughly(data: &Data, hypothesis: Hypothesis, fit: Fit) -> Option<FittedHypothesis> {
+    from_measured(data, hypothesis, fit, true)
+}
+
+fn from_measured(data: &Data, hypothesis: Hypothesis, fit: Fit, thorough: bool) -> Option<FittedHypothesis> {
     let measured = data.held_out.measured_states();
-    let held_out = data.held_out.states(&hypothesis, &fit.values, &measured, 3, false)?;
+    let held_out = data.held_out.states(&hypothesis, &fit.values, &measured, 3, thorough)?;
     Some(FittedHypothesis { hypothesis, fit, held_out })
 }
 

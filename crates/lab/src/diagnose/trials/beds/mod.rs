@@ -21,7 +21,7 @@ mod rivals;
 
 use rayon::prelude::*;
 
-use super::search::{judged_from_measured, states_of};
+use super::search::{judged_from_measured, judged_thoroughly, states_of};
 use super::{FittedHypothesis, Trials, WallFits, joint_error};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem, WindowFit, nats, windowed_error};
@@ -165,7 +165,7 @@ impl<P: Progress> Trials<'_, P> {
         let found = wide.fit_finely(h, start)?;
         let fit = self.data.fit.states(h, &found.values, &states_of(&found), 1, false)?;
         let fit = Fit { covariance: found.covariance, ..fit };
-        judged_from_measured(&self.data, h.clone(), fit)
+        judged_thoroughly(&self.data, h.clone(), fit)
     }
 
     /// The first of hypotheses on beds fitted again where windows are others, from the measured states; the best to the end.
