@@ -19,6 +19,8 @@ pub(super) const LITTLE: f64 = 0.5;
 const LEAST_PROMISE: f64 = 0.005;
 /// Share of the spread of a smoothed state over which sensitivities to it are taken.
 const CHANGE_SHARE: f64 = 0.1;
+/// Farthest that a step goes, in spreads of a smoothed state: a hundred times as far as one is ever off.
+const FARTHEST: f64 = 1e3;
 /// Other starts drawn about the smoothed state, and how many of the best are refined.
 ///
 /// Half of them lie farther off in velocity: where a joint shuts and opens again within the samples that are smoothed, the smoothed
@@ -126,10 +128,16 @@ pub(super) fn state_jacobians(replay: &Replay, these: &[&At]) -> Vec<DMatrix<f64
     these.iter().map(jacobian).collect()
 }
 
+/// Whether a step leads to a state that a measurement could be of. One along a number of the state that leaves no trace, such as the
+/// velocity of a joint that shuts at once, leads anywhere, and such a simulation takes minutes.
+fn is_near(at: &At, step: &NewtonStep) -> bool {
+    step.x.iter().zip(&at.window.spread).all(|(dx, spread)| dx.abs() < FARTHEST * spread)
+}
+
 /// Takes a step in each window that has one that promises something and is followed better after it.
 pub(super) fn take_steps(replay: &Replay, all: &mut [At], steps: Vec<Option<NewtonStep>>) {
     let of = |(i, step): (usize, Option<NewtonStep>)| {
-        step.filter(|step| step.promise > LEAST_PROMISE).map(|step| (i, step.x))
+        step.filter(|step| step.promise > LEAST_PROMISE && is_near(&all[i], step)).map(|step| (i, step.x))
     };
     let (stepping, steps): (Vec<_>, Vec<_>) = steps.into_iter().enumerate().filter_map(of).unzip();
     let these = stepping.iter().map(|i| &all[*i]).collect::<Vec<_>>();
@@ -196,7 +204,9 @@ fn improved(replay: &Replay, all: &mut [At], active: &[usize]) -> Vec<usize> {
     let these = active.iter().map(|i| &all[*i]).collect::<Vec<_>>();
     let jacobians = state_jacobians(replay, &these);
     let step = |(i, chord): (&usize, DMatrix<f64>)| Some((*i, step_of(&chord, &all[*i].r)?, chord));
-    let promising = |(_, step, _): &(usize, NewtonStep, DMatrix<f64>)| step.promise > LEAST_PROMISE;
+    let promising = |(i, step, _): &(usize, NewtonStep, DMatrix<f64>)| {
+        step.promise > LEAST_PROMISE && is_near(&all[*i], step)
+    };
     let mut waiting = active.iter().zip(jacobians).filter_map(step).filter(promising).collect::<Vec<_>>();
     let mut gained = Vec::new();
     for share in SHORTER {

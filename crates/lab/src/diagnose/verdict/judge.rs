@@ -139,6 +139,14 @@ pub(super) struct Gap<'t, P> {
     pub(super) early: OnceCell<Discovered>,
 }
 
+impl<'t, P: Progress> Gap<'t, P> {
+    /// The gap of a wall; `None` where too little moves for one to show.
+    pub(super) fn of(trials: &'t Trials<'t, P>, wall: &WallFits) -> Option<Self> {
+        let error = joint_error(&wall.before)?;
+        Some(Self { trials, wall: wall.clone(), error, early: OnceCell::new() })
+    }
+}
+
 impl<P: Progress> Gap<'_, P> {
     fn judge(self, singles: Vec<FittedHypothesis>) -> Found {
         let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.wall.recalibrated, best));
@@ -203,7 +211,7 @@ impl<P: Progress> Gap<'_, P> {
         let Some(answer) = answer else {
             let found = beds.and_then(|beds| beds.leaving_little(self.trials, &self.wall, &tried));
             if let Some(found) = found {
-                return found;
+                return self.or_another_law(found);
             }
             let discovered = early.or_else(|| self.discovered(&tried, &[]));
             // A force that is told along the direction of the top is none of joints that give, and these take long to fit.

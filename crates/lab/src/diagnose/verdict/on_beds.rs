@@ -3,7 +3,7 @@
 //! Everything else is tried on sharp edges, where a wall on beds is far off whatever is added. So beds come first: where
 //! they hold, the others are fitted as rivals, and no more is tried.
 
-use super::judge::Found;
+use super::judge::{Found, Gap};
 use super::remainder::is_soft;
 use super::worth_naming::{leaves_noise, worth_two};
 use super::{Remainder, Verdict, names, names_of_all};
@@ -42,11 +42,11 @@ pub fn on_beds<P: Progress>(
         near.extend(laws.iter().filter(|law| stands_for(trials, &best, law)).cloned());
     }
     let found = standing.found(trials, wall, best, &near, [beds, pairs, laws, rivals].concat());
-    Some(if equals.is_empty() {
-        found
-    } else {
-        Found { verdict: Verdict::Class, equivalent: equals, ..found }
-    })
+    if !equals.is_empty() {
+        return Some(Found { verdict: Verdict::Class, equivalent: equals, ..found });
+    }
+    let gap = Gap::of(trials, wall)?;
+    Some(gap.or_another_law(found))
 }
 
 /// What a strip whose top is held cannot tell from its best bed: beds at other joints and other laws that leave no more than a
@@ -285,15 +285,35 @@ fn with_effect<P: Progress>(
     // A pair that leaves more than noise may stand for another, which is found from sharp edges alone.
     let to_noise = worth_it(trials, wall, alone, &pairs).is_some_and(|(two, _)| is_noise(&two));
     let (pairs, rivals) = if !to_noise && leaves_more_than_another_model(wall, alone) {
-        let rivals = trials.rivals_of_beds(&wall.before);
-        let mut all = [trials.beds_beside_rivals(alone, &rivals), pairs].concat();
-        all.sort_by(|a, b| excess(&all_windows(a)).total_cmp(&excess(&all_windows(b))));
+        let in_few = trials.rivals_in_few_windows(&wall.before);
+        let rivals = trials.rivals_in_all_windows(&wall.before, &in_few);
+        let mut all = [trials.beds_beside_rivals(alone, &in_few), pairs].concat();
+        by_what_is_left(&mut all);
+        all.extend(beside_another_bed(trials, alone, &all));
+        by_what_is_left(&mut all);
         (all, Some(rivals))
     } else {
         (pairs, None)
     };
     let (best, near) = worth_it(trials, wall, alone, &pairs).unwrap_or_else(|| (alone.clone(), Vec::new()));
     Some(OnBeds { best, near, pairs, rivals })
+}
+
+/// Effects beside the bed of the first of some pairs, where that leaves more than noise and is at other joints than the bed alone: beside
+/// this one they were not seen.
+fn beside_another_bed<P: Progress>(
+    trials: &Trials<P>,
+    alone: &FittedHypothesis,
+    pairs: &[FittedHypothesis],
+) -> Vec<FittedHypothesis> {
+    let own = alone.hypothesis.additions[0];
+    let other = pairs.first().filter(|two| !is_noise(two) && two.hypothesis.additions[0] != own);
+    let bed = other.and_then(|two| trials.bed_without_effect(two));
+    bed.map(|bed| trials.beside_beds(&[bed])).unwrap_or_default()
+}
+
+fn by_what_is_left(tried: &mut [FittedHypothesis]) {
+    tried.sort_by(|a, b| excess(&all_windows(a)).total_cmp(&excess(&all_windows(b))));
 }
 
 /// The first of pairs, if it is worth naming beside joints that give alone, and what comes near it.

@@ -128,12 +128,15 @@ impl OtherLaw {
         !self.guards().is_empty()
     }
 
+    /// Whether a size surely differs in large motion, by more than such a share of it.
+    pub fn differs_in_large_motion_by(&self, share: f64) -> bool {
+        self.trend_with_amplitude.is_some_and(|trend| trend.nats > TREND_NATS && trend.share > share)
+    }
+
     /// What of it speaks.
     pub fn guards(&self) -> Vec<Guard> {
         let bends = self.curve_left.is_some_and(|found| found > BENT_FORCE);
-        let trend = self.trend_with_amplitude;
-        let has_trend = trend.is_some_and(|trend| trend.nats > TREND_NATS && trend.share > TREND_SHARE);
-        let both = [(Guard::Bend, bends), (Guard::Trend, has_trend)];
+        let both = [(Guard::Bend, bends), (Guard::Trend, self.differs_in_large_motion_by(TREND_SHARE))];
         both.into_iter().filter(|(_, speaks)| *speaks).map(|(guard, _)| guard).collect()
     }
 }

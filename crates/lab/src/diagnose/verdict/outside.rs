@@ -7,8 +7,10 @@ use crate::Progress;
 use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refused, is_of_catalogue};
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::formula::Law;
+use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{FittedHypothesis, against, closes, kinds};
-use crate::limits::{EQUIVALENT, WORTH_A_NAME};
+use crate::limits::{EQUIVALENT, TREND_SHARE_ON_BEDS, WORTH_A_NAME};
+use mrbd_kernel::model::Role;
 
 /// The place of a missing force with the curve that it is, where one holds.
 fn with_curve(placed: Found) -> Found {
@@ -93,6 +95,23 @@ impl<P: Progress> Gap<'_, P> {
         let formula = self.formula(&discovered)?;
         let better = leaves_noise(&formula.after) && worth_two(&self.trials.data, named, &formula.after);
         better.then_some((discovered, formula))
+    }
+
+    /// Joints that give named with an effect and a remainder, unless a size of theirs is quite another in large motion: they stand for
+    /// another law then, that outside the catalogue or the place.
+    pub(super) fn or_another_law(self, on_beds: Found) -> Found {
+        let is_pair = on_beds.after.hypothesis.additions.len() > 1;
+        if on_beds.remainder.is_none() || !is_pair || self.trials.is_held() {
+            return on_beds;
+        }
+        let other_law = OtherLaw::beside(&self.trials.data, &on_beds.after);
+        if !other_law.differs_in_large_motion_by(TREND_SHARE_ON_BEDS) {
+            return on_beds;
+        }
+        let is_on_edges = |a: &Addition| !matches!(a.role(), Some(Role::Bed | Role::JointLaw));
+        let on_edges = |t: &&FittedHypothesis| t.hypothesis.additions.iter().all(is_on_edges);
+        let tried = on_beds.tried.iter().filter(on_edges).cloned().collect();
+        self.placed_without(&on_beds.after, other_law, tried)
     }
 
     /// A name that another law is behind is none: a law outside the catalogue, or the place.

@@ -83,8 +83,8 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Joints that give beside single effects that follow best on sharp edges, what follows the tests best first: where numbers of
-    /// the wall stood for such an effect beside joints that give `alone`, it is not found from there. None where few windows
-    /// promise little.
+    /// the wall stood for such an effect beside joints that give `alone`, it is not found from there. Fitted to all windows are those
+    /// that few windows promise most of; none where that is little.
     pub fn beds_beside_rivals(
         &self,
         alone: &FittedHypothesis,
@@ -99,7 +99,9 @@ impl<P: Progress> Trials<'_, P> {
         };
         let begun = rivals.iter().filter(is_effect).filter_map(|effect| Probe::new(self, effect, None));
         let begun = begun.filter_map(|probe| probe.begun().into_iter().next());
-        let promising = begun.filter(|(_, fit)| excess(&fit.windows) < most).collect::<Vec<_>>();
+        let mut promising = begun.filter(|(_, fit)| excess(&fit.windows) < most).collect::<Vec<_>>();
+        promising.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
+        promising.truncate(BEDS_BESIDE_EFFECTS);
         self.progress.begin("joints that give beside effects on sharp edges", promising.len());
         let fit = |(h, begun): &(Hypothesis, Fit)| {
             let fitted = self.bed(h, begun);

@@ -13,6 +13,21 @@ use rayon::prelude::*;
 impl<P: Progress> Trials<'_, P> {
     /// The single effects that follow few windows best, fitted coarsely to all, best first.
     pub fn rivals_of_beds(&self, from: &FittedHypothesis) -> Vec<FittedHypothesis> {
+        self.rivals_in_all_windows(from, &self.rivals_in_few_windows(from))
+    }
+
+    /// The first of such effects fitted coarsely to all windows, best first.
+    pub fn rivals_in_all_windows(
+        &self,
+        from: &FittedHypothesis,
+        in_few: &[FittedHypothesis],
+    ) -> Vec<FittedHypothesis> {
+        let first = in_few.par_iter().take(BED_RIVALS);
+        self.ordered(first.filter_map(|tried| self.in_all_windows(tried, from)).collect())
+    }
+
+    /// Single effects fitted coarsely to few windows, what follows them best first.
+    pub fn rivals_in_few_windows(&self, from: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
         let data = Data { fit: few.problem(), held_out: few.nothing() };
         let start = few.of(from);
@@ -25,8 +40,7 @@ impl<P: Progress> Trials<'_, P> {
         };
         let mut tried = promising.into_par_iter().filter_map(one).collect::<Vec<_>>();
         tried.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
-        tried.truncate(BED_RIVALS);
-        self.ordered(tried.par_iter().filter_map(|tried| self.in_all_windows(tried, from)).collect())
+        tried
     }
 
     /// Single effects that promise most at a glance, and those that only a fit can judge.
