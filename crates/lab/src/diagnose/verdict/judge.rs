@@ -5,7 +5,8 @@ use std::cell::OnceCell;
 use super::at_impacts::{
     NamedBetween, is_near_other_impacts, named_between, only_impacts, worth_two_between,
 };
-use super::on_beds::{BedsBeside, on_beds_instead, on_beds_last};
+use super::beds_beside::BedsBeside;
+use super::on_beds::{on_beds_instead, on_beds_last};
 use super::worth_naming::{could_show, place, worth_two};
 use super::{OtherLaw, Remainder, Verdict};
 use super::{name_of_number, names, names_of_all};

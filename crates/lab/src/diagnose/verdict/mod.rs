@@ -7,10 +7,12 @@
 //! | `at_impacts` | what is left at impacts, where formulations of a contact part |
 //! | `remainder` | a name that leaves more than noise |
 //! | `on_beds` | joints that give, where windows ask for them |
+//! | `beds_beside` | the same beside an effect that is not enough on sharp edges |
 //! | `outside` | laws outside the catalogue, a curve, or a place |
 //! | `other_law` | whether a law outside the catalogue is behind a name |
 
 mod at_impacts;
+mod beds_beside;
 mod judge;
 mod on_beds;
 mod other_law;

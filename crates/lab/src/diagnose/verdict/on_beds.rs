@@ -6,7 +6,7 @@
 use super::judge::{Found, Gap};
 use super::remainder::is_soft;
 use super::worth_naming::{leaves_noise, worth_two};
-use super::{Remainder, Verdict, names, names_of_all};
+use super::{Remainder, Verdict, names_of_all};
 use crate::Progress;
 use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::trials::{
@@ -14,9 +14,8 @@ use crate::diagnose::trials::{
     is_noise, joint_error, own_error,
 };
 use crate::limits::{
-    BED_OWN_ERROR, BEDS_BESIDE_EFFECTS, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT,
-    REMAINDER_RIVAL, REMAINDER_TAKEN, TAKEN_BESIDE_OWN_ERROR, WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT,
-    WORTH_A_SECOND_TO_NOISE,
+    BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
+    REMAINDER_TAKEN, TAKEN_BESIDE_OWN_ERROR, WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_TO_NOISE,
 };
 
 /// The verdict where joints that give, alone or in pairs with effects, are the answer, or part of it; `None` where they are not.
@@ -91,7 +90,7 @@ pub fn on_beds_instead<P: Progress>(
 }
 
 /// The verdict where the first of some beds follows the tests to their noise, and is no other way to model a sharp edge.
-fn following_alone<P: Progress>(
+pub(super) fn following_alone<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     beds: &[FittedHypothesis],
@@ -103,101 +102,15 @@ fn following_alone<P: Progress>(
         .then(|| Standing { remainder: None }.found(trials, wall, best.clone(), &[], all()))
 }
 
-/// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
-pub struct BedsBeside {
-    effect: FittedHypothesis,
-    /// The bed of the best alone.
-    alone: FittedHypothesis,
-    best: FittedHypothesis,
-    near: Vec<FittedHypothesis>,
-}
-
-impl BedsBeside {
-    /// Beside one of the single effects that follow best, where beds take away what it leaves.
-    pub fn an_effect<P: Progress>(trials: &Trials<P>, singles: &[FittedHypothesis]) -> Option<Self> {
-        // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
-        if trials.is_held() {
-            return None;
-        }
-        let effects = following_best(singles);
-        let beds = trials.beds_beside(&effects);
-        let (best, others) = beds.split_first()?;
-        let effect = effects.into_iter().find(|one| contains(best, one))?.clone();
-        let alone = trials.bed_without_effect(best)?;
-        let is_other =
-            |other: &&FittedHypothesis| names(other) != names(best) && comes_near(trials, best, other);
-        let near = others.iter().filter(is_other).cloned().collect();
-        Some(Self { effect, alone, best: best.clone(), near })
-    }
-
-    /// The verdict where they follow to the noise, and no effect on sharp edges does nearly as well beside the same effect; or where
-    /// the bed does so without the effect, by which it was only found.
-    pub fn following<P: Progress>(
-        &self,
-        trials: &Trials<P>,
-        wall: &WallFits,
-        tried: &[FittedHypothesis],
-    ) -> Option<Found> {
-        if !is_worth_it(trials, wall, &self.alone, &self.best)
-            && let Some(found) = following_alone(trials, wall, std::slice::from_ref(&self.alone), tried)
-        {
-            return Some(found);
-        }
-        if !follows(trials, wall, &self.best, tried) {
-            return None;
-        }
-        let all = [tried, &trials.beside(&self.effect)].concat();
-        self.leaving_little(trials, wall, &all).filter(|found| found.remainder.is_none())
-    }
-
-    /// The verdict where what they leave is noise, or little that nothing tried comes near.
-    pub fn leaving_little<P: Progress>(
-        &self,
-        trials: &Trials<P>,
-        wall: &WallFits,
-        tried: &[FittedHypothesis],
-    ) -> Option<Found> {
-        let Self { effect, alone, best, near } = self;
-        let standing = Standing::of(trials, wall, best, tried)?;
-        let all = || [&[best.clone(), alone.clone()], &near[..], tried].concat();
-        let is_worth_both = [effect, alone].iter().all(|one| is_worth_it(trials, wall, one, best));
-        (is_worth_both && is_soft(best)).then(|| standing.found(trials, wall, best.clone(), near, all()))
-    }
-}
-
-/// The single effects that do something and follow best: by what speaks against them, and by error.
-fn following_best(singles: &[FittedHypothesis]) -> Vec<&FittedHypothesis> {
-    let effects = singles.iter().filter(|t| is_effect(t) && does_something(t)).collect::<Vec<_>>();
-    let mut by_error = effects.clone();
-    by_error.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
-    let mut best: Vec<&FittedHypothesis> = Vec::new();
-    for effect in by_error.into_iter().take(BEDS_BESIDE_EFFECTS - 1).chain(effects) {
-        if best.len() < BEDS_BESIDE_EFFECTS && !best.iter().any(|other| std::ptr::eq(*other, effect)) {
-            best.push(effect);
-        }
-    }
-    best
-}
-
-/// Whether a hypothesis has the addition of a single effect.
-fn contains(both: &FittedHypothesis, effect: &FittedHypothesis) -> bool {
-    both.hypothesis.additions.contains(&effect.hypothesis.additions[0])
-}
-
-/// Whether a single addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.
-fn is_effect(single: &FittedHypothesis) -> bool {
-    single.hypothesis.additions[0].role().is_some_and(|role| !role.is_at_impacts())
-}
-
 /// Why joints that give, alone or with an effect, may be named.
-struct Standing {
+pub(super) struct Standing {
     /// What they leave, where that is more than noise.
-    remainder: Option<Remainder>,
+    pub remainder: Option<Remainder>,
 }
 
 impl Standing {
     /// They follow to the noise, or what they leave is little, and no rival comes near; `None` if neither.
-    fn of<P: Progress>(
+    pub fn of<P: Progress>(
         trials: &Trials<P>,
         wall: &WallFits,
         best: &FittedHypothesis,
@@ -210,7 +123,7 @@ impl Standing {
         Some(Self { remainder: Some(remainder) })
     }
 
-    fn found<P: Progress>(
+    pub fn found<P: Progress>(
         self,
         trials: &Trials<P>,
         wall: &WallFits,
@@ -342,7 +255,7 @@ fn leaves_more_than_another_model(wall: &WallFits, alone: &FittedHypothesis) -> 
 
 /// Whether an effect beside joints that give is named with them: it is clearly worth it, or they leave more than another way to model
 /// a bed does, and it shows beside what both leave.
-fn is_worth_it<P: Progress>(
+pub(super) fn is_worth_it<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     alone: &FittedHypothesis,
@@ -395,7 +308,11 @@ fn stands_for<P: Progress>(trials: &Trials<P>, best: &FittedHypothesis, law: &Fi
 }
 
 /// Whether the tests cannot tell another effect from the best: by likelihood where that leaves noise, else by what each leaves.
-fn comes_near<P: Progress>(trials: &Trials<P>, best: &FittedHypothesis, other: &FittedHypothesis) -> bool {
+pub(super) fn comes_near<P: Progress>(
+    trials: &Trials<P>,
+    best: &FittedHypothesis,
+    other: &FittedHypothesis,
+) -> bool {
     if is_noise(best) {
         return against(&trials.data, other) - against(&trials.data, best) < EQUIVALENT;
     }
@@ -404,7 +321,7 @@ fn comes_near<P: Progress>(trials: &Trials<P>, best: &FittedHypothesis, other: &
 }
 
 /// Whether a hypothesis follows the tests to their noise, and no rival does nearly as well.
-fn follows<P: Progress>(
+pub(super) fn follows<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     best: &FittedHypothesis,

@@ -1,0 +1,95 @@
+//! Joints that give beside an effect, where that is not enough on sharp edges and windows did not ask for beds alone.
+
+use super::judge::Found;
+use super::names;
+use super::on_beds::{Standing, comes_near, following_alone, follows, is_worth_it};
+use super::remainder::is_soft;
+use crate::Progress;
+use crate::diagnose::trials::{FittedHypothesis, Trials, WallFits, does_something};
+use crate::limits::BEDS_BESIDE_EFFECTS;
+
+/// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
+pub struct BedsBeside {
+    effect: FittedHypothesis,
+    /// The bed of the best alone.
+    alone: FittedHypothesis,
+    best: FittedHypothesis,
+    near: Vec<FittedHypothesis>,
+}
+
+impl BedsBeside {
+    /// Beside one of the single effects that follow best, where beds take away what it leaves.
+    pub fn an_effect<P: Progress>(trials: &Trials<P>, singles: &[FittedHypothesis]) -> Option<Self> {
+        // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
+        if trials.is_held() {
+            return None;
+        }
+        let effects = following_best(singles);
+        let beds = trials.beds_beside(&effects);
+        let (best, others) = beds.split_first()?;
+        let effect = effects.into_iter().find(|one| contains(best, one))?.clone();
+        let alone = trials.bed_without_effect(best)?;
+        let is_other =
+            |other: &&FittedHypothesis| names(other) != names(best) && comes_near(trials, best, other);
+        let near = others.iter().filter(is_other).cloned().collect();
+        Some(Self { effect, alone, best: best.clone(), near })
+    }
+
+    /// The verdict where they follow to the noise, and no effect on sharp edges does nearly as well beside the same effect; or where
+    /// the bed does so without the effect, by which it was only found.
+    pub fn following<P: Progress>(
+        &self,
+        trials: &Trials<P>,
+        wall: &WallFits,
+        tried: &[FittedHypothesis],
+    ) -> Option<Found> {
+        if !is_worth_it(trials, wall, &self.alone, &self.best)
+            && let Some(found) = following_alone(trials, wall, std::slice::from_ref(&self.alone), tried)
+        {
+            return Some(found);
+        }
+        if !follows(trials, wall, &self.best, tried) {
+            return None;
+        }
+        let all = [tried, &trials.beside(&self.effect)].concat();
+        self.leaving_little(trials, wall, &all).filter(|found| found.remainder.is_none())
+    }
+
+    /// The verdict where what they leave is noise, or little that nothing tried comes near.
+    pub fn leaving_little<P: Progress>(
+        &self,
+        trials: &Trials<P>,
+        wall: &WallFits,
+        tried: &[FittedHypothesis],
+    ) -> Option<Found> {
+        let Self { effect, alone, best, near } = self;
+        let standing = Standing::of(trials, wall, best, tried)?;
+        let all = || [&[best.clone(), alone.clone()], &near[..], tried].concat();
+        let is_worth_both = [effect, alone].iter().all(|one| is_worth_it(trials, wall, one, best));
+        (is_worth_both && is_soft(best)).then(|| standing.found(trials, wall, best.clone(), near, all()))
+    }
+}
+
+/// The single effects that do something and follow best: by what speaks against them, and by error.
+fn following_best(singles: &[FittedHypothesis]) -> Vec<&FittedHypothesis> {
+    let effects = singles.iter().filter(|t| is_effect(t) && does_something(t)).collect::<Vec<_>>();
+    let mut by_error = effects.clone();
+    by_error.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+    let mut best: Vec<&FittedHypothesis> = Vec::new();
+    for effect in by_error.into_iter().take(BEDS_BESIDE_EFFECTS - 1).chain(effects) {
+        if best.len() < BEDS_BESIDE_EFFECTS && !best.iter().any(|other| std::ptr::eq(*other, effect)) {
+            best.push(effect);
+        }
+    }
+    best
+}
+
+/// Whether a hypothesis has the addition of a single effect.
+fn contains(both: &FittedHypothesis, effect: &FittedHypothesis) -> bool {
+    both.hypothesis.additions.contains(&effect.hypothesis.additions[0])
+}
+
+/// Whether a single addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.
+fn is_effect(single: &FittedHypothesis) -> bool {
+    single.hypothesis.additions[0].role().is_some_and(|role| !role.is_at_impacts())
+}
