@@ -19,7 +19,7 @@ pub(super) const LITTLE: f64 = 0.5;
 const LEAST_PROMISE: f64 = 0.005;
 /// Share of the spread of a smoothed state over which sensitivities to it are taken.
 const CHANGE_SHARE: f64 = 0.1;
-/// Farthest that a step goes, in spreads of a smoothed state: a hundred times as far as one is ever off.
+/// Farthest that a step goes, in spreads of a smoothed state: eighty times as far as other starts are drawn.
 const FARTHEST: f64 = 1e3;
 /// Other starts drawn about the smoothed state, and how many of the best are refined.
 ///
@@ -129,7 +129,7 @@ pub(super) fn state_jacobians(replay: &Replay, these: &[&At]) -> Vec<DMatrix<f64
 }
 
 /// Whether a step leads to a state that a measurement could be of. One along a number of the state that leaves no trace, such as the
-/// velocity of a joint that shuts at once, leads anywhere, and such a simulation takes minutes.
+/// velocity of a joint that shuts at once, may go to 1e11 rad; from there simulations on beds hardly end.
 fn is_near(at: &At, step: &NewtonStep) -> bool {
     step.x.iter().zip(&at.window.spread).all(|(dx, spread)| dx.abs() < FARTHEST * spread)
 }
@@ -269,4 +269,57 @@ fn drawn_states(window: &Window) -> impl Iterator<Item = Vec<f64>> {
         let about = |((m, s), share): ((&f64, &f64), &f64)| m + share * s * random.random_range(-1.0..1.0);
         window.measured.iter().zip(&window.spread).zip(within.iter().cycle()).map(about).collect()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::Freedom;
+    use crate::experiment_file::Purpose;
+
+    #[test]
+    fn rejects_a_step_along_a_number_that_leaves_no_trace() {
+        let window = Window {
+            test: 0,
+            purpose: Purpose::Fit,
+            samples: 0..120,
+            readings: 240,
+            freedom: Freedom::Upper,
+            opened: false,
+            measured: vec![0.01, 0.0],
+            spread: vec![1.5e-4, 1.5e-3],
+        };
+        let at =
+            At { window: &window, x: window.measured.clone(), r: DVector::zeros(240), changes: [false; 8] };
+        let step = |x: [f64; 2]| NewtonStep { x: DVector::from_row_slice(&x), promise: 1.0 };
+        assert!(is_near(&at, &step([2e-3, -0.04])));
+        // Each number by its own spread, and what is no number goes nowhere.
+        assert!(!is_near(&at, &step([0.0, 1e11])) && !is_near(&at, &step([0.2, 0.0])));
+        assert!(!is_near(&at, &step([f64::NAN, 0.0])));
+    }
+
+    #[test]
+    fn analytic_the_second_half_of_other_starts_lies_farther_off_in_velocity() {
+        let window = Window {
+            test: 0,
+            purpose: Purpose::Fit,
+            samples: 0..120,
+            readings: 240,
+            freedom: Freedom::Both,
+            opened: false,
+            measured: vec![0.0; 4],
+            spread: vec![1.0; 4],
+        };
+        let drawn = drawn_states(&window).collect::<Vec<_>>();
+        assert_eq!(drawn.len(), DRAWS);
+        let farthest = |half: &[Vec<f64>], number: usize| {
+            half.iter().flat_map(|x| [x[number], x[number + 2]]).fold(0.0, |most: f64, x| most.max(x.abs()))
+        };
+        let [near, far] = [&drawn[..DRAWS / 2], &drawn[DRAWS / 2..]];
+        // Of 64 numbers drawn evenly within a reach the farthest lies beyond nine tenths of it.
+        for (half, [value, rate]) in [near, far].into_iter().zip(DRAWN_WITHIN) {
+            assert!((0.9 * value..value).contains(&farthest(half, 0)));
+            assert!((0.9 * rate..rate).contains(&farthest(half, 1)));
+        }
+    }
 }

@@ -116,8 +116,11 @@ pub fn closes(tried: &FittedHypothesis, before: f64) -> bool {
 
 /// Whether windows are followed badly: more than may be, or more of those held out.
 pub fn misses_windows(tried: &FittedHypothesis) -> bool {
-    too_many_poor(&all_windows(tried))
-        || more_poor_held_out_sd(&tried.fit.windows, &tried.held_out.windows) >= MISSED_HELD_OUT_SD
+    are_missed(&tried.fit.windows, &tried.held_out.windows)
+}
+
+fn are_missed(fit: &[WindowFit], held_out: &[WindowFit]) -> bool {
+    too_many_poor(&[fit, held_out].concat()) || more_poor_held_out_sd(fit, held_out) >= MISSED_HELD_OUT_SD
 }
 
 /// Whether the tests held out are followed as those fitted are.
@@ -136,9 +139,7 @@ pub fn follows_to_noise(tried: &FittedHypothesis, before: f64) -> bool {
 /// Whether what is left of windows to fit and held out is noise, as where an effect is named.
 pub fn leave_noise([fit, held_out]: &[Vec<WindowFit>; 2]) -> bool {
     let all = [&fit[..], held_out].concat();
-    windowed_error(&all).is_some_and(|error| error < NOISE_AFTER)
-        && !too_many_poor(&all)
-        && more_poor_held_out_sd(fit, held_out) < MISSED_HELD_OUT_SD
+    windowed_error(&all).is_some_and(|error| error < NOISE_AFTER) && !are_missed(fit, held_out)
 }
 
 /// Whether what a hypothesis leaves of a gap that was `before` is so little that other starts may close it.

@@ -28,7 +28,7 @@ mod refinement;
 mod search;
 mod unfinished;
 
-pub use beds::{excess, own_error, widened};
+pub use beds::{by_error_of, excess, own_error, widened};
 pub use between_impacts::BetweenImpacts;
 pub use effects::{FirstFits, WallFits};
 pub use fitted_hypothesis::{Data, FittedHypothesis};

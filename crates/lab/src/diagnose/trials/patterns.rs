@@ -269,7 +269,7 @@ mod tests {
         assert!(closed.is_poor(), "at rest it is followed to {closed:?}");
         let ([window], 1) = (&windows.0[..], windows.1) else { panic!("one window, read anew: {windows:?}") };
         assert_eq!(window.freedom, Freedom::Both);
-        // A tenth: the noise of a hundred samples over a swing of two noises.
+        // Four numbers are fitted to a swing that hardly stands out: under this draw of the noise the rate is 15 % off.
         assert!((window.measured[3] / x[3] - 1.0).abs() < 0.2, "{window:?}");
         let (closed, windows) = opened_again(Freedom::Rest, &on_bed, &[0.0; 4]);
         assert!(!closed.is_poor() && windows.1 == 0, "{closed:?}: {windows:?}");
@@ -282,6 +282,7 @@ mod tests {
         let on_bed = [STARTER, BED].concat();
         let x = [0.02, -0.05, 0.02 + 0.5 * NOISE_RAD, -0.05 + 0.01];
         let (closed, windows) = opened_again(Freedom::Monolithic, &on_bed, &x);
+        assert!(!closed.is_poor(), "it is no window that is followed badly: {closed:?}");
         assert_eq!((windows.1, windows.0[0].freedom), (1, Freedom::Both), "{closed:?}");
     }
 }

@@ -110,8 +110,7 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
     let FirstFits { before, recalibrated, singles } = first_fits;
     match joint_error(&before) {
         Some(error) if !singles.is_empty() => {
-            let early = OnceCell::new();
-            Gap { trials, wall: WallFits { before, recalibrated }, error, early }.judge(singles)
+            Gap::new(trials, WallFits { before, recalibrated }, error).judge(singles)
         }
         // Too little moves for anything to show.
         _ => Found {
@@ -141,10 +140,9 @@ pub(super) struct Gap<'t, P> {
 }
 
 impl<'t, P: Progress> Gap<'t, P> {
-    /// The gap of a wall; `None` where too little moves for one to show.
-    pub(super) fn of(trials: &'t Trials<'t, P>, wall: &WallFits) -> Option<Self> {
-        let error = joint_error(&wall.before)?;
-        Some(Self { trials, wall: wall.clone(), error, early: OnceCell::new() })
+    /// The gap that the wall as given leaves, of this windowed error.
+    pub(super) fn new(trials: &'t Trials<'t, P>, wall: WallFits, error: f64) -> Self {
+        Self { trials, wall, error, early: OnceCell::new() }
     }
 }
 

@@ -10,8 +10,8 @@ use super::{Remainder, Verdict, names_of_all};
 use crate::Progress;
 use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::trials::{
-    FittedHypothesis, Trials, WallFits, against, all_windows, closes, crushes, does_something, excess,
-    is_noise, joint_error, own_error,
+    FittedHypothesis, Trials, WallFits, against, all_windows, by_error_of, closes, crushes, does_something,
+    excess, is_noise, joint_error, own_error,
 };
 use crate::limits::{
     BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
@@ -44,7 +44,7 @@ pub fn on_beds<P: Progress>(
     if !equals.is_empty() {
         return Some(Found { verdict: Verdict::Class, equivalent: equals, ..found });
     }
-    let gap = Gap::of(trials, wall)?;
+    let gap = Gap::new(trials, wall.clone(), joint_error(before)?);
     Some(gap.or_another_law(found))
 }
 
@@ -201,9 +201,9 @@ fn with_effect<P: Progress>(
         let in_few = trials.rivals_in_few_windows(&wall.before);
         let rivals = trials.rivals_in_all_windows(&wall.before, &in_few);
         let mut all = [trials.beds_beside_rivals(alone, &in_few), pairs].concat();
-        by_what_is_left(&mut all);
+        by_error_of(&mut all);
         all.extend(beside_another_bed(trials, alone, &all));
-        by_what_is_left(&mut all);
+        by_error_of(&mut all);
         (all, Some(rivals))
     } else {
         (pairs, None)
@@ -223,10 +223,6 @@ fn beside_another_bed<P: Progress>(
     let other = pairs.first().filter(|two| !is_noise(two) && two.hypothesis.additions[0] != own);
     let bed = other.and_then(|two| trials.bed_without_effect(two));
     bed.map(|bed| trials.beside_beds(&[bed])).unwrap_or_default()
-}
-
-fn by_what_is_left(tried: &mut [FittedHypothesis]) {
-    tried.sort_by(|a, b| excess(&all_windows(a)).total_cmp(&excess(&all_windows(b))));
 }
 
 /// The first of pairs, if it is worth naming beside joints that give alone, and what comes near it.

@@ -6,7 +6,7 @@
 
 use super::few::Few;
 use super::probe::Probe;
-use super::{excess, in_rounds, own_error, widened};
+use super::{by_excess, excess, in_rounds, own_error, widened};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
@@ -45,7 +45,7 @@ impl<P: Progress> Trials<'_, P> {
         let Some(first) = effects.first() else { return Vec::new() };
         let mut begun =
             effects.iter().flat_map(|effect| self.begun_beside(effect, first)).collect::<Vec<_>>();
-        begun.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
+        by_excess(&mut begun);
         let Some(best) = begun.first().map(|(_, fit)| excess(&fit.windows)) else { return Vec::new() };
         begun.retain(|(_, fit)| excess(&fit.windows) < BEDS_NEAR_BEST * best.max(1.0));
         begun.truncate(BEDS_BESIDE_EFFECTS);
@@ -100,7 +100,7 @@ impl<P: Progress> Trials<'_, P> {
         let begun = rivals.iter().filter(is_effect).filter_map(|effect| Probe::new(self, effect, None));
         let begun = begun.filter_map(|probe| probe.begun().into_iter().next());
         let mut promising = begun.filter(|(_, fit)| excess(&fit.windows) < most).collect::<Vec<_>>();
-        promising.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
+        by_excess(&mut promising);
         promising.truncate(BEDS_BESIDE_EFFECTS);
         self.progress.begin("joints that give beside effects on sharp edges", promising.len());
         let fit = |(h, begun): &(Hypothesis, Fit)| {
@@ -254,7 +254,7 @@ fn follows_nearly(bed: &FittedHypothesis) -> bool {
 }
 
 /// What follows the windows best first.
-fn by_error_of(tried: &mut [FittedHypothesis]) {
+pub fn by_error_of(tried: &mut [FittedHypothesis]) {
     let error = |t: &FittedHypothesis| joint_error(t).unwrap_or(f64::INFINITY);
     tried.sort_by(|a, b| error(a).total_cmp(&error(b)));
 }

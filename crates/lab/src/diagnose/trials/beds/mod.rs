@@ -28,6 +28,7 @@ use crate::diagnose::fit::{Fit, Problem, WindowFit, nats, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::TestData;
 use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST, BEDS_WINDOWS, NEAR_BEST};
+pub use beside::by_error_of;
 pub use few::Few;
 use probe::Probe;
 
@@ -184,6 +185,11 @@ impl<P: Progress> Trials<'_, P> {
         let fit = in_rounds(&self.data.fit, &h, start)?;
         judged_from_measured(&self.data, h, fit)
     }
+}
+
+/// Orders beds that were begun by what they leave of few windows, the least first.
+fn by_excess(begun: &mut [(Hypothesis, Fit)]) {
+    begun.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
 }
 
 /// Of beds that were begun, in order, those that come near the best.

@@ -1,7 +1,7 @@
 //! Beds looked at in few windows: whether these ask for one, and where its fit begins.
 
 use super::few::Few;
-use super::{excess, in_rounds};
+use super::{by_excess, excess, in_rounds};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, WindowFit};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
@@ -80,7 +80,7 @@ impl<'t, P: Progress> Probe<'t, P> {
             Some((h, fit))
         };
         let mut begun = chosen.par_iter().filter_map(fit).collect::<Vec<_>>();
-        begun.sort_by(|a, b| excess(&a.1.windows).total_cmp(&excess(&b.1.windows)));
+        by_excess(&mut begun);
         begun
     }
 
