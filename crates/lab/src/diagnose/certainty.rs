@@ -5,7 +5,7 @@
 //! tell that share.
 
 use super::fit::{Fit, Loss, Problem, WindowSlopes};
-use super::hypothesis::Addition;
+use super::hypothesis::{Addition, Hypothesis};
 pub use super::next_tests::{NextPull, NextShaking, NextTests, next_tests};
 use super::trials::{Data, FittedHypothesis, own_error, widened};
 use crate::limits::{BED_MODEL_SD, DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
@@ -21,13 +21,15 @@ use serde::{Deserialize, Serialize};
 /// 90 % intervals of the values of a fitted hypothesis; all that a number may be where the tests do not tell.
 ///
 /// From the curvature of the loss at the fit, and from how far single tests move it (an infinitesimal jackknife over
-/// tests). The curvature alone does not know that the windows of a test err together.
+/// tests). The curvature alone does not know that the windows of a test err together. Numbers of a bed may also be off by what
+/// another way to model it would move them by, which noise may hide.
 pub fn intervals(data: &Data, tried: &FittedHypothesis) -> Vec<[f64; 2]> {
     let covariance = covariance(data, tried);
     let interval = |(i, value): (usize, &f64)| {
         let half = NINETY_PERCENT * covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].sqrt());
         let unknown = &tried.hypothesis.unknowns[i];
-        [(value - half).max(unknown.lower), (value + half).min(unknown.upper)]
+        let own = [(value - half).max(unknown.lower), (value + half).min(unknown.upper)];
+        if is_of_bed(&tried.hypothesis, i) { wider_by_model(own, *value) } else { own }
     };
     tried.fit.values.iter().enumerate().map(interval).collect()
 }
@@ -40,14 +42,20 @@ pub fn intervals_beside_own_error(data: &Data, tried: &FittedHypothesis) -> Vec<
     wider.fit.windows.iter_mut().for_each(|window| window.squares /= error * error);
     let found = intervals(&Data { fit: Problem { tests: &tests, ..data.fit }, ..*data }, &wider);
     let h = &tried.hypothesis;
+    let beside_bed = |i: usize| i >= h.nuisances && !is_of_bed(h, i);
     let all = found.into_iter().zip(&tried.fit.values).enumerate();
-    all.map(
-        |(i, (interval, value))| if i < h.nuisances { interval } else { wider_by_model(interval, *value) },
-    )
-    .collect()
+    all.map(|(i, (interval, value))| if beside_bed(i) { wider_by_model(interval, *value) } else { interval })
+        .collect()
 }
 
-/// An interval about a number of a bed with what another way to model it would move that number by.
+/// Whether a value is a number of a bed.
+fn is_of_bed(h: &Hypothesis, value: usize) -> bool {
+    let is_bed = |(_, addition): &(usize, &Addition)| addition.role() == Some(Role::Bed);
+    let mut beds = h.additions.iter().enumerate().filter(is_bed);
+    beds.any(|(index, _)| h.unknowns[value].belongs_to(index))
+}
+
+/// An interval about a number of a bed, or of what is beside it, with what another way to model the bed would move that number by.
 ///
 /// A softness is 1/√k: its relative deviation is half that of k.
 fn wider_by_model([low, high]: [f64; 2], value: f64) -> [f64; 2] {
@@ -329,6 +337,7 @@ fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::hypothesis::example::starter_with;
 
     #[test]
     fn analytic_tests_of_a_mean_scatter_as_their_means_do() {
@@ -340,6 +349,19 @@ mod tests {
         let expected = residuals.iter().map(|r| r * r).sum::<f64>() / 12.0;
         assert!((covariance[(0, 0)] - 0.25).abs() < 1e-15);
         assert!((scatter(&covariance, &pulls)[(0, 0)] - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn analytic_numbers_of_a_bed_are_known_no_better_than_the_model_of_it() {
+        let h = starter_with(&["compliant_joint.ground", "viscous_damping"]);
+        let of_bed = (0..h.unknowns.len()).map(|i| is_of_bed(&h, i)).collect::<Vec<_>>();
+        assert_eq!(of_bed, [true, true, false]);
+        // Half of three parts in a hundred of 2, by 1.645; then 3 and 4 such parts at right angles.
+        let own = NINETY_PERCENT * 0.5 * BED_MODEL_SD * 2.0;
+        let near =
+            |found: [f64; 2], off: f64| (found[0] - (2.0 - off)).abs().max((found[1] - (2.0 + off)).abs());
+        assert!(near(wider_by_model([2.0, 2.0], 2.0), own) < 1e-15);
+        assert!(near(wider_by_model([2.0 - 0.75 * own, 2.0 + 0.75 * own], 2.0), 1.25 * own) < 1e-15);
     }
 
     #[test]

@@ -97,6 +97,10 @@ limits! {
     BED_HALF_DECADES: [f64; 7] = [3e7, 1e8, 3e8, 1e9, 3e9, 1e10, 3e10], "Pa/m";
     /// Damping time with which beds are looked at.
     BED_DAMPING: f64 = 1e-3, "s";
+    /// The same for the best stiffness and those beside it.
+    ///
+    /// A half decade to either side: beyond, dampers hold a joint or do nothing.
+    BED_OTHER_DAMPINGS: [f64; 2] = [3e-4, 3e-3], "s";
     /// The same beside it where the top is held: nothing else takes energy from such a strip.
     HELD_DAMPING: f64 = 1e-2, "s";
     /// Share of the squared error above noise that the best of these must take away for beds to be fitted.

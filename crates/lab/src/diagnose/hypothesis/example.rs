@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::Hypothesis;
 use super::addition::candidates;
+use super::beds;
 use super::unknown::Scales;
 use mrbd_files::parse_wall;
 
@@ -23,7 +24,7 @@ pub const SCALES: Scales = Scales {
 pub fn starter_with(names: &[&str]) -> Hypothesis {
     let wall = parse_wall(Path::new("wall.toml"), include_str!("../../../../../src/cli/starter/wall.toml"))
         .expect("the starter's wall");
-    let all = candidates(wall.parameters());
+    let all = candidates(wall.parameters()).into_iter().chain(beds()).collect::<Vec<_>>();
     let named = |name: &&str| {
         *all.iter().find(|a| a.name() == *name).unwrap_or_else(|| panic!("{name} in the catalogue"))
     };

@@ -20,14 +20,34 @@ pub struct BedsBeside {
 impl BedsBeside {
     /// Beside one of the single effects that follow best, where beds take away what it leaves.
     pub fn an_effect<P: Progress>(trials: &Trials<P>, singles: &[FittedHypothesis]) -> Option<Self> {
+        Self::one_of(trials, singles, &following_best(singles))
+    }
+
+    /// The same beside an effect of a pair that follows best and leaves more than noise, begun with the numbers that the pair has:
+    /// something else may stand there for the bed that is missing, beside which alone the effect was not seen.
+    pub fn an_effect_of_pairs<P: Progress>(trials: &Trials<P>, tried: &[FittedHypothesis]) -> Option<Self> {
+        let pair = tried.iter().find(|t| t.hypothesis.additions.len() == 2)?;
+        let singles = tried.iter().filter(|t| t.hypothesis.additions.len() == 1).cloned().collect::<Vec<_>>();
+        let seen = following_best(&singles);
+        let parts = trials.parts_of(pair);
+        let is_new =
+            |part: &&FittedHypothesis| is_effect(part) && !seen.iter().any(|one| contains(part, one));
+        Self::one_of(trials, &singles, &parts.iter().filter(is_new).collect::<Vec<_>>())
+    }
+
+    /// The same beside one of some effects, each of which was tried alone among `singles`.
+    fn one_of<P: Progress>(
+        trials: &Trials<P>,
+        singles: &[FittedHypothesis],
+        effects: &[&FittedHypothesis],
+    ) -> Option<Self> {
         // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
         if trials.is_held() {
             return None;
         }
-        let effects = following_best(singles);
-        let beds = trials.beds_beside(&effects);
+        let beds = trials.beds_beside(effects);
         let (best, others) = beds.split_first()?;
-        let effect = effects.into_iter().find(|one| contains(best, one))?.clone();
+        let effect = singles.iter().find(|one| contains(best, one))?.clone();
         let alone = trials.bed_without_effect(best)?;
         let is_other =
             |other: &&FittedHypothesis| names(other) != names(best) && comes_near(trials, best, other);

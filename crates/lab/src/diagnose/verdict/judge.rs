@@ -208,7 +208,9 @@ impl<P: Progress> Gap<'_, P> {
             return self.other_impacts(tried);
         }
         let Some(answer) = answer else {
-            let found = beds.and_then(|beds| beds.leaving_little(self.trials, &self.wall, &tried));
+            let little = |beds: BedsBeside| beds.leaving_little(self.trials, &self.wall, &tried);
+            let of_pairs = || BedsBeside::an_effect_of_pairs(self.trials, &tried);
+            let found = beds.and_then(little).or_else(|| of_pairs().and_then(little));
             if let Some(found) = found {
                 return self.or_another_law(found);
             }

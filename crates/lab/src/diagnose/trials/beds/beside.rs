@@ -72,6 +72,16 @@ impl<P: Progress> Trials<'_, P> {
         probe.begun().into_iter().filter(|(_, fit)| takes(fit)).collect()
     }
 
+    /// Each addition of a pair alone, with the numbers that it has there.
+    pub fn parts_of(&self, pair: &FittedHypothesis) -> Vec<FittedHypothesis> {
+        let part = |addition: &Addition| {
+            let h = self.hypothesis(&self.experiment.nuisances, &[*addition]);
+            let values = h.values_from(&pair.hypothesis, &pair.fit.values);
+            with_values(&self.data, h, pair, &values)
+        };
+        pair.hypothesis.additions.iter().filter_map(part).collect()
+    }
+
     /// Joints that give without the effect beside them, fitted to the end from where both are.
     pub fn bed_without_effect(&self, both: &FittedHypothesis) -> Option<FittedHypothesis> {
         let beds = both.hypothesis.additions.iter().filter(|a| a.role() == Some(Role::Bed));

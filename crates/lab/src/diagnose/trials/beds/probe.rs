@@ -6,10 +6,13 @@ use crate::Progress;
 use crate::diagnose::fit::{Fit, WindowFit};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
 use crate::diagnose::trials::{FittedHypothesis, Trials};
-use crate::limits::{BED_DAMPING, BED_HALF_DECADES, BEDS_ASKED_FOR, BEDS_WINDOWS, HELD_DAMPING};
+use crate::limits::{
+    BED_DAMPING, BED_HALF_DECADES, BED_OTHER_DAMPINGS, BEDS_ASKED_FOR, BEDS_WINDOWS, HELD_DAMPING,
+};
 use rayon::prelude::*;
 
 /// A bed looked at in few windows.
+#[derive(Clone, Copy)]
 struct Probed {
     bed: Addition,
     stiffness_pa_per_m: f64,
@@ -69,12 +72,8 @@ impl<'t, P: Progress> Probe<'t, P> {
 
     /// Of each bed the best stiffness, fitted to the few windows with its damping and with what is uncertain of the wall.
     pub fn begun(self) -> Vec<(Hypothesis, Fit)> {
-        let best = |bed: &Addition| {
-            let own = self.beds.iter().filter(|p| p.bed == *bed);
-            own.min_by(|a, b| a.excess.total_cmp(&b.excess))
-        };
-        let chosen = beds().iter().filter_map(best).collect::<Vec<_>>();
-        let fit = |p: &&Probed| {
+        let chosen = self.looked_at_by_damping();
+        let fit = |p: &Probed| {
             let (h, start) = self.states(p.bed, p.stiffness_pa_per_m, p.damping_s)?;
             let fit = in_rounds(&self.few.problem(), &h, start)?;
             Some((h, fit))
@@ -82,6 +81,22 @@ impl<'t, P: Progress> Probe<'t, P> {
         let mut begun = chosen.par_iter().filter_map(fit).collect::<Vec<_>>();
         by_excess(&mut begun);
         begun
+    }
+
+    /// Of each bed what follows best, once its best stiffness and those beside it were looked at with other dampings.
+    ///
+    /// What a window leaves may jump with the damping, at which a bounce more or less passes through contact: a fit that begins on
+    /// the wrong side of it ends there.
+    fn looked_at_by_damping(&self) -> Vec<Probed> {
+        let best = |of: &[Probed], bed: Addition| {
+            let own = of.iter().filter(|p| p.bed == bed);
+            own.min_by(|a, b| a.excess.total_cmp(&b.excess)).copied()
+        };
+        let first = beds().into_iter().filter_map(|bed| best(&self.beds, bed)).collect::<Vec<_>>();
+        let asked = first.iter().flat_map(|p| stiffness_near(p.stiffness_pa_per_m).map(|k| (p.bed, k)));
+        let asked = asked.flat_map(|(bed, k)| BED_OTHER_DAMPINGS.map(|zeta| (bed, (k, zeta)))).collect();
+        let all = [first, self.look_at(asked)].concat();
+        beds().into_iter().filter_map(|bed| best(&all, bed)).collect()
     }
 
     /// Damping times with which beds are looked at.
@@ -93,12 +108,17 @@ impl<'t, P: Progress> Probe<'t, P> {
         let numbers = self.dampings().iter().flat_map(|zeta| stiffness_pa_per_m.iter().map(|k| (*k, *zeta)));
         let numbers = numbers.collect::<Vec<_>>();
         let asked = beds().into_iter().flat_map(|bed| numbers.iter().map(move |of| (bed, *of)));
+        self.look_at(asked.collect())
+    }
+
+    /// Beds of a stiffness and a damping in the few windows.
+    fn look_at(&self, asked: Vec<(Addition, (f64, f64))>) -> Vec<Probed> {
         let one = |(bed, (stiffness_pa_per_m, damping_s)): (Addition, (f64, f64))| {
             let (_, fit) = self.states(bed, stiffness_pa_per_m, damping_s)?;
             let excess = excess(&fit.windows);
             Some(Probed { bed, stiffness_pa_per_m, damping_s, excess })
         };
-        asked.collect::<Vec<_>>().into_par_iter().filter_map(one).collect()
+        asked.into_par_iter().filter_map(one).collect()
     }
 
     /// The wall on a bed, from states near the measured ones; `None` if it would fall off.
@@ -115,5 +135,24 @@ impl<'t, P: Progress> Probe<'t, P> {
         let problem = self.few.problem();
         let fit = problem.states(&h, &values, &problem.measured_states(), 1, false)?;
         Some((h, fit))
+    }
+}
+
+/// Of the stiffnesses that are looked at, this one and those half a decade beside it.
+fn stiffness_near(stiffness_pa_per_m: f64) -> impl Iterator<Item = f64> {
+    // Between one half decade and two.
+    let is_near = move |k: &f64| (k / stiffness_pa_per_m).log10().abs() < 0.75;
+    BED_HALF_DECADES.into_iter().filter(is_near)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn analytic_stiffness_is_looked_at_half_a_decade_to_either_side() {
+        assert!(stiffness_near(1e9).eq([3e8, 1e9, 3e9]));
+        assert!(stiffness_near(3e7).eq([3e7, 1e8]));
+        assert!(stiffness_near(3e10).eq([1e10, 3e10]));
     }
 }
