@@ -1,6 +1,6 @@
 //! Joints that give beside an effect, where that is not enough on sharp edges and windows did not ask for beds alone.
 
-use super::judge::Found;
+use super::found::Found;
 use super::names;
 use super::on_beds::{Standing, comes_near, following_alone, follows, is_worth_it};
 use super::remainder::is_soft;

@@ -6,81 +6,21 @@ use super::at_impacts::{
     NamedBetween, is_near_other_impacts, named_between, only_impacts, worth_two_between,
 };
 use super::beds_beside::BedsBeside;
+use super::found::Found;
 use super::on_beds::{on_beds_instead, on_beds_last};
 use super::worth_naming::{could_show, place, worth_two};
-use super::{OtherLaw, Remainder, Verdict};
+use super::{OtherLaw, Verdict};
 use super::{name_of_number, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::discovery::Discovered;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
 use crate::diagnose::trials::{
-    Data, FirstFits, FittedHypothesis, Trials, WallFits, against, best_answer, closes, does_something,
-    is_noise, joint_error, kinds,
+    FirstFits, FittedHypothesis, Trials, WallFits, against, best_answer, closes, does_something, is_noise,
+    joint_error, kinds,
 };
 use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
-
-/// What was found in given windows.
-#[derive(Debug)]
-pub struct Found {
-    /// The answer.
-    pub verdict: Verdict,
-    /// The wall as it was given.
-    pub before: FittedHypothesis,
-    /// Its uncertain numbers fitted.
-    pub recalibrated: FittedHypothesis,
-    /// The wall of the answer.
-    pub after: FittedHypothesis,
-    /// What cannot be told from it.
-    pub equivalent: Vec<String>,
-    /// Where a force is missing, when no law is named.
-    pub place: Option<&'static str>,
-    /// What a named effect leaves, where that is more than noise.
-    pub remainder: Option<Remainder>,
-    /// What speaks for another law than the best of the catalogue, where that closes the gap.
-    pub other_law: Option<OtherLaw>,
-    /// Laws outside the catalogue, where they were looked for and points speak of one.
-    pub discovered: Option<Discovered>,
-    /// Everything tried, best first.
-    pub tried: Vec<FittedHypothesis>,
-}
-
-impl Found {
-    /// Everything tried: effects of the catalogue, and laws outside it, best first.
-    pub fn rivals<'f>(&'f self, data: &Data) -> Vec<&'f FittedHypothesis> {
-        let laws = self.discovered.iter().flat_map(|discovered| &discovered.tried);
-        let mut all = self.tried.iter().chain(laws).collect::<Vec<_>>();
-        all.sort_by(|a, b| against(data, a).total_cmp(&against(data, b)));
-        all
-    }
-
-    /// The hypothesis that leaves least, where what it leaves is more than noise: that of a name with a remainder, or of all that
-    /// was tried in vain.
-    pub fn least_leaving(&self) -> Option<&FittedHypothesis> {
-        let error = |tried: &FittedHypothesis| joint_error(tried).unwrap_or(f64::INFINITY);
-        match self.verdict {
-            Verdict::PlaceOnly | Verdict::Unknown => {
-                let all = self.tried.iter().chain([&self.recalibrated]);
-                all.min_by(|a, b| error(a).total_cmp(&error(b)))
-            }
-            _ => (self.remainder.is_some() || !is_noise(&self.after)).then_some(&self.after),
-        }
-    }
-
-    /// The hypothesis whose wall is written: that of the answer, or the wall as given where there is none.
-    pub fn kept(&self) -> &FittedHypothesis {
-        match self.verdict {
-            Verdict::Named
-            | Verdict::Class
-            | Verdict::Formula
-            | Verdict::FormulaClass
-            | Verdict::Curve
-            | Verdict::Recalibrated => &self.after,
-            _ => &self.before,
-        }
-    }
-}
 
 /// A hypothesis that may be the answer.
 pub(super) struct Answer {
@@ -178,11 +118,14 @@ impl<P: Progress> Gap<'_, P> {
         }
         let one = self.named(&singles, &self.wall.recalibrated);
         if one.is_none() && place(&self.trials.data, &self.wall.recalibrated, &singles).is_none() {
-            if only_impacts(self.trials, &self.wall.before, &singles) {
-                return self.nothing_missing(singles);
-            }
-            if only_impacts(self.trials, &self.wall.recalibrated, &singles) {
-                return self.within_the_wall(singles);
+            let before = only_impacts(self.trials, &self.wall.before, &singles);
+            if before || only_impacts(self.trials, &self.wall.recalibrated, &singles) {
+                // A stiff bed shows at impacts, too.
+                let on_beds = on_beds_last(self.trials, &self.wall, &singles, &[]);
+                return on_beds.unwrap_or_else(|| match before {
+                    true => self.nothing_missing(singles),
+                    false => self.within_the_wall(singles),
+                });
             }
         }
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.

@@ -3,6 +3,7 @@
 //! | module | idea |
 //! | --- | --- |
 //! | `judge` | nothing missing, the wall's own numbers, one effect, two, or a place |
+//! | `found` | the verdict, and what it rests on |
 //! | `worth_naming` | whether tests could show an effect, whether a second one shows, and where a force is missing |
 //! | `at_impacts` | what is left at impacts, where formulations of a contact part |
 //! | `remainder` | a name that leaves more than noise |
@@ -13,6 +14,7 @@
 
 mod at_impacts;
 mod beds_beside;
+mod found;
 mod judge;
 mod on_beds;
 mod other_law;
@@ -22,7 +24,8 @@ mod worth_naming;
 
 use super::hypothesis::{Addition, WallNumber};
 use super::trials::{FittedHypothesis, kind_of};
-pub use judge::{Found, judge};
+pub use found::Found;
+pub use judge::judge;
 pub use on_beds::{beside_beds, on_beds};
 pub use other_law::{OtherLaw, Trend};
 pub use remainder::{NextRival, Remainder, model_error_rad};

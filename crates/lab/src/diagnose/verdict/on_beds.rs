@@ -3,7 +3,8 @@
 //! Everything else is tried on sharp edges, where a wall on beds is far off whatever is added. So beds come first: where
 //! they hold, the others are fitted as rivals, and no more is tried.
 
-use super::judge::{Found, Gap};
+use super::found::Found;
+use super::judge::Gap;
 use super::remainder::is_soft;
 use super::worth_naming::{leaves_noise, worth_two};
 use super::{Remainder, Verdict, names_of_all};

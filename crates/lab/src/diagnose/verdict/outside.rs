@@ -1,6 +1,7 @@
 //! Laws outside the catalogue: where no effect follows, where one only nearly does, and the place or the curve where none is found.
 
-use super::judge::{Answer, Found, Gap};
+use super::found::Found;
+use super::judge::{Answer, Gap};
 use super::worth_naming::{leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
 use crate::Progress;

@@ -1,0 +1,66 @@
+//! What was found: the verdict, the walls that it compares, and everything that was tried.
+
+use super::{OtherLaw, Remainder, Verdict};
+use crate::diagnose::discovery::Discovered;
+use crate::diagnose::trials::{Data, FittedHypothesis, against, is_noise, joint_error};
+
+/// What was found in given windows.
+#[derive(Debug)]
+pub struct Found {
+    /// The answer.
+    pub verdict: Verdict,
+    /// The wall as it was given.
+    pub before: FittedHypothesis,
+    /// Its uncertain numbers fitted.
+    pub recalibrated: FittedHypothesis,
+    /// The wall of the answer.
+    pub after: FittedHypothesis,
+    /// What cannot be told from it.
+    pub equivalent: Vec<String>,
+    /// Where a force is missing, when no law is named.
+    pub place: Option<&'static str>,
+    /// What a named effect leaves, where that is more than noise.
+    pub remainder: Option<Remainder>,
+    /// What speaks for another law than the best of the catalogue, where that closes the gap.
+    pub other_law: Option<OtherLaw>,
+    /// Laws outside the catalogue, where they were looked for and points speak of one.
+    pub discovered: Option<Discovered>,
+    /// Everything tried, best first.
+    pub tried: Vec<FittedHypothesis>,
+}
+
+impl Found {
+    /// Everything tried: effects of the catalogue, and laws outside it, best first.
+    pub fn rivals<'f>(&'f self, data: &Data) -> Vec<&'f FittedHypothesis> {
+        let laws = self.discovered.iter().flat_map(|discovered| &discovered.tried);
+        let mut all = self.tried.iter().chain(laws).collect::<Vec<_>>();
+        all.sort_by(|a, b| against(data, a).total_cmp(&against(data, b)));
+        all
+    }
+
+    /// The hypothesis that leaves least, where what it leaves is more than noise: that of a name with a remainder, or of all that
+    /// was tried in vain.
+    pub fn least_leaving(&self) -> Option<&FittedHypothesis> {
+        let error = |tried: &FittedHypothesis| joint_error(tried).unwrap_or(f64::INFINITY);
+        match self.verdict {
+            Verdict::PlaceOnly | Verdict::Unknown => {
+                let all = self.tried.iter().chain([&self.recalibrated]);
+                all.min_by(|a, b| error(a).total_cmp(&error(b)))
+            }
+            _ => (self.remainder.is_some() || !is_noise(&self.after)).then_some(&self.after),
+        }
+    }
+
+    /// The hypothesis whose wall is written: that of the answer, or the wall as given where there is none.
+    pub fn kept(&self) -> &FittedHypothesis {
+        match self.verdict {
+            Verdict::Named
+            | Verdict::Class
+            | Verdict::Formula
+            | Verdict::FormulaClass
+            | Verdict::Curve
+            | Verdict::Recalibrated => &self.after,
+            _ => &self.before,
+        }
+    }
+}
