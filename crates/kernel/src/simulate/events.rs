@@ -3,7 +3,7 @@
 use super::bed_events::BedChange;
 use super::run::CarriedStep;
 use super::switches::first_turn;
-use crate::model::{Contact, Joint, Kink, Pair, RockingWall, Touching, opening};
+use crate::model::{Contact, Kink, Pair, RockingWall, Touching};
 use crate::solver::{Bernstein, Point, Quintic, hermite};
 
 /// What ends a step early.
@@ -40,14 +40,14 @@ impl From<EdgeEvent> for Event {
 }
 
 impl Event {
-    /// The gap that closes.
-    pub fn gap(self) -> Option<fn(Pair) -> f64> {
+    /// The gap that closes, as the sum of so many times the rotations: exact, and without a choice for which the processor waits.
+    #[inline]
+    pub fn gap(self) -> Option<Pair> {
         match self {
-            Event::Impact(Touching { crack: true, ground: false }) => {
-                Some(|pair| opening(Joint::Crack, pair))
-            }
-            Event::Impact(Touching { crack: true, ground: true }) => Some(|pair| pair[1]),
-            Event::Impact(_) => Some(|pair| opening(Joint::Ground, pair)),
+            // θ_2 - θ_1, θ_2 and θ_1.
+            Event::Impact(Touching { crack: true, ground: false }) => Some([-1.0, 1.0]),
+            Event::Impact(Touching { crack: true, ground: true }) => Some([0.0, 1.0]),
+            Event::Impact(_) => Some([1.0, 0.0]),
             _ => None,
         }
     }
@@ -122,6 +122,7 @@ fn earlier(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
+#[inline(always)]
 fn first_closing(contact: Contact, motion: &Quintic) -> Option<(EdgeEvent, f64)> {
     let [lower, upper] = motion.bounds();
     let ground = closing(contact.ground.sign(), motion.coordinate(0), lower);
