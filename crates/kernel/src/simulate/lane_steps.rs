@@ -6,9 +6,9 @@ use super::lane_beds::OnBeds;
 use super::lane_values::{OneRotation, TwoRotations};
 use super::row::{GroundRow, MovingRow, Row};
 use crate::instructions::dispatch_lanes;
-use crate::lanes::{LANES, Numbers, from_row};
+use crate::lanes::{Numbers, from_row};
 use crate::model::{
-    BeddedMotions, Freedom, LaneKind, MotionRow, Motions, RateLanes, ReactionLanes, Vector, sin_cos_lanes,
+    BeddedMotions, Freedom, LaneKind, MotionRow, Motions, RateLanes, ReactionLanes, sin_cos_lanes,
 };
 use crate::solver::{Field, Nystrom, Rate, Stride};
 
@@ -265,16 +265,10 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S
 /// Steps of a row until something happens to one of the runs in it: gives its lane, and those of others to which
 /// something does at once.
 #[inline(always)]
-fn steps_until<S: Simd>(
-    simd: S,
-    motions: impl Stepping<S>,
-    alone: bool,
-    row: &mut Row,
-    samples: &[&[Vector]; LANES],
-) -> u64 {
+fn steps_until<S: Simd>(simd: S, motions: impl Stepping<S>, alone: bool, row: &mut Row) -> u64 {
     loop {
         let landed = motions.step(simd, row);
-        let left = row.settle(&motions, alone, &landed, samples);
+        let left = row.settle(&motions, alone, &landed);
         if left != 0 || row.watched {
             row.landed.store(&landed);
             motions.put_back(&mut row.motions);
@@ -284,56 +278,46 @@ fn steps_until<S: Simd>(
 }
 
 #[inline(always)]
-fn edges_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
-    simd: S,
-    alone: bool,
-    row: &mut Row,
-    samples: &[&[Vector]; LANES],
-) -> u64 {
+fn edges_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(simd: S, alone: bool, row: &mut Row) -> u64 {
     let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &mut row.motions);
-    steps_until(simd, motions, alone, row, samples)
+    steps_until(simd, motions, alone, row)
 }
 
 #[inline(always)]
-fn beds_until<S: Simd, const AS_ONE: bool>(
-    simd: S,
-    freedom: Freedom,
-    row: &mut Row,
-    samples: &[&[Vector]; LANES],
-) -> u64 {
+fn beds_until<S: Simd, const AS_ONE: bool>(simd: S, freedom: Freedom, row: &mut Row) -> u64 {
     let motions = OnBeds::<S, AS_ONE>(BeddedMotions::new(simd, &mut row.motions, freedom));
-    steps_until(simd, motions, false, row, samples)
+    steps_until(simd, motions, false, row)
 }
 
 /// The steps of walls of one kind until something happens to some of them: the bits of their lanes.
-pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row, samples: &[&[Vector]; LANES]) -> u64 {
+pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row) -> u64 {
     match kind {
         LaneKind::AsOne { further: false } => {
-            dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, false, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, false, row))
         }
         LaneKind::Apart { further: false } => {
-            dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, false, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, false, row))
         }
         LaneKind::AsOne { further: true } => {
-            dispatch_lanes!(level, simd => edges_until::<_, true, true>(simd, false, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, true, true>(simd, false, row))
         }
         LaneKind::Apart { further: true } => {
-            dispatch_lanes!(level, simd => edges_until::<_, false, true>(simd, false, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, false, true>(simd, false, row))
         }
         LaneKind::Bedded(Freedom::Monolithic) => {
-            dispatch_lanes!(level, simd => beds_until::<_, true>(simd, Freedom::Monolithic, row, samples))
+            dispatch_lanes!(level, simd => beds_until::<_, true>(simd, Freedom::Monolithic, row))
         }
         LaneKind::Bedded(freedom) => {
-            dispatch_lanes!(level, simd => beds_until::<_, false>(simd, freedom, row, samples))
+            dispatch_lanes!(level, simd => beds_until::<_, false>(simd, freedom, row))
         }
     }
 }
 
 /// The same of one run in a row of its own, on sharp edges and without further laws.
-pub(super) fn advance_alone(level: Level, as_one: bool, row: &mut Row, samples: &[&[Vector]; LANES]) {
+pub(super) fn advance_alone(level: Level, as_one: bool, row: &mut Row) {
     if as_one {
-        dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, true, row, samples));
+        dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, true, row));
     } else {
-        dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, true, row, samples));
+        dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, true, row));
     }
 }
