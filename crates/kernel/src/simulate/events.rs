@@ -174,7 +174,7 @@ fn first_lift(start: f64, end: f64, force_at: impl Fn(f64) -> f64) -> Option<f64
 /// Narrows a bracket by the Illinois form of false position; gives its negative side.
 ///
 /// Estimates come near the zero from one side. So the other side is aimed at by a little more than the estimate says, and
-/// the bracket closes from both: in eight evaluations for most, where estimates alone took thirty-four.
+/// the bracket closes from both: in seven evaluations at the mean, where estimates alone took thirty-four.
 fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: impl Fn(f64) -> f64) -> f64 {
     let mut was_positive = false;
     for _ in 0..60 {
