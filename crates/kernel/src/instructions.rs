@@ -1,7 +1,8 @@
 //! Which vector instructions are worth compiling for.
 //!
-//! On x86-64 there are two: AVX2, which comes with products and sums rounded once, and the least that every processor
-//! has. What lies between lacks such products, which are then most of the time; AVX-512 would have eight lanes, which do not pay.
+//! On x86-64 there are three: AVX-512, AVX2, which comes with products and sums rounded once, and the least that every
+//! processor has. What lies between lacks such products, which are then most of the time. Of AVX-512 registers are used no wider
+//! than those of AVX2: there are twice as many, so that less goes to the stack and back. Eight lanes do not pay.
 //! All give the same bits, and each takes the compiler its time.
 
 use fearless_simd::Level;
@@ -16,30 +17,31 @@ pub(crate) fn lanes_pay(level: Level) -> bool {
     pay
 }
 
+/// Does an operation by the vector instructions of a token.
+#[cfg(target_arch = "x86_64")]
+macro_rules! vectorized {
+    ($instructions:expr, $simd:pat => $operation:expr) => {{
+        let $simd = $instructions;
+        fearless_simd::Simd::vectorize(
+            $instructions,
+            #[inline(always)]
+            || $operation,
+        )
+    }};
+}
+
 /// Does an operation by the best of these instructions that the processor has.
 macro_rules! dispatch {
     ($level:expr, $simd:pat => $operation:expr) => {{
         #[cfg(target_arch = "x86_64")]
-        let done = match fearless_simd::Level::as_avx2($level) {
-            Some(avx2) => {
-                let $simd = avx2;
-                fearless_simd::Simd::vectorize(
-                    avx2,
-                    #[inline(always)]
-                    || $operation,
-                )
-            }
-            None => {
-                let Some(sse2) = fearless_simd::Level::as_sse2($level) else {
-                    unreachable!("every x86-64 has SSE2")
-                };
-                let $simd = sse2;
-                fearless_simd::Simd::vectorize(
-                    sse2,
-                    #[inline(always)]
-                    || $operation,
-                )
-            }
+        let done = if let Some(avx512) = fearless_simd::Level::as_avx512($level) {
+            crate::instructions::vectorized!(avx512, $simd => $operation)
+        } else if let Some(avx2) = fearless_simd::Level::as_avx2($level) {
+            crate::instructions::vectorized!(avx2, $simd => $operation)
+        } else if let Some(sse2) = fearless_simd::Level::as_sse2($level) {
+            crate::instructions::vectorized!(sse2, $simd => $operation)
+        } else {
+            unreachable!("every x86-64 has SSE2")
         };
         #[cfg(not(target_arch = "x86_64"))]
         let done = fearless_simd::dispatch!($level, $simd => $operation);
@@ -51,16 +53,12 @@ macro_rules! dispatch {
 macro_rules! dispatch_lanes {
     ($level:expr, $simd:pat => $operation:expr) => {{
         #[cfg(target_arch = "x86_64")]
-        let done = {
-            let Some(avx2) = fearless_simd::Level::as_avx2($level) else {
-                unreachable!("walls go one after another where lanes do not pay")
-            };
-            let $simd = avx2;
-            fearless_simd::Simd::vectorize(
-                avx2,
-                #[inline(always)]
-                || $operation,
-            )
+        let done = if let Some(avx512) = fearless_simd::Level::as_avx512($level) {
+            crate::instructions::vectorized!(avx512, $simd => $operation)
+        } else if let Some(avx2) = fearless_simd::Level::as_avx2($level) {
+            crate::instructions::vectorized!(avx2, $simd => $operation)
+        } else {
+            unreachable!("walls go one after another where lanes do not pay")
         };
         #[cfg(not(target_arch = "x86_64"))]
         let done = fearless_simd::dispatch!($level, $simd => $operation);
@@ -68,4 +66,6 @@ macro_rules! dispatch_lanes {
     }};
 }
 
+#[cfg(target_arch = "x86_64")]
+pub(crate) use vectorized;
 pub(crate) use {dispatch, dispatch_lanes};

@@ -167,14 +167,15 @@ fn analytic_every_effect_moves_the_wall_side_by_side_as_alone_to_the_bit() {
     }
 }
 
-/// The best vector instructions of this processor, and the least that every one of its kind has.
+/// The best vector instructions of this processor, the least that every one of its kind has, and what lies between and is
+/// compiled for.
 fn levels() -> Vec<Level> {
     let best = Level::new();
     #[cfg(target_arch = "x86_64")]
-    let least = best.as_sse2().map(Simd::level);
+    let others = [best.as_sse2().map(Simd::level), best.as_avx2().map(Simd::level)];
     #[cfg(not(target_arch = "x86_64"))]
-    let least = Some(Level::baseline());
-    least.into_iter().chain([best]).collect()
+    let others = [Some(Level::baseline())];
+    others.into_iter().flatten().chain([best]).collect()
 }
 
 #[test]

@@ -58,7 +58,7 @@ pub(crate) use regime::Kink;
 pub use regime::{Regime, Side, TopMemory};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
-pub(crate) use side_by_side::{ConfigurationLanes, Motions, RateLanes, ReactionLanes, sin_cos_lanes};
+pub(crate) use side_by_side::{Motions, RateLanes, ReactionLanes, sin_cos_lanes};
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpossibleWall, Wall, crushed_widths_m};
 

@@ -27,7 +27,7 @@ use crate::fused::{fused, fused_pair};
 use crate::instructions::dispatch;
 
 /// What the equations of motion give at a state.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct MotionRate {
     /// Angular accelerations, rad/s².
     pub theta_dd: Pair,

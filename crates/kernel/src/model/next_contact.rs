@@ -1,17 +1,21 @@
 //! The contact state that follows a state, and the motion in it (model section 4).
 
+use wide::f64x2;
+
 use super::MechanicsError;
 use super::contact::{Contact, Joint, Pivot, Touching};
+use super::joint_forces::Reactions;
 use super::motion::MotionRate;
 use super::rocking::{RockingWall, State, opening};
 use super::vector::Vector;
+use crate::instructions::dispatch;
 
 /// Corner forces within this share of the weight count as zero where no state carries the forces exactly. It
 /// is the rounding of the top's position times the stiffest spring.
 pub(super) const FORCE_ROUNDING: f64 = 1e-9;
 
 /// The motion in a contact state that carries its forces.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Carried {
     pub rate: MotionRate,
     pub top_velocity_m_s: f64,
@@ -32,23 +36,23 @@ impl RockingWall {
         state: &State,
         ground: Vector,
     ) -> Result<Contact, MechanicsError> {
-        self.next_contact_and_motion(contact, state, ground).map(|(next, _)| next)
+        self.next_contact_and_motion(contact, state, ground, &mut Carried::default()).map(|(next, _)| next)
     }
 
-    /// [`RockingWall::next_contact`] with the motion in that state, where it is known.
-    ///
-    /// Part of what calls it, so that what it gives is not copied on the way.
+    /// [`RockingWall::next_contact`], and whether the motion in that state is known: it is written where it is to stay, because
+    /// copies of what was just written wait for the writing.
     #[inline(always)]
     pub(crate) fn next_contact_and_motion(
         &self,
         contact: Contact,
         state: &State,
         ground: Vector,
-    ) -> Result<(Contact, Option<Carried>), MechanicsError> {
+        carried: &mut Carried,
+    ) -> Result<(Contact, bool), MechanicsError> {
         // The one state in which no further joint opens.
-        match self.admissible_motion(contact, contact, state, ground) {
-            Some(carried) => Ok((contact, Some(carried))),
-            None => self.opened_contact_and_motion(contact, state, ground),
+        match self.is_admissible_by(contact, contact, state, ground, carried) {
+            true => Ok((contact, true)),
+            false => self.opened_contact_and_motion(contact, state, ground, carried),
         }
     }
 
@@ -59,11 +63,12 @@ impl RockingWall {
         contact: Contact,
         state: &State,
         ground: Vector,
-    ) -> Result<(Contact, Option<Carried>), MechanicsError> {
+        carried: &mut Carried,
+    ) -> Result<(Contact, bool), MechanicsError> {
         for opened in 1..=2 {
             for candidate in self.states_opening(contact, opened) {
-                if let Some(carried) = self.admissible_motion(contact, candidate, state, ground) {
-                    return Ok((candidate, Some(carried)));
+                if self.is_admissible_by(contact, candidate, state, ground, carried) {
+                    return Ok((candidate, true));
                 }
             }
         }
@@ -71,7 +76,7 @@ impl RockingWall {
         let theta_dd = self.rate(contact, state, ground).theta_dd;
         let forces = self.joint_forces(contact, state, theta_dd, ground);
         if self.smallest_corner_force(contact, &forces).is_none_or(|least| least >= -FORCE_ROUNDING) {
-            return Ok((contact, None));
+            return Ok((contact, false));
         }
         Err(MechanicsError::NoContactState { from: contact.name() })
     }
@@ -111,26 +116,46 @@ impl RockingWall {
         state: &State,
         ground: Vector,
     ) -> bool {
-        self.admissible_motion(before, candidate, state, ground).is_some()
+        self.is_admissible_by(before, candidate, state, ground, &mut Carried::default())
     }
 
-    /// The motion in a contact state that carries its forces and whose opened joints accelerate apart.
+    /// Whether a contact state carries its forces and its opened joints accelerate apart, by the motion in it.
     #[inline(always)]
-    fn admissible_motion(
+    fn is_admissible_by(
         &self,
         before: Contact,
         candidate: Contact,
         state: &State,
         ground: Vector,
-    ) -> Option<Carried> {
-        let (rate, reactions) =
-            self.motion(candidate).rate_and_reactions_at(state.theta, state.omega, ground);
+        carried: &mut Carried,
+    ) -> bool {
+        self.carry(candidate, state, ground, carried);
         let apart = |joint: Joint| {
             let opens = before.at(joint).is_closed() && candidate.at(joint).is_open();
-            !opens || candidate.at(joint).sign() * opening(joint, rate.theta_dd) > 0.0
+            !opens || candidate.at(joint).sign() * opening(joint, carried.rate.theta_dd) > 0.0
         };
-        let reserve = self.smallest_reserve(candidate, &reactions);
-        let carries = self.joints().all(apart) && reserve.is_none_or(|least| least >= 0.0);
-        carries.then_some(Carried { rate, top_velocity_m_s: reactions.top_velocity_m_s, reserve })
+        self.joints().all(apart) && carried.reserve.is_none_or(|least| least >= 0.0)
+    }
+
+    /// The motion in a contact state and what it has in reserve.
+    #[inline(always)]
+    fn carry(&self, contact: Contact, state: &State, ground: Vector, carried: &mut Carried) {
+        let motion = self.motion(contact);
+        if motion.on_beds().is_some() {
+            let (rate, reactions) = motion.rate_and_reactions_at(state.theta, state.omega, ground);
+            *carried = self.carried_by(contact, rate, &reactions);
+            return;
+        }
+        let (theta, omega) = (f64x2::new(state.theta), f64x2::new(state.omega));
+        dispatch!(motion.level, _ => {
+            let (rate, reactions) = motion.rate_and_reactions(&motion.configuration(theta), omega, ground);
+            *carried = self.carried_by(contact, rate.into(), &reactions);
+        });
+    }
+
+    #[inline(always)]
+    fn carried_by(&self, contact: Contact, rate: MotionRate, reactions: &Reactions) -> Carried {
+        let reserve = self.smallest_reserve(contact, reactions);
+        Carried { rate, top_velocity_m_s: reactions.top_velocity_m_s, reserve }
     }
 }

@@ -191,18 +191,22 @@ impl RockingWall {
     /// The smallest reserve that keeps a contact state as it is, over the weight of the wall. It is the
     /// smallest corner force of the closed joints, or what friction could hold beyond what it does. `None`
     /// where nothing is to hold.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn smallest_reserve(&self, contact: Contact, reactions: &Reactions) -> Option<f64> {
         let corners = self.smallest_corner_force(contact, &reactions.forces);
         match &self.piecewise_laws {
             Some(piecewise_laws) if self.is_held() && !self.rests_in(contact) => {
-                let weight = (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2;
-                let friction_n = piecewise_laws.friction_n();
-                let left = self.friction_left_n(friction_n, reactions) / weight;
+                let left = self.friction_left(piecewise_laws.friction_n(), reactions);
                 Some(corners.map_or(left, |least| least.min(left)))
             }
             _ => corners,
         }
+    }
+
+    /// The same over the weight of the wall.
+    #[inline(never)]
+    fn friction_left(&self, friction_n: f64, reactions: &Reactions) -> f64 {
+        self.friction_left_n(friction_n, reactions) / self.weight_n()
     }
 
     /// What friction could hold beyond what it does, N.

@@ -210,6 +210,7 @@ impl RockingWall {
     /// open.
     ///
     /// While it is not negative the closed joints stay closed: the paper's |M_E| <= |M_I| (Eqs. 3 to 6).
+    #[inline(always)]
     pub fn smallest_corner_force(&self, contact: Contact, forces: &JointForces) -> Option<f64> {
         if contact.ground.is_open() && contact.crack.is_open() {
             return None;

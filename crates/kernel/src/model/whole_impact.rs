@@ -46,7 +46,7 @@ impl RockingWall {
     ///
     /// # Errors
     /// [`MechanicsError::ImpactOutcomes`] unless exactly one contact state is admissible.
-    #[inline]
+    #[inline(always)]
     pub fn impact(&self, from: Contact, touching: Touching, state: &State) -> Result<Impact, MechanicsError> {
         match self.whole_impact(from, touching, state) {
             Some(impact) => Ok(impact),
@@ -55,7 +55,7 @@ impl RockingWall {
     }
 
     /// The impact as a share of the velocity before. `None` of other impacts, and where the wall may be captured.
-    #[inline]
+    #[inline(always)]
     fn whole_impact(&self, from: Contact, touching: Touching, state: &State) -> Option<Impact> {
         let [before, upper] = state.omega;
         let falls_back = before * from.ground.sign() < 0.0;

@@ -9,7 +9,6 @@ use super::response::Response;
 use super::row::Row;
 use super::run::Run;
 use crate::instructions::lanes_pay;
-use crate::lanes::LANES;
 use crate::model::{LaneKind, Reactions};
 
 /// Steps one after another without an event, after which it pays to board a lane.
@@ -52,9 +51,7 @@ fn step_in_lane<O: Observer>(level: Level, as_one: bool, run: &mut Run<O>, row: 
     run.board(row, LANE);
     row.taken = 1 << LANE;
     loop {
-        let mut samples = [&[][..]; LANES];
-        samples[LANE] = run.samples();
-        advance_alone(level, as_one, row, &samples);
+        advance_alone(level, as_one, row);
         if row.limits.advances[LANE] != 1.0 || !run.approaches_event_in(row, LANE) {
             run.alight(row, LANE);
             run.finish_step(&mut row.step(LANE), &row.landed.reactions(LANE));

@@ -83,6 +83,13 @@ impl GroundPath {
         &self.samples
     }
 
+    /// Puts them where they are looked up. Threads wait for each other to count who has them: not where they are already.
+    pub fn share_samples(&self, with: &mut Arc<[Vector]>) {
+        if !Arc::ptr_eq(with, &self.samples) {
+            *with = Arc::clone(&self.samples);
+        }
+    }
+
     /// Time of the first sample, s.
     pub fn origin_s(&self) -> f64 {
         self.origin_s

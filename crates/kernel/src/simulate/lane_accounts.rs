@@ -9,8 +9,8 @@ use super::events::NEAR_ZERO;
 use super::ground_path::LEAST_PIECE;
 use super::lane_paths::{bound, keeps_to, scale, value};
 use super::lane_steps::{Landed, Stepping};
-use super::row::{GroundRow, LimitRow, MovingRow, Row, SumRow};
-use crate::lanes::{LANES, Numbers, from_row, lanes};
+use super::row::{GroundRow, LimitRow, MovingRow, Row, Samples, SumRow};
+use crate::lanes::{Numbers, from_row, lanes};
 use crate::model::Vector;
 
 type F<S> = f64x4<S>;
@@ -73,7 +73,7 @@ impl GroundRow {
 
     /// Moves on in some lanes; gives what is left of their pieces, s.
     #[inline(always)]
-    fn move_on<S: Simd>(&mut self, done: Mask<S>, to: &Onwards<S>, samples: &[&[Vector]; LANES]) -> F<S> {
+    fn move_on<S: Simd>(&mut self, done: Mask<S>, to: &Onwards<S>, samples: &Samples) -> F<S> {
         let simd = to.start_s.simd;
         let ended = done & to.ended;
         let reached_s = to.ended.select(F::splat(simd, 0.0), to.offset_s);
@@ -187,13 +187,7 @@ impl SumRow {
 impl Row {
     /// Keeps the steps in which nothing happened, and requests those that follow. Gives the bits of the lanes that are left.
     #[inline(always)]
-    pub fn settle<S: Simd, M: Stepping<S>>(
-        &mut self,
-        motions: &M,
-        alone: bool,
-        landed: &Landed<S>,
-        samples: &[&[Vector]; LANES],
-    ) -> u64 {
+    pub fn settle<S: Simd, M: Stepping<S>>(&mut self, motions: &M, alone: bool, landed: &Landed<S>) -> u64 {
         let simd = landed.position[0].simd;
         let h = from_row(simd, &self.moving.h);
         let error = self.errors.of(landed.position_error, landed.velocity_error, h);
@@ -210,9 +204,9 @@ impl Row {
         if alone && left == 0 {
             // In all lanes, so that the next step need not wait for all that was looked at. Only one is ever told of.
             let taken = Mask::from_bitmask(simd, self.taken);
-            self.go_on([Mask::splat(simd, true), taken], motions, landed, &settled, samples);
+            self.go_on([Mask::splat(simd, true), taken], motions, landed, &settled);
         } else {
-            self.go_on([done, done], motions, landed, &settled, samples);
+            self.go_on([done, done], motions, landed, &settled);
         }
         left
     }
@@ -225,7 +219,6 @@ impl Row {
         motions: &M,
         landed: &Landed<S>,
         &Settled { h, error, ref to, rise, corner_force }: &Settled<S>,
-        samples: &[&[Vector]; LANES],
     ) {
         if self.watched {
             self.remember();
@@ -240,7 +233,7 @@ impl Row {
         self.turn_top(told, motions, landed, h);
         self.moving_on(done, landed);
         self.errors.propose(told, error, h);
-        let left_s = self.ground.move_on(done, to, samples);
+        let left_s = self.ground.move_on(done, to, &self.samples);
         self.request(done, left_s);
     }
 

@@ -67,7 +67,8 @@ impl<S: Simd, const AS_ONE: bool> Stepping<S> for OnBeds<S, AS_ONE> {
         let ground = GroundLanes::of_row(simd, &row.ground);
         let mut shaken = BeddedShaken { motions: &self.0, ground, pose: None, reactions: None };
         let stride = row.moving.stride(simd, &mut shaken);
-        landed_by(stride, shaken.reactions)
+        let Some(reactions) = shaken.reactions else { unreachable!("a step that was taken has landed") };
+        landed_by(stride, reactions)
     }
 
     #[inline(always)]

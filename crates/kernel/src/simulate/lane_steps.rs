@@ -6,10 +6,9 @@ use super::lane_beds::OnBeds;
 use super::lane_values::{OneRotation, TwoRotations};
 use super::row::{GroundRow, MovingRow, Row};
 use crate::instructions::dispatch_lanes;
-use crate::lanes::{LANES, Numbers, from_row};
+use crate::lanes::{Numbers, from_row};
 use crate::model::{
-    BeddedMotions, ConfigurationLanes, Freedom, LaneKind, MotionRow, Motions, RateLanes, ReactionLanes,
-    Vector, sin_cos_lanes,
+    BeddedMotions, Freedom, LaneKind, MotionRow, Motions, RateLanes, ReactionLanes, sin_cos_lanes,
 };
 use crate::solver::{Field, Nystrom, Rate, Stride};
 
@@ -61,25 +60,31 @@ impl<S: Simd> GroundLanes<S> {
 }
 
 /// Walls on sharp edges under the ground's motion, and the reactions once they have landed.
+///
+/// What a stage leaves for the landing is no `Option`: those are copied through memory, and a copy of what was just written,
+/// wider than it was written, waits for the writing.
 struct ShakenMotion<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> {
     motions: &'a Motions<S, AS_ONE, FURTHER>,
     ground: GroundLanes<S>,
-    /// Of the last stage, whose positions are those of the end: that of both bodies, and the turn of those that turn as one.
-    configuration: Option<ConfigurationLanes<S>>,
-    turn: Option<(F<S>, F<S>)>,
-    reactions: Option<ReactionLanes<S>>,
+    /// Sines and cosines of both rotations at the last stage, whose positions are those of the end.
+    turns: [(F<S>, F<S>); 2],
+    reactions: ReactionLanes<S>,
 }
 
 impl<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'a, S, AS_ONE, FURTHER> {
     #[inline(always)]
     fn new(motions: &'a Motions<S, AS_ONE, FURTHER>, ground: GroundLanes<S>) -> Self {
-        Self { motions, ground, configuration: None, turn: None, reactions: None }
+        let none = F::splat(ground.from_s.simd, 0.0);
+        let reactions = ReactionLanes { ground: [none; 3], crack: [none; 3], top: [none; 3] };
+        Self { motions, ground, turns: [(none, none); 2], reactions }
     }
 
     #[inline(always)]
-    fn landed(self) -> ReactionLanes<S> {
-        let Some(reactions) = self.reactions else { unreachable!("a step that was taken has landed") };
-        reactions
+    fn land_at(&mut self, after_s: F<S>, omega: [F<S>; 2]) -> RateLanes<S> {
+        let turned = self.motions.turned(self.turns);
+        let (rate, reactions) = self.motions.rate_and_reactions(&turned, omega, self.ground.at(after_s));
+        self.reactions = reactions;
+        rate
     }
 }
 
@@ -90,18 +95,15 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<OneRotation<S>>
     #[inline(always)]
     fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
         let turn = sin_cos_lanes(theta.0);
-        self.turn = Some(turn);
+        self.turns = [turn; 2];
         let ground = self.ground.at(after_s);
         let (theta_dd, [power, _]) = self.motions.monolithic_rate(theta.0, turn, omega.0, ground);
         Rate { acceleration: OneRotation(theta_dd), quadrature: OneRotation(power) }
     }
 
     #[inline(always)]
-    fn land(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
-        let turned = self.motions.turned([self.turn.unwrap_or_else(|| sin_cos_lanes(theta.0)); 2]);
-        let (rate, reactions) =
-            self.motions.rate_and_reactions(&turned, [omega.0; 2], self.ground.at(after_s));
-        self.reactions = Some(reactions);
+    fn land(&mut self, after_s: F<S>, _: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
+        let rate = self.land_at(after_s, [omega.0; 2]);
         Rate { acceleration: OneRotation(rate.theta_dd[0]), quadrature: OneRotation(rate.powers_w[0]) }
     }
 }
@@ -112,14 +114,12 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'_, S, AS_ON
         let ground = self.ground.at(after_s);
         if AS_ONE {
             let turn = sin_cos_lanes(theta[0]);
-            self.turn = Some(turn);
+            self.turns = [turn; 2];
             let (theta_dd, powers_w) = self.motions.monolithic_rate(theta[0], turn, omega[0], ground);
             return RateLanes { theta_dd: [theta_dd; 2], powers_w };
         }
-        let turned = self.motions.configuration(theta);
-        let rate = self.motions.rate(&turned, omega, ground);
-        self.configuration = Some(turned);
-        rate
+        self.turns = [sin_cos_lanes(theta[0]), sin_cos_lanes(theta[1])];
+        self.motions.rate(&self.motions.turned(self.turns), omega, ground)
     }
 }
 
@@ -145,20 +145,8 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
     }
 
     #[inline(always)]
-    fn land(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
-        let turned = match (self.configuration, self.turn) {
-            (Some(turned), _) => turned,
-            (None, Some(turn)) => self.motions.turned([turn; 2]),
-            (None, None) => self.motions.configuration(theta.0),
-        };
-        let (rate, reactions) = self.motions.rate_and_reactions(&turned, omega.0, self.ground.at(after_s));
-        self.reactions = Some(reactions);
-        as_rate(rate)
+    fn land(&mut self, after_s: F<S>, _: TwoRotations<S>, omega: TwoRotations<S>) -> Rate<TwoRotations<S>> {
+        as_rate(self.land_at(after_s, omega.0))
     }
 }
 
@@ -189,7 +177,7 @@ fn monolithic_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
         powers_w: [stride.end.quadrature.0, none],
         position_error: [stride.position_error.0; 2],
         velocity_error: [stride.velocity_error.0; 2],
-        reactions: shaken.landed(),
+        reactions: shaken.reactions,
     }
 }
 
@@ -210,11 +198,7 @@ impl MovingRow {
 
 /// What a step of both rotations gave.
 #[inline(always)]
-pub(super) fn landed_by<S: Simd>(
-    stride: Stride<TwoRotations<S>>,
-    reactions: Option<ReactionLanes<S>>,
-) -> Landed<S> {
-    let Some(reactions) = reactions else { unreachable!("a step that was taken has landed") };
+pub(super) fn landed_by<S: Simd>(stride: Stride<TwoRotations<S>>, reactions: ReactionLanes<S>) -> Landed<S> {
     Landed {
         position: stride.position.0,
         velocity: stride.velocity.0,
@@ -281,16 +265,10 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S
 /// Steps of a row until something happens to one of the runs in it: gives its lane, and those of others to which
 /// something does at once.
 #[inline(always)]
-fn steps_until<S: Simd>(
-    simd: S,
-    motions: impl Stepping<S>,
-    alone: bool,
-    row: &mut Row,
-    samples: &[&[Vector]; LANES],
-) -> u64 {
+fn steps_until<S: Simd>(simd: S, motions: impl Stepping<S>, alone: bool, row: &mut Row) -> u64 {
     loop {
         let landed = motions.step(simd, row);
-        let left = row.settle(&motions, alone, &landed, samples);
+        let left = row.settle(&motions, alone, &landed);
         if left != 0 || row.watched {
             row.landed.store(&landed);
             motions.put_back(&mut row.motions);
@@ -300,56 +278,46 @@ fn steps_until<S: Simd>(
 }
 
 #[inline(always)]
-fn edges_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
-    simd: S,
-    alone: bool,
-    row: &mut Row,
-    samples: &[&[Vector]; LANES],
-) -> u64 {
+fn edges_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(simd: S, alone: bool, row: &mut Row) -> u64 {
     let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &mut row.motions);
-    steps_until(simd, motions, alone, row, samples)
+    steps_until(simd, motions, alone, row)
 }
 
 #[inline(always)]
-fn beds_until<S: Simd, const AS_ONE: bool>(
-    simd: S,
-    freedom: Freedom,
-    row: &mut Row,
-    samples: &[&[Vector]; LANES],
-) -> u64 {
+fn beds_until<S: Simd, const AS_ONE: bool>(simd: S, freedom: Freedom, row: &mut Row) -> u64 {
     let motions = OnBeds::<S, AS_ONE>(BeddedMotions::new(simd, &mut row.motions, freedom));
-    steps_until(simd, motions, false, row, samples)
+    steps_until(simd, motions, false, row)
 }
 
 /// The steps of walls of one kind until something happens to some of them: the bits of their lanes.
-pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row, samples: &[&[Vector]; LANES]) -> u64 {
+pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row) -> u64 {
     match kind {
         LaneKind::AsOne { further: false } => {
-            dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, false, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, false, row))
         }
         LaneKind::Apart { further: false } => {
-            dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, false, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, false, row))
         }
         LaneKind::AsOne { further: true } => {
-            dispatch_lanes!(level, simd => edges_until::<_, true, true>(simd, false, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, true, true>(simd, false, row))
         }
         LaneKind::Apart { further: true } => {
-            dispatch_lanes!(level, simd => edges_until::<_, false, true>(simd, false, row, samples))
+            dispatch_lanes!(level, simd => edges_until::<_, false, true>(simd, false, row))
         }
         LaneKind::Bedded(Freedom::Monolithic) => {
-            dispatch_lanes!(level, simd => beds_until::<_, true>(simd, Freedom::Monolithic, row, samples))
+            dispatch_lanes!(level, simd => beds_until::<_, true>(simd, Freedom::Monolithic, row))
         }
         LaneKind::Bedded(freedom) => {
-            dispatch_lanes!(level, simd => beds_until::<_, false>(simd, freedom, row, samples))
+            dispatch_lanes!(level, simd => beds_until::<_, false>(simd, freedom, row))
         }
     }
 }
 
 /// The same of one run in a row of its own, on sharp edges and without further laws.
-pub(super) fn advance_alone(level: Level, as_one: bool, row: &mut Row, samples: &[&[Vector]; LANES]) {
+pub(super) fn advance_alone(level: Level, as_one: bool, row: &mut Row) {
     if as_one {
-        dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, true, row, samples));
+        dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, true, row));
     } else {
-        dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, true, row, samples));
+        dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, true, row));
     }
 }

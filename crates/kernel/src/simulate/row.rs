@@ -3,6 +3,8 @@
 //! A run boards a lane of the row and alights where something happens that is not the same for every run: an event,
 //! a step that is too long, a new maximum. Until then it takes no work of its own.
 
+use std::sync::Arc;
+
 use fearless_simd::Simd;
 
 use super::ground_path::Piece;
@@ -13,11 +15,16 @@ use crate::lanes::{LANES, Numbers};
 use crate::model::{JointForce, JointForces, MotionRow, Reactions, Vector};
 use crate::solver::{ErrorRow, Point, Quintic, Step};
 
+/// The samples of the record in every lane.
+pub(super) type Samples = [Arc<[Vector]>; LANES];
+
 /// The runs of a row.
 #[derive(Debug, Default)]
 pub(super) struct Row {
     /// Bits of the lanes that are taken.
     pub taken: u64,
+    /// The samples of the records.
+    pub samples: Samples,
     pub motions: MotionRow,
     pub moving: MovingRow,
     pub ground: GroundRow,

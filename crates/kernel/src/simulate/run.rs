@@ -25,9 +25,6 @@ use carried::CarriedRun;
 pub(super) use carried::CarriedStep;
 pub(super) use step::StepRequest;
 
-/// A contact state, and the motion in it where that is known.
-type NextContact = (Contact, Option<Carried>);
-
 /// A run between two of its steps.
 pub(super) struct Run<O> {
     /// Apart, because runs are handed on before they begin.
@@ -237,30 +234,38 @@ impl<O: Observer> Run<O> {
 
     /// Enters the contact state that carries the joint forces, opening joints where it must.
     fn enter(&mut self, contact: Contact, ground: Vector, time_s: f64) -> Result<(), Stop> {
-        let (next, known) = self.next_contact(contact, ground).map_err(|e| failed(time_s, &e))?;
+        let mut carried = Carried::default();
+        let (next, known) =
+            self.next_contact(contact, ground, &mut carried).map_err(|e| failed(time_s, &e))?;
         if next != contact {
             self.totals.opening(contact, next);
         }
         self.contact = next;
-        let known = known.unwrap_or_else(|| self.motion_now(ground));
-        let Carried { rate, top_velocity_m_s, reserve } = self.in_its_branches(known, ground);
+        if !known {
+            carried = self.motion_now(ground);
+        }
+        self.enter_branches(&mut carried, ground);
+        let rate = &carried.rate;
         self.totals.work.evaluations += 1;
         self.now.acceleration = rate.theta_dd;
         self.quadrature_rate = [rate.ground_power_w, rate.loss_power_w];
         self.corner_force =
-            if self.shares_load_at_rest() { Some(self.reserve_at_rest(ground)) } else { reserve };
-        self.top_velocity_m_s = top_velocity_m_s;
+            if self.shares_load_at_rest() { Some(self.reserve_at_rest(ground)) } else { carried.reserve };
+        self.top_velocity_m_s = carried.top_velocity_m_s;
         Ok(())
     }
 
-    /// The motion once the formulas are in the branches into which it goes.
+    /// Formulas go into the branches into which the motion goes, and that changes with them.
     #[inline]
-    fn in_its_branches(&mut self, known: Carried, ground: Vector) -> Carried {
+    fn enter_branches(&mut self, carried: &mut Carried, ground: Vector) {
         let just_turned = self.just_turned.take();
-        if !self.wall.turn_switches(self.contact, &self.state(), known.rate.theta_dd, just_turned) {
-            return known;
+        if !self.wall.formulas().have_switches() {
+            return;
         }
-        self.motion_now(ground)
+        let theta_dd = carried.rate.theta_dd;
+        if self.wall.turn_switches(self.contact, &self.state(), theta_dd, just_turned) {
+            *carried = self.motion_now(ground);
+        }
     }
 
     /// The motion in the contact state that the wall is in.
@@ -271,11 +276,24 @@ impl<O: Observer> Run<O> {
         Carried { rate, top_velocity_m_s: reactions.top_velocity_m_s, reserve }
     }
 
-    /// The contact state that carries the joint forces, with its motion where that is known.
-    fn next_contact(&mut self, contact: Contact, ground: Vector) -> Result<NextContact, MechanicsError> {
-        let Some(piecewise_laws) = self.wall.piecewise_laws().copied() else {
-            return self.wall.next_contact_and_motion(contact, &self.state(), ground);
-        };
+    /// The contact state that carries the joint forces, and whether its motion is known.
+    #[inline(always)]
+    fn next_contact(
+        &mut self,
+        contact: Contact,
+        ground: Vector,
+        carried: &mut Carried,
+    ) -> Result<(Contact, bool), MechanicsError> {
+        if self.wall.piecewise_laws().is_some() {
+            return Ok((self.next_contact_by_laws(contact, ground)?, false));
+        }
+        self.wall.next_contact_and_motion(contact, &self.state(), ground, carried)
+    }
+
+    /// The contact state under laws at the top that have kinks.
+    #[inline(never)]
+    fn next_contact_by_laws(&mut self, contact: Contact, ground: Vector) -> Result<Contact, MechanicsError> {
+        let Some(piecewise_laws) = self.wall.piecewise_laws().copied() else { return Ok(contact) };
         self.now.velocity = self.wall.with_slow_top_stopped(contact, &self.state());
         let state = self.state();
         if self.wall.rests_in(contact) && (piecewise_laws.remembers() || self.carried.is_some()) {
@@ -289,9 +307,7 @@ impl<O: Observer> Run<O> {
             self.rest = RestLimits::new(&self.wall);
         }
         let rest_reserve = self.rest.reserve(ground);
-        let next =
-            self.wall.next_contact_and_regime(&piecewise_laws, contact, &state, ground, rest_reserve)?;
-        Ok((next, None))
+        self.wall.next_contact_and_regime(&piecewise_laws, contact, &state, ground, rest_reserve)
     }
 
     /// Advances to where a step is to be taken; false at the end of the run.

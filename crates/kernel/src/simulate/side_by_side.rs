@@ -97,7 +97,7 @@ struct Aboard {
 
 impl Aboard {
     fn count(&self) -> usize {
-        self.slots.iter().flatten().count()
+        self.row.taken.count_ones() as usize
     }
 
     fn board<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>) {
@@ -201,10 +201,7 @@ impl<'w, O: Observer> Pool<'w, O> {
     fn step_row(&mut self, kind: LaneKind) {
         loop {
             self.fill(kind);
-            let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
-            let run = |i: usize| slots[i].and_then(|(slot, _)| self.slots[slot].as_ref());
-            let samples = std::array::from_fn(|i| run(i).map_or(&[][..], |(_, run)| run.samples()));
-            let left = advance(self.level, kind, row, &samples);
+            let left = advance(self.level, kind, &mut self.rows[kind.index()].row);
             for i in 0..LANES {
                 if left >> i & 1 == 1 {
                     self.attend(kind, i);

@@ -23,12 +23,6 @@ impl<O: Observer> Run<O> {
         self.observer.watches()
     }
 
-    /// The samples of its record.
-    #[inline]
-    pub fn samples(&self) -> &[crate::model::Vector] {
-        self.ground.samples()
-    }
-
     /// Whether steps without an event are the same for it as for any other run.
     fn is_plain(&self) -> bool {
         let formulas = self.wall.formulas();
@@ -74,6 +68,7 @@ impl<O: Observer> Run<O> {
     }
 
     fn board_ground(&self, row: &mut Row, i: usize) {
+        self.ground.share_samples(&mut row.samples[i]);
         row.ground.samples[i] = self.ground.samples().len() as f64;
         row.ground.step_s[i] = self.ground.step_s();
         row.ground.samples_per_s[i] = 1.0 / self.ground.step_s();

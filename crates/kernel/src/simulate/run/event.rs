@@ -6,7 +6,7 @@ use super::super::ground_path::Piece;
 use super::super::history::Observer;
 use super::super::row::Row;
 use super::{Run, Stop, Task, failed};
-use crate::model::{Joint, Kink, Reactions, Touching, Vector, opening};
+use crate::model::{Joint, Kink, Pair, Reactions, State, Touching, Vector, opening};
 use crate::solver::{Point, Quintic, STAGES, Step};
 
 /// An opening is placed this share of a sample step after the instant its corner force vanishes. So the joint
@@ -189,7 +189,9 @@ impl<O: Observer> Run<O> {
         if let Event::Bed(change) = event {
             return Some(change.left(at));
         }
-        event.gap().map(|gap| (gap(at.position), gap(at.velocity)))
+        let [lower, upper] = event.gap()?;
+        let of = |pair: Pair| lower * pair[0] + upper * pair[1];
+        Some((of(at.position), of(at.velocity)))
     }
 
     /// Enters the regime beyond a kink of the laws at the top.
@@ -279,18 +281,20 @@ impl<O: Observer> Run<O> {
         let sign = |joint: Joint| edges.at(joint).sign();
         let [ground_gap, crack_gap] =
             [Joint::Ground, Joint::Crack].map(|joint| sign(joint) * opening(joint, self.now.position));
+        let [mut lower, mut upper] = self.now.position;
         if touching.ground || ground_gap < 0.0 {
-            self.now.position[0] = 0.0;
+            lower = 0.0;
         }
         if touching.crack || crack_gap < 0.0 {
-            self.now.position[1] = self.now.position[0];
+            upper = lower;
         }
+        self.now.position = [lower, upper];
         if touching == self.wall.closed_edges(self.contact) {
             // A flight lower than the error of a step: the root was thought to be where the joint still opens.
             return self.enter(self.contact, ground, time_s);
         }
-        let impact =
-            self.wall.impact(self.contact, touching, &self.state()).map_err(|e| failed(time_s, &e))?;
+        let state = State { theta: [lower, upper], omega: self.now.velocity };
+        let impact = self.wall.impact(self.contact, touching, &state).map_err(|e| failed(time_s, &e))?;
         self.totals.impact(&impact);
         self.now.velocity = impact.omega;
         self.enter(impact.contact, ground, time_s)
