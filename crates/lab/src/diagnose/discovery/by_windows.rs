@@ -11,8 +11,7 @@ use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    Data, FittedHypothesis, Trials, against, closes_held_out, does_something, follows_to_noise, judged,
-    refit, shared_states,
+    Data, FittedHypothesis, Trials, against, does_something, follows_to_noise, judged, refit, shared_states,
 };
 use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS};
 use nalgebra::DVector;
@@ -71,8 +70,10 @@ pub struct OpenGap<'t> {
 
 /// What a law is asked beside its fit.
 pub trait AskedOfLaws {
-    /// Whether a law of two atoms is worth it beside the best of one.
+    /// Whether a law of two atoms is worth it beside the best of one, in all windows or between impacts.
     fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool;
+    /// Whether it follows the tests held out as it does those fitted, but for what another formulation of a contact leaves.
+    fn follows_held_out(&self, law: &FittedHypothesis) -> bool;
     /// Which of [`Guard::Bend`] and [`Guard::Trend`] speak against a law.
     fn other_law(&self, law: &FittedHypothesis) -> Vec<Guard>;
 }
@@ -162,7 +163,7 @@ impl<P: Progress> Trials<'_, P> {
         let speaks = [
             (Guard::Work, !is_done),
             (Guard::Gap, !follows_to_noise(tried, gap.error)),
-            (Guard::HeldOut, !closes_held_out(tried)),
+            (Guard::HeldOut, !asked.follows_held_out(tried)),
             (Guard::Size, !does_something(tried)),
             (Guard::Evidence, gain < WORTH_A_NAME),
             (Guard::InsideRange, !all(&lies_inside)),
