@@ -13,8 +13,8 @@ use crate::diagnose::trials::{
     BetweenImpacts, Data, FittedHypothesis, Trials, against, best_answer, does_something, kinds, leave_noise,
 };
 use crate::limits::{
-    EQUIVALENT, KEPT_AT_IMPACTS, LEFT_AT_IMPACTS, NOT_TOLD_SD, SIGNIFICANT_SD, WORTH_A_NAME,
-    WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
+    EQUIVALENT, KEPT_AT_IMPACTS, LEFT_AT_IMPACTS, MISSED_BETWEEN_IMPACTS, NOT_TOLD_SD, SIGNIFICANT_SD,
+    WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
 };
 use mrbd_kernel::model::Role;
 
@@ -73,6 +73,13 @@ pub fn leaves_only_impacts<P: Progress>(trials: &Trials<P>, tried: &FittedHypoth
     let as_noise =
         |left: [Vec<WindowFit>; 2]| leave_noise(&left) && left.iter().all(|side| are_as_noise(side));
     leaves_little_of_each(trials, tried) && left_between(trials, tried).is_some_and(as_noise)
+}
+
+/// Whether a law misses windows of the tests held out where no impact excuses it: the larger motion of these shows what it lacks.
+pub fn misses_held_out_between<P: Progress>(trials: &Trials<P>, law: &FittedHypothesis) -> bool {
+    left_between(trials, law).is_some_and(|[_, held_out]| {
+        held_out.iter().filter(|window| window.is_poor()).count() > MISSED_BETWEEN_IMPACTS
+    })
 }
 
 /// What a hypothesis leaves of windows up to its first impact.

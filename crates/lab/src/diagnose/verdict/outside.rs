@@ -1,6 +1,6 @@
 //! Laws outside the catalogue: where no effect follows, where one only nearly does, and the place or the curve where none is found.
 
-use super::at_impacts::{leaves_only_impacts, worth_two_between};
+use super::at_impacts::{leaves_only_impacts, misses_held_out_between, worth_two_between};
 use super::judge::{Answer, Found, Gap};
 use super::worth_naming::{leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
@@ -30,7 +30,12 @@ impl<P: Progress> AskedOfLaws for Gap<'_, P> {
     }
 
     fn follows_held_out(&self, law: &FittedHypothesis) -> bool {
-        closes_held_out(law) || leaves_only_impacts(self.trials, law)
+        let follows = closes_held_out(law) || leaves_only_impacts(self.trials, law);
+        follows && !misses_held_out_between(self.trials, law)
+    }
+
+    fn leaves_nothing(&self, law: &FittedHypothesis) -> bool {
+        leaves_noise(law) || leaves_only_impacts(self.trials, law)
     }
 
     fn other_law(&self, law: &FittedHypothesis) -> Vec<Guard> {
