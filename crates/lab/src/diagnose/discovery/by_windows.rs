@@ -11,8 +11,7 @@ use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    Data, FittedHypothesis, Trials, against, closes_held_out, does_something, follows_to_noise, judged,
-    refit, shared_states,
+    Data, FittedHypothesis, Trials, against, does_something, follows_to_noise, judged, refit, shared_states,
 };
 use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS};
 use nalgebra::DVector;
@@ -71,8 +70,13 @@ pub struct OpenGap<'t> {
 
 /// What a law is asked beside its fit.
 pub trait AskedOfLaws {
-    /// Whether a law of two atoms is worth it beside the best of one.
+    /// Whether a law of two atoms is worth it beside the best of one, in all windows or between impacts.
     fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool;
+    /// Whether it follows the tests held out as it does those fitted, but for what another formulation of a contact leaves, and misses
+    /// nothing there that no impact excuses.
+    fn follows_held_out(&self, law: &FittedHypothesis) -> bool;
+    /// Whether what it leaves is noise, or what another formulation of a contact leaves: nothing that a second atom could take away.
+    fn leaves_nothing(&self, law: &FittedHypothesis) -> bool;
     /// Which of [`Guard::Bend`] and [`Guard::Trend`] speak against a law.
     fn other_law(&self, law: &FittedHypothesis) -> Vec<Guard>;
 }
@@ -89,23 +93,21 @@ impl<P: Progress> Trials<'_, P> {
         }
         let mut refused = self.refused_over_points(&searched, &searched.singles);
         let singles = self.singles_in_windows(gap, &searched);
-        let mut closing = Vec::new();
-        let mut judge = |fitted: &[Fitted], simpler: Option<&FittedHypothesis>| {
-            for one in fitted {
-                match self.guards(gap, &searched, one, simpler, asked) {
-                    guards if guards.is_empty() => closing.push(one.law.clone()),
-                    guards => refused.push(Refused::in_windows(&one.law, guards)),
-                }
-            }
-            closing.is_empty()
+        let judge = |fitted: &[Fitted], simpler: Option<&FittedHypothesis>| {
+            self.closing(gap, &searched, fitted, simpler, asked)
         };
-        let is_open = judge(&singles, None);
+        let (mut closing, of_singles) = judge(&singles, None);
+        refused.extend(of_singles);
+        // A law may close the gap and miss windows for a second atom that shows in few of them.
+        let is_open = !closing.iter().any(|law| asked.leaves_nothing(law));
         let mut tried = singles.iter().map(|fitted| fitted.law.clone()).collect::<Vec<_>>();
         let single = searched.singles.first().map_or(0.0, |c| c.evidence);
         if gap.in_full && is_open && searched.pairs.first().is_some_and(|pair| pair.evidence > single) {
             let simpler = tried.first().unwrap_or(gap.recalibrated).clone();
             let pairs = self.laws_in_windows(gap, &searched, &[], &searched.pairs, "laws of two atoms");
-            judge(&pairs, Some(&simpler));
+            let (of_two, of_pairs) = judge(&pairs, Some(&simpler));
+            closing.extend(of_two);
+            refused.extend(of_pairs);
             refused.extend(self.refused_over_points(&searched, &searched.pairs));
             tried.extend(pairs.into_iter().map(|fitted| fitted.law));
         }
@@ -125,6 +127,25 @@ impl<P: Progress> Trials<'_, P> {
             excited: Site::ALL.map(|site| points.range(site)),
             singles,
         })
+    }
+
+    /// Of laws fitted to windows those that nothing speaks against, and the others with what does.
+    fn closing(
+        &self,
+        gap: &OpenGap,
+        searched: &Searched,
+        fitted: &[Fitted],
+        simpler: Option<&FittedHypothesis>,
+        asked: &impl AskedOfLaws,
+    ) -> (Vec<FittedHypothesis>, Vec<Refused>) {
+        let (mut closing, mut refused) = (Vec::new(), Vec::new());
+        for one in fitted {
+            match self.guards(gap, searched, one, simpler, asked) {
+                guards if guards.is_empty() => closing.push(one.law.clone()),
+                guards => refused.push(Refused::in_windows(&one.law, guards)),
+            }
+        }
+        (closing, refused)
     }
 
     /// Laws of one atom, fitted to windows: those that were fitted before, and kin.
@@ -162,7 +183,7 @@ impl<P: Progress> Trials<'_, P> {
         let speaks = [
             (Guard::Work, !is_done),
             (Guard::Gap, !follows_to_noise(tried, gap.error)),
-            (Guard::HeldOut, !closes_held_out(tried)),
+            (Guard::HeldOut, !asked.follows_held_out(tried)),
             (Guard::Size, !does_something(tried)),
             (Guard::Evidence, gain < WORTH_A_NAME),
             (Guard::InsideRange, !all(&lies_inside)),

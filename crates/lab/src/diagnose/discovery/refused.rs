@@ -19,7 +19,8 @@ pub enum Guard {
     LeftOutTests,
     /// Windows are not followed to their noise.
     Gap,
-    /// Windows of the tests held out, which go to another amplitude, are not followed as those fitted are.
+    /// Windows of the tests held out, which go to another amplitude, are not followed as those fitted are, nor what precedes their
+    /// first impacts.
     HeldOut,
     /// A size of it is nothing, or by chance.
     Size,

@@ -5,15 +5,16 @@
 //! leaves little at them; and impacts that keep as much as those of another formulation get no name.
 
 use super::remainder::{model_error_rad, most_error_rad};
+use super::worth_naming::are_as_noise;
 use crate::Progress;
-use crate::diagnose::fit::nats;
+use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::hypothesis::{Addition, FADES};
 use crate::diagnose::trials::{
     BetweenImpacts, Data, FittedHypothesis, Trials, against, best_answer, does_something, kinds, leave_noise,
 };
 use crate::limits::{
-    EQUIVALENT, KEPT_AT_IMPACTS, LEFT_AT_IMPACTS, NOT_TOLD_SD, SIGNIFICANT_SD, WORTH_A_NAME,
-    WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
+    EQUIVALENT, KEPT_AT_IMPACTS, LEFT_AT_IMPACTS, MISSED_BETWEEN_IMPACTS, NOT_TOLD_SD, SIGNIFICANT_SD,
+    WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
 };
 use mrbd_kernel::model::Role;
 
@@ -60,11 +61,30 @@ pub fn only_impacts<P: Progress>(
     wall: &FittedHypothesis,
     singles: &[FittedHypothesis],
 ) -> bool {
-    let follows = || {
-        let cut = BetweenImpacts::cut(&trials.data, wall)?;
-        cut.left(&trials.data, wall).filter(leave_noise)
-    };
-    leaves_little(trials, wall) && follows().is_some() && named_between(trials, singles, wall).is_none()
+    leaves_little(trials, wall)
+        && left_between(trials, wall).is_some_and(|left| leave_noise(&left))
+        && named_between(trials, singles, wall).is_none()
+}
+
+/// Whether all that a hypothesis leaves is what formulations of a stiff contact part by: little in each test, and between impacts no
+/// more than noise in the tests fitted and in those held out, each for itself. A law that only imitates another leaves more in the larger
+/// motion of tests held out, in however few windows.
+pub fn leaves_only_impacts<P: Progress>(trials: &Trials<P>, tried: &FittedHypothesis) -> bool {
+    let as_noise =
+        |left: [Vec<WindowFit>; 2]| leave_noise(&left) && left.iter().all(|side| are_as_noise(side));
+    leaves_little_of_each(trials, tried) && left_between(trials, tried).is_some_and(as_noise)
+}
+
+/// Whether a law misses windows of the tests held out where no impact excuses it: the larger motion of these shows what it lacks.
+pub fn misses_held_out_between<P: Progress>(trials: &Trials<P>, law: &FittedHypothesis) -> bool {
+    left_between(trials, law).is_some_and(|[_, held_out]| {
+        held_out.iter().filter(|window| window.is_poor()).count() > MISSED_BETWEEN_IMPACTS
+    })
+}
+
+/// What a hypothesis leaves of windows up to its first impact.
+fn left_between<P: Progress>(trials: &Trials<P>, tried: &FittedHypothesis) -> Option<[Vec<WindowFit>; 2]> {
+    BetweenImpacts::cut(&trials.data, tried)?.left(&trials.data, tried)
 }
 
 /// Whether a second effect is worth naming by what it takes away between impacts.

@@ -1,5 +1,6 @@
 //! Laws outside the catalogue: where no effect follows, where one only nearly does, and the place or the curve where none is found.
 
+use super::at_impacts::{leaves_only_impacts, misses_held_out_between, worth_two_between};
 use super::found::Found;
 use super::judge::{Answer, Gap};
 use super::worth_naming::{leaves_noise, place, worth_two};
@@ -9,7 +10,7 @@ use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refuse
 use crate::diagnose::force::{acts_at_top, force_points};
 use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{FittedHypothesis, against, closes, kinds};
+use crate::diagnose::trials::{FittedHypothesis, against, closes, closes_held_out, kinds};
 use crate::limits::{EQUIVALENT, TREND_SHARE_ON_BEDS, WORTH_A_NAME};
 use mrbd_kernel::model::Role;
 
@@ -24,7 +25,18 @@ fn with_curve(placed: Found) -> Found {
 
 impl<P: Progress> AskedOfLaws for Gap<'_, P> {
     fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
+        // Windows that another formulation of a contact misses speak against both laws, and say nothing of the second atom.
         worth_two(&self.trials.data, one, two)
+            || leaves_only_impacts(self.trials, two) && worth_two_between(self.trials, one, two)
+    }
+
+    fn follows_held_out(&self, law: &FittedHypothesis) -> bool {
+        let follows = closes_held_out(law) || leaves_only_impacts(self.trials, law);
+        follows && !misses_held_out_between(self.trials, law)
+    }
+
+    fn leaves_nothing(&self, law: &FittedHypothesis) -> bool {
+        leaves_noise(law) || leaves_only_impacts(self.trials, law)
     }
 
     fn other_law(&self, law: &FittedHypothesis) -> Vec<Guard> {

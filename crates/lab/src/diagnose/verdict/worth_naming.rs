@@ -1,6 +1,6 @@
 //! What is worth naming: how large an effect must be to show, whether a second one shows, and at which place.
 
-use crate::diagnose::fit::{Fit, nats};
+use crate::diagnose::fit::{Fit, WindowFit, nats};
 use crate::diagnose::trials::{Data, FittedHypothesis, against, all_windows, joint_error, kinds};
 use crate::limits::{
     DETECTED_SD, LEAST_SIZE, PLACE_NATS, PLACE_SQUARED_ERROR, WORTH_A_NAME, WORTH_A_SECOND,
@@ -102,12 +102,16 @@ pub fn worth_two(data: &Data, one: &FittedHypothesis, two: &FittedHypothesis) ->
     gain.iter().sum::<f64>() > least && (seen || !shows_held_out(data, one, two))
 }
 
-/// Whether what a hypothesis leaves is what noise would, to a standard deviation: the squared error of noise has twice its
-/// freedom as variance.
+/// Whether what a hypothesis leaves is what noise would.
 pub fn leaves_noise(tried: &FittedHypothesis) -> bool {
-    let windows = all_windows(tried);
+    are_as_noise(&all_windows(tried))
+}
+
+/// Whether what is left of windows is what noise would leave, to a standard deviation: the squared error of noise has twice its
+/// freedom as variance.
+pub fn are_as_noise(windows: &[WindowFit]) -> bool {
     let freedom = windows.iter().map(|window| window.freedom).sum::<f64>();
-    nats(&windows) < (0.5 * freedom).sqrt()
+    nats(windows) < (0.5 * freedom).sqrt()
 }
 
 /// Whether the tests held out could show each effect that one of two hypotheses has more; not known: they could.
@@ -145,7 +149,7 @@ fn traces_held_out(data: &Data, tried: &FittedHypothesis) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::fit::{Problem, WindowFit};
+    use crate::diagnose::fit::Problem;
     use crate::diagnose::hypothesis::example::starter_with;
 
     #[test]
@@ -199,6 +203,20 @@ mod tests {
             covariance: None,
         };
         FittedHypothesis { hypothesis: starter_with(names), fit: of(fit), held_out: of(held_out) }
+    }
+
+    #[test]
+    fn analytic_windows_are_as_noise_leaves_them_to_a_standard_deviation() {
+        let of = |missed: usize| {
+            let window = |k| WindowFit {
+                x: vec![0.0; 4],
+                squares: if k < missed { 1e4 } else { FREEDOM },
+                freedom: FREEDOM,
+            };
+            (0..WINDOWS).map(window).collect::<Vec<_>>()
+        };
+        // √(½ · 20 · 200) = 45 nats, and 40 at most in a window.
+        assert!(are_as_noise(&of(0)) && are_as_noise(&of(1)) && !are_as_noise(&of(2)));
     }
 
     fn worth(of_one: [f64; 2], of_two: [f64; 2]) -> bool {
