@@ -155,7 +155,7 @@ impl<P: Progress> Gap<'_, P> {
             let of_pairs = || BedsBeside::an_effect_of_pairs(self.trials, &tried);
             let found = beds.and_then(little).or_else(|| of_pairs().and_then(little));
             if let Some(found) = found {
-                return self.or_another_law(found);
+                return self.or_another_law(found, || None);
             }
             let discovered = early.or_else(|| self.discovered(&tried, &[]));
             // A force that is told along the direction of the top is none of joints that give, and these take long to fit.

@@ -7,9 +7,10 @@ use super::found::Found;
 use super::judge::Gap;
 use super::remainder::is_soft;
 use super::worth_naming::{leaves_noise, worth_two};
-use super::{Remainder, Verdict, names_of_all};
+use super::{Remainder, Verdict, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::fit::{WindowFit, nats};
+use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{
     FittedHypothesis, Trials, WallFits, against, all_windows, by_error_of, closes, crushes, does_something,
     excess, is_noise, joint_error, own_error,
@@ -18,6 +19,7 @@ use crate::limits::{
     BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
     REMAINDER_TAKEN, TAKEN_BESIDE_OWN_ERROR, WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_TO_NOISE,
 };
+use mrbd_kernel::model::Role;
 
 /// The verdict where joints that give, alone or in pairs with effects, are the answer, or part of it; `None` where they are not.
 pub fn on_beds<P: Progress>(
@@ -41,12 +43,18 @@ pub fn on_beds<P: Progress>(
     if !trials.is_held() {
         near.extend(laws.iter().filter(|law| stands_for(trials, &best, law)).cloned());
     }
-    let found = standing.found(trials, wall, best, &near, [beds, pairs, laws, rivals].concat());
+    let alone = beds.first().filter(|alone| names(alone) != names(&best)).cloned();
+    let tried = [&beds[..], &pairs, &laws, &rivals].concat();
+    let found = standing.found(trials, wall, best, &near, tried.clone());
     if !equals.is_empty() {
         return Some(Found { verdict: Verdict::Class, equivalent: equals, ..found });
     }
     let gap = Gap::new(trials, wall.clone(), joint_error(before)?);
-    Some(gap.or_another_law(found))
+    let named_alone = || {
+        let alone = alone?;
+        Some(Standing::of(trials, wall, &alone, &rivals)?.found(trials, wall, alone, &[], tried))
+    };
+    Some(gap.or_another_law(found, named_alone))
 }
 
 /// What a strip whose top is held cannot tell from its best bed: beds at other joints and other laws that leave no more than a
@@ -233,7 +241,8 @@ fn worth_it<P: Progress>(
     alone: &FittedHypothesis,
     pairs: &[FittedHypothesis],
 ) -> Option<(FittedHypothesis, Vec<FittedHypothesis>)> {
-    let (two, others) = pairs.split_first().filter(|(two, _)| is_worth_it(trials, wall, alone, two))?;
+    let mut pairs = pairs.iter().filter(|two| !stands_for_dampers_of_bed(two));
+    let two = pairs.next().filter(|two| is_worth_it(trials, wall, alone, two))?;
     // What follows to the noise or takes most is near only to what does so too.
     let clearly = is_clearly_worth_it(trials, wall, alone, two);
     let is_worth = |other: &FittedHypothesis| {
@@ -241,7 +250,7 @@ fn worth_it<P: Progress>(
         worth(trials, wall, alone, other)
     };
     let is_as_good = |other: &&FittedHypothesis| comes_near(trials, two, other) && is_worth(other);
-    Some((two.clone(), others.iter().filter(is_as_good).cloned().collect()))
+    Some((two.clone(), pairs.filter(is_as_good).cloned().collect()))
 }
 
 /// Whether joints that give alone leave more than another way to model them does.
@@ -258,8 +267,21 @@ pub(super) fn is_worth_it<P: Progress>(
     alone: &FittedHypothesis,
     two: &FittedHypothesis,
 ) -> bool {
+    if stands_for_dampers_of_bed(two) {
+        return false;
+    }
     let shows = || does_something(two) && shows_beside_own_error(trials, alone, two);
     is_clearly_worth_it(trials, wall, alone, two) || (leaves_more_than_another_model(wall, alone) && shows())
+}
+
+/// Whether a bed has a damper of its own joint beside it: where both leave more than noise, it may stand for what dampers under the
+/// joint do by another way to model them.
+fn stands_for_dampers_of_bed(two: &FittedHypothesis) -> bool {
+    let additions = &two.hypothesis.additions;
+    let beds =
+        additions.iter().filter(|a| a.role() == Some(Role::Bed)).map(Addition::joint).collect::<Vec<_>>();
+    let mut dampers = additions.iter().filter(|a| a.role() == Some(Role::Damper)).filter_map(Addition::joint);
+    !is_noise(two) && dampers.any(|joint| beds.iter().any(|bed| bed.is_none_or(|bed| bed == joint)))
 }
 
 /// Whether an effect beside joints that give follows to the noise and gains what a second effect must. Or they leave more than

@@ -111,8 +111,8 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// Joints that give named with an effect and a remainder, unless a size of theirs is quite another in large motion: they stand for
-    /// another law then, that outside the catalogue or the place.
-    pub(super) fn or_another_law(self, on_beds: Found) -> Found {
+    /// another law then, that outside the catalogue or the place, if joints that give are not named `alone`.
+    pub(super) fn or_another_law(self, on_beds: Found, alone: impl FnOnce() -> Option<Found>) -> Found {
         let is_on_edges = |a: &Addition| !matches!(a.role(), Some(Role::Bed | Role::JointLaw));
         let has_effect = on_beds.after.hypothesis.additions.iter().any(is_on_edges);
         if on_beds.remainder.is_none() || !has_effect {
@@ -122,9 +122,11 @@ impl<P: Progress> Gap<'_, P> {
         if !other_law.differs_in_large_motion_by(TREND_SHARE_ON_BEDS) {
             return on_beds;
         }
-        let on_edges = |t: &&FittedHypothesis| t.hypothesis.additions.iter().all(is_on_edges);
-        let tried = on_beds.tried.iter().filter(on_edges).cloned().collect();
-        self.placed_without(&on_beds.after, other_law, tried)
+        alone().unwrap_or_else(|| {
+            let on_edges = |t: &&FittedHypothesis| t.hypothesis.additions.iter().all(is_on_edges);
+            let tried = on_beds.tried.iter().filter(on_edges).cloned().collect();
+            self.placed_without(&on_beds.after, other_law, tried)
+        })
     }
 
     /// A name that another law is behind is none: a law outside the catalogue, or the place.
