@@ -274,14 +274,18 @@ pub(super) fn is_worth_it<P: Progress>(
     is_clearly_worth_it(trials, wall, alone, two) || (leaves_more_than_another_model(wall, alone) && shows())
 }
 
-/// Whether a bed has a damper of its own joint beside it: where both leave more than noise, it may stand for what dampers under the
-/// joint do by another way to model them.
+/// Whether what is beside a bed may stand for what dampers under the joint do by another way to model them: a damper of the bed's own
+/// joint where both leave more than noise.
 fn stands_for_dampers_of_bed(two: &FittedHypothesis) -> bool {
-    let additions = &two.hypothesis.additions;
-    let beds =
-        additions.iter().filter(|a| a.role() == Some(Role::Bed)).map(Addition::joint).collect::<Vec<_>>();
-    let mut dampers = additions.iter().filter(|a| a.role() == Some(Role::Damper)).filter_map(Addition::joint);
-    !is_noise(two) && dampers.any(|joint| beds.iter().any(|bed| bed.is_none_or(|bed| bed == joint)))
+    has_damper_of_bed(&two.hypothesis.additions) && !is_noise(two)
+}
+
+/// Whether a damper turns with a joint that has a bed.
+fn has_damper_of_bed(additions: &[Addition]) -> bool {
+    let of = |role: Role| additions.iter().filter(move |a| a.role() == Some(role)).map(Addition::joint);
+    // A bed without a joint of its own lies in both.
+    let is_on_bed = |joint| of(Role::Bed).any(|bed| bed.is_none() || bed == Some(joint));
+    of(Role::Damper).flatten().any(is_on_bed)
 }
 
 /// Whether an effect beside joints that give follows to the noise and gains what a second effect must. Or they leave more than
@@ -351,4 +355,20 @@ pub(super) fn follows<P: Progress>(
     joint_error(&wall.before).is_some_and(|gap| closes(best, gap))
         && over(&wall.recalibrated) > WORTH_A_NAME
         && rivals.iter().all(|rival| over(rival) > EQUIVALENT)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::hypothesis::example::starter_with;
+
+    #[test]
+    fn analytic_dampers_of_a_bed_turn_with_its_joint() {
+        let has = |names: &[&str]| has_damper_of_bed(&starter_with(names).additions);
+        assert!(has(&["compliant_joint.both", "joint_damping.crack"]));
+        assert!(has(&["compliant_joint.crack", "joint_damping.crack"]));
+        assert!(!has(&["compliant_joint.ground", "joint_damping.crack"]));
+        assert!(!has(&["compliant_joint.both", "viscous_damping"]));
+        assert!(!has(&["joint_damping.crack", "viscous_damping"]));
+    }
 }
