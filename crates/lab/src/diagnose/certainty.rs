@@ -5,7 +5,7 @@
 //! tell that share.
 
 use super::fit::{Fit, Loss, Problem, WindowSlopes};
-use super::hypothesis::{Addition, Hypothesis};
+use super::hypothesis::{Addition, Hypothesis, Unknown};
 pub use super::next_tests::{NextPull, NextShaking, NextTests, next_tests};
 use super::trials::{Data, FittedHypothesis, own_error, widened};
 use crate::limits::{BED_MODEL_SD, DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
@@ -173,12 +173,19 @@ pub fn ensemble(tried: &FittedHypothesis) -> Option<Vec<Wall>> {
     let h = &tried.hypothesis;
     let fitted = DVector::from_column_slice(&tried.fit.values);
     let mut walls = vec![h.physics(&tried.fit.values)?.wall];
-    let Some(factor) = tried.fit.covariance.clone().and_then(|c| c.cholesky()) else { return Some(walls) };
+    let Some(covariance) = tried.fit.covariance.clone() else { return Some(walls) };
+    let Some(factor) = covariance.clone().cholesky() else { return Some(walls) };
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     for _ in 0..DRAWS {
         let normal = DVector::from_fn(fitted.len(), |_, _| StandardNormal.sample(&mut random));
         let drawn = &fitted + factor.l() * normal;
-        let within = h.unknowns.iter().zip(drawn.iter()).map(|(u, value)| value.clamp(u.lower, u.upper));
+        // A number that the tests do not tell stays as it is: whole runs hardly depend on it, and dampers of a sharp edge may be so
+        // large that they do not end.
+        let near = |(i, u): (usize, &Unknown)| {
+            let is_told = covariance[(i, i)].sqrt() < u.scale;
+            if is_told { drawn[i].clamp(u.lower, u.upper) } else { fitted[i] }
+        };
+        let within = h.unknowns.iter().enumerate().map(near);
         walls.extend(h.physics(&within.collect::<Vec<_>>()).map(|physics| physics.wall));
     }
     Some(walls)

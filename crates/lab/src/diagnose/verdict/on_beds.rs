@@ -98,7 +98,7 @@ pub fn on_beds_instead<P: Progress>(
     following_alone(trials, wall, &trials.beds_instead_of(named, wall), tried)
 }
 
-/// The verdict where the first of some beds follows the tests to their noise, and is no other way to model a sharp edge.
+/// The verdict where the first of some beds follows the tests to their noise, or nearly, and is no other way to model a sharp edge.
 pub(super) fn following_alone<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
@@ -106,9 +106,8 @@ pub(super) fn following_alone<P: Progress>(
     tried: &[FittedHypothesis],
 ) -> Option<Found> {
     let best = beds.first().filter(|best| does_something(best) && is_soft(best))?.clone();
-    let all = || [beds, tried].concat();
-    follows(trials, wall, &best, tried)
-        .then(|| Standing { remainder: None }.found(trials, wall, best.clone(), &[], all()))
+    let standing = Standing::of(trials, wall, &best, tried)?;
+    Some(standing.found(trials, wall, best, &[], [beds, tried].concat()))
 }
 
 /// Why joints that give, alone or with an effect, may be named.

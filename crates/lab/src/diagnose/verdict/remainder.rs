@@ -10,7 +10,8 @@ use crate::diagnose::fit::WindowFit;
 use crate::diagnose::trials::{Data, FittedHypothesis, does_something, excess, kinds};
 use crate::experiment::Window;
 use crate::limits::{
-    LEFT_OUT, REMAINDER_BY_SWING, REMAINDER_GAP, REMAINDER_RIVAL, REMAINDER_TAKEN, STIFFEST_NAMED_PA_PER_M,
+    LEFT_OUT, NARROW_GAP, NEARLY_NOISE, REMAINDER_BY_SWING, REMAINDER_GAP, REMAINDER_RIVAL, REMAINDER_TAKEN,
+    STIFFEST_NAMED_PA_PER_M,
 };
 use mrbd_kernel::model::{EffectKind, Role};
 
@@ -51,7 +52,11 @@ impl Remainder {
         rivals: &[FittedHypothesis],
     ) -> Option<Self> {
         let remainder = Self::new(data, without, named, rivals)?;
-        let gap = without.errors().iter().all(|error| error.is_some_and(|error| error > REMAINDER_GAP));
+        let all =
+            |tried: &FittedHypothesis, is: fn(f64) -> bool| tried.errors().iter().all(|e| e.is_some_and(is));
+        let wide = all(without, |error| error > REMAINDER_GAP);
+        let nearly_closed = || all(without, |e| e > NARROW_GAP) && all(named, |e| e < NEARLY_NOISE);
+        let gap = wide || nearly_closed();
         (gap && is_soft(named) && does_something(named) && remainder.holds()).then_some(remainder)
     }
 
