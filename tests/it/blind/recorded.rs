@@ -9,7 +9,7 @@ use super::{laws, score, twins};
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-const SETS: [(&str, Draw); 10] = [
+const SETS: [(&str, Draw); 11] = [
     ("fresh11", cases::draw::draw),
     ("beds3", cases::beds::draw),
     ("nulls3", cases::nulls::draw),
@@ -17,6 +17,7 @@ const SETS: [(&str, Draw); 10] = [
     ("nulls4", cases::nulls::draw),
     ("beds5", cases::beds::draw),
     ("beds7", cases::beds::draw),
+    ("beds8", cases::beds::draw),
     ("impacts1", cases::impacts::draw),
     ("nulls5", cases::nulls::draw),
     ("nulls6", cases::nulls::draw),
@@ -76,7 +77,7 @@ fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
 }
 
 /// Recorded sets of laws, in the order in which they were answered.
-const SETS_OF_LAWS: [&str; 6] = ["laws1", "laws2", "laws3", "laws4", "laws6", "laws7"];
+const SETS_OF_LAWS: [&str; 7] = ["laws1", "laws2", "laws3", "laws4", "laws6", "laws7", "laws8"];
 
 #[test]
 fn regress_recorded_laws_are_what_is_drawn_under_their_numbers() {

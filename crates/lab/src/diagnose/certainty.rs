@@ -345,6 +345,7 @@ fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::diagnose::hypothesis::example::starter_with;
+    use std::collections::BTreeSet;
 
     #[test]
     fn analytic_tests_of_a_mean_scatter_as_their_means_do() {
@@ -356,6 +357,21 @@ mod tests {
         let expected = residuals.iter().map(|r| r * r).sum::<f64>() / 12.0;
         assert!((covariance[(0, 0)] - 0.25).abs() < 1e-15);
         assert!((scatter(&covariance, &pulls)[(0, 0)] - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn analytic_a_number_that_is_not_told_is_not_drawn() {
+        let h = starter_with(&["viscous_damping"]);
+        let scale = h.unknowns[0].scale;
+        let walls = |sd: f64| {
+            let covariance = Some(DMatrix::from_element(1, 1, sd * sd));
+            let fit = Fit { values: vec![scale], windows: Vec::new(), cost: 0.0, covariance };
+            let tried = FittedHypothesis { hypothesis: h.clone(), fit: fit.clone(), held_out: fit };
+            let walls = ensemble(&tried).expect("a wall");
+            walls.iter().map(|wall| format!("{:?}", wall.parameters())).collect::<BTreeSet<_>>().len()
+        };
+        assert_eq!(walls(10.0 * scale), 1);
+        assert_eq!(walls(0.01 * scale), 1 + DRAWS);
     }
 
     #[test]
