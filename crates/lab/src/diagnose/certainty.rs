@@ -5,16 +5,13 @@
 //! tell that share.
 
 use super::fit::{Fit, Loss, Problem, WindowSlopes};
-use super::hypothesis::{Addition, Hypothesis, Unknown};
+use super::hypothesis::{Addition, Hypothesis};
 pub use super::next_tests::{NextPull, NextShaking, NextTests, next_tests};
 use super::trials::{Data, FittedHypothesis, own_error, widened};
 use crate::limits::{BED_MODEL_SD, DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
-use mrbd_kernel::model::{Role, Wall};
+use mrbd_kernel::model::Role;
 use mrbd_statistics::normal::NINETY_PERCENT;
 use nalgebra::{DMatrix, DVector};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -158,37 +155,6 @@ fn scatter(covariance: &DMatrix<f64>, pulls: &[DVector<f64>]) -> DMatrix<f64> {
     let known = covariance.map(|c| if c.is_finite() { c } else { 0.0 });
     let moves = pulls.iter().map(|pull| &known * (pull - &mean)).collect::<Vec<_>>();
     DMatrix::from_fn(count, count, |i, k| n / (n - 1.0) * moves.iter().map(|m| m[i] * m[k]).sum::<f64>())
-}
-
-/// Draws beside the fitted numbers.
-const DRAWS: usize = 8;
-/// Seed of the draws.
-const SEED: u64 = 11;
-
-/// The wall as fitted, and walls drawn from the covariance of the fit, within bounds. Without a covariance the fitted
-/// one is alone. `None` if the fitted numbers are no wall.
-///
-/// An impact system is nearly chaotic: the error of one whole run says little without those of its neighbours.
-pub fn ensemble(tried: &FittedHypothesis) -> Option<Vec<Wall>> {
-    let h = &tried.hypothesis;
-    let fitted = DVector::from_column_slice(&tried.fit.values);
-    let mut walls = vec![h.physics(&tried.fit.values)?.wall];
-    let Some(covariance) = tried.fit.covariance.clone() else { return Some(walls) };
-    let Some(factor) = covariance.clone().cholesky() else { return Some(walls) };
-    let mut random = ChaCha8Rng::seed_from_u64(SEED);
-    for _ in 0..DRAWS {
-        let normal = DVector::from_fn(fitted.len(), |_, _| StandardNormal.sample(&mut random));
-        let drawn = &fitted + factor.l() * normal;
-        // A number that the tests do not tell stays as it is: whole runs hardly depend on it, and dampers of a sharp edge may be so
-        // large that they do not end.
-        let near = |(i, u): (usize, &Unknown)| {
-            let is_told = covariance[(i, i)].sqrt() < u.scale;
-            if is_told { drawn[i].clamp(u.lower, u.upper) } else { fitted[i] }
-        };
-        let within = h.unknowns.iter().enumerate().map(near);
-        walls.extend(h.physics(&within.collect::<Vec<_>>()).map(|physics| physics.wall));
-    }
-    Some(walls)
 }
 
 /// Changes over which slopes are taken, in standard deviations of a number: well inside what the tests can tell.
@@ -345,7 +311,6 @@ fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::diagnose::hypothesis::example::starter_with;
-    use std::collections::BTreeSet;
 
     #[test]
     fn analytic_tests_of_a_mean_scatter_as_their_means_do() {
@@ -357,21 +322,6 @@ mod tests {
         let expected = residuals.iter().map(|r| r * r).sum::<f64>() / 12.0;
         assert!((covariance[(0, 0)] - 0.25).abs() < 1e-15);
         assert!((scatter(&covariance, &pulls)[(0, 0)] - expected).abs() < 1e-15);
-    }
-
-    #[test]
-    fn analytic_a_number_that_is_not_told_is_not_drawn() {
-        let h = starter_with(&["viscous_damping"]);
-        let scale = h.unknowns[0].scale;
-        let walls = |sd: f64| {
-            let covariance = Some(DMatrix::from_element(1, 1, sd * sd));
-            let fit = Fit { values: vec![scale], windows: Vec::new(), cost: 0.0, covariance };
-            let tried = FittedHypothesis { hypothesis: h.clone(), fit: fit.clone(), held_out: fit };
-            let walls = ensemble(&tried).expect("a wall");
-            walls.iter().map(|wall| format!("{:?}", wall.parameters())).collect::<BTreeSet<_>>().len()
-        };
-        assert_eq!(walls(10.0 * scale), 1);
-        assert_eq!(walls(0.01 * scale), 1 + DRAWS);
     }
 
     #[test]

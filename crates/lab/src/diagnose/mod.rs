@@ -10,6 +10,7 @@
 //! | [`fit`] | each window simulated from a fitted state, so that neither the past nor noisy derivatives enter; a hypothesis fitted to all windows together |
 //! | [`trials`] | the catalogue tried, and judged on tests held out |
 //! | [`verdict`] | nothing missing, the wall's own numbers, one effect or two by name, or a place |
+//! | `ensemble` | walls that fit about as well |
 //! | [`certainty`] | how well its numbers are known, what could not be told from it, which test would tell |
 //! | [`force`] | the missing force, measured: no hypothesis enters |
 //! | [`discovery`] | a law outside the catalogue, found in it and written as a [`formula`] |
@@ -19,6 +20,7 @@
 pub mod answer;
 pub mod certainty;
 pub mod discovery;
+mod ensemble;
 pub mod experiment;
 pub mod fit;
 pub mod force;

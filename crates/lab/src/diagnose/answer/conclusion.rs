@@ -12,7 +12,8 @@ use super::summary::{
     Against, BeforeAfter, CouldHide, FitHeldOut, FittedNumber, FoundEffect, KIND, Rival, Stages, Summary,
     TestErrors, WallFit, WindowCounts,
 };
-use crate::diagnose::certainty::{confused, ensemble, intervals, intervals_beside_own_error, next_tests};
+use crate::diagnose::certainty::{confused, intervals, intervals_beside_own_error, next_tests};
+use crate::diagnose::ensemble::ensemble;
 use crate::diagnose::fit::{WindowFit, windowed_error};
 use crate::diagnose::hypothesis::{Addition, Physics};
 use crate::diagnose::trials::{FRICTION, FittedHypothesis, against, giving_friction, joint_error, kinds};
