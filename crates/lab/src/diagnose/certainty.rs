@@ -1,4 +1,4 @@
-//! How sure an answer is: intervals of its numbers, errors over whole runs, and what could hardly be told apart.
+//! How sure an answer is: intervals of its numbers, and what could hardly be told apart.
 //!
 //! Effects are told apart by their traces: how the windows change with a little of an effect. Another effect, what is
 //! uncertain of the wall, and the states at the starts of the windows may imitate a share of a trace. The tests cannot

@@ -5,6 +5,7 @@ use super::names;
 use super::on_beds::{Standing, comes_near, following_alone, follows, is_worth_it};
 use super::remainder::is_soft;
 use crate::Progress;
+use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{FittedHypothesis, Trials, WallFits, does_something};
 use crate::limits::BEDS_BESIDE_EFFECTS;
 
@@ -20,19 +21,26 @@ pub struct BedsBeside {
 impl BedsBeside {
     /// Beside one of the single effects that follow best, where beds take away what it leaves.
     pub fn an_effect<P: Progress>(trials: &Trials<P>, singles: &[FittedHypothesis]) -> Option<Self> {
+        if !may_have_beds_beside(trials) {
+            return None;
+        }
         Self::one_of(trials, singles, &following_best(singles))
     }
 
     /// The same beside an effect of a pair that follows best and leaves more than noise, begun with the numbers that the pair has:
     /// something else may stand there for the bed that is missing, beside which alone the effect was not seen.
     pub fn an_effect_of_pairs<P: Progress>(trials: &Trials<P>, tried: &[FittedHypothesis]) -> Option<Self> {
+        if !may_have_beds_beside(trials) {
+            return None;
+        }
         let pair = tried.iter().find(|t| t.hypothesis.additions.len() == 2)?;
         let singles = tried.iter().filter(|t| t.hypothesis.additions.len() == 1).cloned().collect::<Vec<_>>();
         let seen = following_best(&singles);
-        let parts = trials.parts_of(pair);
         let is_new =
-            |part: &&FittedHypothesis| is_effect(part) && !seen.iter().any(|one| contains(part, one));
-        Self::one_of(trials, &singles, &parts.iter().filter(is_new).collect::<Vec<_>>())
+            |a: &&Addition| is_effect(a) && !seen.iter().any(|one| one.hypothesis.additions[0] == **a);
+        let new = pair.hypothesis.additions.iter().filter(is_new);
+        let parts = new.filter_map(|addition| trials.part_of(pair, *addition)).collect::<Vec<_>>();
+        Self::one_of(trials, &singles, &parts.iter().collect::<Vec<_>>())
     }
 
     /// The same beside one of some effects, each of which was tried alone among `singles`.
@@ -41,10 +49,6 @@ impl BedsBeside {
         singles: &[FittedHypothesis],
         effects: &[&FittedHypothesis],
     ) -> Option<Self> {
-        // A strip whose top is held shows one moment: nothing tells an effect beside its joints.
-        if trials.is_held() {
-            return None;
-        }
         let beds = trials.beds_beside(effects);
         let (best, others) = beds.split_first()?;
         let effect = singles.iter().find(|one| contains(best, one))?.clone();
@@ -90,9 +94,18 @@ impl BedsBeside {
     }
 }
 
+/// Whether an effect beside joints that give could be told: a strip whose top is held shows one moment, and a wall with beds of its own
+/// gets no others.
+fn may_have_beds_beside<P: Progress>(trials: &Trials<P>) -> bool {
+    !trials.is_held() && !trials.experiment.wall.gives()
+}
+
 /// The single effects that do something and follow best: by what speaks against them, and by error.
 fn following_best(singles: &[FittedHypothesis]) -> Vec<&FittedHypothesis> {
-    let effects = singles.iter().filter(|t| is_effect(t) && does_something(t)).collect::<Vec<_>>();
+    let effects = singles
+        .iter()
+        .filter(|t| is_effect(&t.hypothesis.additions[0]) && does_something(t))
+        .collect::<Vec<_>>();
     let mut by_error = effects.clone();
     by_error.sort_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
     let mut best: Vec<&FittedHypothesis> = Vec::new();
@@ -109,7 +122,7 @@ fn contains(both: &FittedHypothesis, effect: &FittedHypothesis) -> bool {
     both.hypothesis.additions.contains(&effect.hypothesis.additions[0])
 }
 
-/// Whether a single addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.
-fn is_effect(single: &FittedHypothesis) -> bool {
-    single.hypothesis.additions[0].role().is_some_and(|role| !role.is_at_impacts())
+/// Whether an addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.
+fn is_effect(addition: &Addition) -> bool {
+    addition.role().is_some_and(|role| !role.is_at_impacts())
 }

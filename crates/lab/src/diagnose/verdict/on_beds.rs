@@ -44,15 +44,15 @@ pub fn on_beds<P: Progress>(
         near.extend(laws.iter().filter(|law| stands_for(trials, &best, law)).cloned());
     }
     let alone = beds.first().filter(|alone| names(alone) != names(&best)).cloned();
-    let tried = [&beds[..], &pairs, &laws, &rivals].concat();
-    let found = standing.found(trials, wall, best, &near, tried.clone());
+    let tried = || [&beds[..], &pairs, &laws, &rivals].concat();
+    let found = standing.found(trials, wall, best, &near, tried());
     if !equals.is_empty() {
         return Some(Found { verdict: Verdict::Class, equivalent: equals, ..found });
     }
     let gap = Gap::new(trials, wall.clone(), joint_error(before)?);
     let named_alone = || {
         let alone = alone?;
-        Some(Standing::of(trials, wall, &alone, &rivals)?.found(trials, wall, alone, &[], tried))
+        Some(Standing::of(trials, wall, &alone, &rivals)?.found(trials, wall, alone, &[], tried()))
     };
     Some(gap.or_another_law(found, named_alone))
 }
@@ -72,7 +72,7 @@ fn equals_of_held<P: Progress>(
 }
 
 /// Joints that give where the gap was too narrow for them to come first, and nothing that was tried closes it: a name if they
-/// follow the tests to their noise.
+/// follow the tests to their noise, or nearly.
 pub fn on_beds_last<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
@@ -84,8 +84,8 @@ pub fn on_beds_last<P: Progress>(
     following_alone(trials, wall, &trials.beds_in_narrow_gap(wall, rival), tried)
 }
 
-/// Joints that give in the place of a name that leaves more than noise, where they follow the tests to it and nothing that was tried
-/// comes near: what a stiff bed leaves of sharp edges, an effect may take up in part.
+/// Joints that give in the place of a name that leaves more than noise, where they follow the tests to it, or nearly, and nothing that
+/// was tried comes near: what a stiff bed leaves of sharp edges, an effect may take up in part.
 pub fn on_beds_instead<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,

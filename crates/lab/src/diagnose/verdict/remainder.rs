@@ -52,12 +52,8 @@ impl Remainder {
         rivals: &[FittedHypothesis],
     ) -> Option<Self> {
         let remainder = Self::new(data, without, named, rivals)?;
-        let all =
-            |tried: &FittedHypothesis, is: fn(f64) -> bool| tried.errors().iter().all(|e| e.is_some_and(is));
-        let wide = all(without, |error| error > REMAINDER_GAP);
-        let nearly_closed = || all(without, |e| e > NARROW_GAP) && all(named, |e| e < NEARLY_NOISE);
-        let gap = wide || nearly_closed();
-        (gap && is_soft(named) && does_something(named) && remainder.holds()).then_some(remainder)
+        let may = may_leave_something(without.errors(), named.errors());
+        (may && is_soft(named) && does_something(named) && remainder.holds()).then_some(remainder)
     }
 
     /// What a hypothesis takes away; `None` without tests held out, or without an error above noise there.
@@ -93,6 +89,14 @@ impl Remainder {
             && self.taken_small_swings.min(self.taken_large_swings) >= REMAINDER_BY_SWING
             && rival_leaves >= REMAINDER_RIVAL * (1.0 - self.taken_held_out)
     }
+}
+
+/// Whether the errors in tests fitted and held out are those of a gap that a name may leave something of: a wide one, or one that it
+/// nearly closes.
+fn may_leave_something(without: [Option<f64>; 2], named: [Option<f64>; 2]) -> bool {
+    let is_above = |least| without.iter().all(|error| error.is_some_and(|error| error > least));
+    let is_nearly_noise = named.iter().all(|error| error.is_some_and(|error| error < NEARLY_NOISE));
+    is_above(REMAINDER_GAP) || (is_above(NARROW_GAP) && is_nearly_noise)
 }
 
 /// Whether a hypothesis is another answer than one of these kinds, and no part of it: whether a part is enough alone, is asked apart.
@@ -203,6 +207,18 @@ mod tests {
         );
         assert!(!Remainder { taken_fit: 0.5, ..remainder(0.95, 0.5) }.holds());
         assert!(Remainder { next_rival: None, ..remainder(0.9, 0.0) }.holds());
+    }
+
+    #[test]
+    fn analytic_a_name_leaves_something_of_a_wide_gap_or_nearly_nothing_of_a_narrow_one() {
+        let may = |without: f64, [fit, held_out]: [f64; 2]| {
+            may_leave_something([Some(without); 2], [Some(fit), Some(held_out)])
+        };
+        assert!(may(3.1, [2.0, 2.0]));
+        assert!(may(1.4, [1.03, 1.05]));
+        assert!(!may(1.4, [1.03, 1.2]), "not nearly closed in the tests held out");
+        assert!(!may(1.2, [1.0, 1.0]), "hardly a gap");
+        assert!(!may_leave_something([Some(4.0), None], [Some(1.0), None]), "nothing is held out");
     }
 
     #[test]

@@ -39,9 +39,6 @@ impl<P: Progress> Trials<'_, P> {
     ///
     /// However narrow that gap is: a bed so stiff that it hardly shows leaves many times the likelihood of noise in few windows.
     pub fn beds_beside(&self, effects: &[&FittedHypothesis]) -> Vec<FittedHypothesis> {
-        if self.experiment.wall.gives() {
-            return Vec::new();
-        }
         let Some(first) = effects.first() else { return Vec::new() };
         let mut begun =
             effects.iter().flat_map(|effect| self.begun_beside(effect, first)).collect::<Vec<_>>();
@@ -72,14 +69,11 @@ impl<P: Progress> Trials<'_, P> {
         probe.begun().into_iter().filter(|(_, fit)| takes(fit)).collect()
     }
 
-    /// Each addition of a pair alone, with the numbers that it has there.
-    pub fn parts_of(&self, pair: &FittedHypothesis) -> Vec<FittedHypothesis> {
-        let part = |addition: &Addition| {
-            let h = self.hypothesis(&self.experiment.nuisances, &[*addition]);
-            let values = h.values_from(&pair.hypothesis, &pair.fit.values);
-            with_values(&self.data, h, pair, &values)
-        };
-        pair.hypothesis.additions.iter().filter_map(part).collect()
+    /// One addition of a pair alone, with the numbers that it has there; `None` if these make no wall.
+    pub fn part_of(&self, pair: &FittedHypothesis, addition: Addition) -> Option<FittedHypothesis> {
+        let h = self.hypothesis(&self.experiment.nuisances, &[addition]);
+        let values = h.values_from(&pair.hypothesis, &pair.fit.values);
+        with_values(&self.data, h, pair, &values)
     }
 
     /// Joints that give without the effect beside them, fitted to the end from where both are.
