@@ -6,6 +6,7 @@
 
 use std::error::Error;
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::time::Duration;
 
 use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::model::{Effect, Wall, WallParameters};
@@ -97,6 +98,8 @@ fn beside(walls: &[Wall], shakings: &[Shaking]) -> Vec<Response> {
 
 /// Time that this thread has had of a processor, s: other programs' is not in it.
 fn processor_s() -> Result<f64, Box<dyn Error>> {
+    // The system brings its account up to date when a thread gives its processor away, else every 10 ms.
+    std::thread::sleep(Duration::from_nanos(1));
     // Nanoseconds, since Linux 2.6.23.
     let schedule = std::fs::read_to_string("/proc/thread-self/schedstat")?;
     let nanoseconds: f64 = schedule.split_whitespace().next().ok_or("an empty schedstat")?.parse()?;
