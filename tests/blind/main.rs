@@ -55,6 +55,9 @@ struct Options {
     /// Only cases whose kind contains this.
     #[arg(long)]
     only: Option<String>,
+    /// Only cases of these formulations: own, compliant, corners, springs [default: all].
+    #[arg(long)]
+    formulation: Vec<String>,
     /// Cases of the set that were scored before: those asked for count, and are not diagnosed again.
     #[arg(long)]
     recorded: Option<PathBuf>,
@@ -92,12 +95,16 @@ fn main() -> ExitCode {
 
 fn go(options: &Options) -> Result<(), String> {
     let out = options.out.clone().unwrap_or_else(|| PathBuf::from("outputs/blind").join(&options.set));
-    let only = |kind: &cases::kind::Kind| options.only.as_ref().is_none_or(|part| kind.name().contains(part));
+    let is_asked = |case: &cases::draw::Case| {
+        options.only.as_ref().is_none_or(|part| case.kind.name().contains(part))
+            && (options.formulation.is_empty()
+                || options.formulation.iter().any(|name| name == case.formulation()))
+    };
     let draw = options.draw();
     let drawn = options.numbers().map(|number| draw(&options.set, number));
     let known = options.recorded_numbers()?;
     let is_new = |case: &cases::draw::Case| !known.contains(&case.number);
-    let chosen: Vec<cases::draw::Case> = drawn.filter(|case| only(&case.kind) && is_new(case)).collect();
+    let chosen: Vec<cases::draw::Case> = drawn.filter(|case| is_asked(case) && is_new(case)).collect();
     let folder = |case: &cases::draw::Case| out.join(format!("case_{:04}", case.number));
     if !options.score_only {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(options.jobs).build();
