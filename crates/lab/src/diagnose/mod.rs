@@ -40,7 +40,7 @@ pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use trials::{
     Data, FirstFits, FittedHypothesis, Trials, Unfinished, WallFits, gain_misread, misses_windows,
-    opened_as_given, opened_enough, opened_windows, own_error, reads_better, set_gain,
+    opened_as_given, opened_enough, opened_windows, reads_better, set_gain, typical_error,
 };
 pub use verdict::Verdict;
 use verdict::{Found, beside_beds, judge, leaves_noise, on_beds};
@@ -139,7 +139,7 @@ impl<P: Progress> Flow<'_, P> {
         on_beds: &FittedHypothesis,
     ) -> Option<[Vec<Window>; 2]> {
         let follows = leaves_noise(on_beds) && !misses_windows(on_beds);
-        let nearly = own_error(on_beds) < BESIDE_BEDS_GAP && !follows;
+        let nearly = typical_error(on_beds) < BESIDE_BEDS_GAP && !follows;
         nearly.then(|| opened_enough(&Data::new(&self.tests, windows), on_beds)).flatten()
     }
 

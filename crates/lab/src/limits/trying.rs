@@ -128,12 +128,6 @@ limits! {
     ///
     /// Each takes a second or so in few windows, and ten in all.
     BEDS_BESIDE_EFFECTS: usize = 3, "";
-    /// Share of the squared error above noise left by the first of a bed and an effect that the second must take away, in tests
-    /// fitted and in those held out, where what both leave stands in the place of noise.
-    ///
-    /// A cubic spring beside a bed of another simulator takes 72 % of it where fitted and 95 % held out; where such a bed is all there
-    /// is, a sensor's gain takes 74 and 31 %.
-    TAKEN_BESIDE_OWN_ERROR: f64 = 0.5, "share";
     /// Rivals of one effect on sharp edges that are fitted to few windows: those that promise most at a glance.
     BED_RIVALS_IN_FEW: usize = 8, "";
     /// The best of these are fitted to all windows.

@@ -28,7 +28,7 @@ mod refinement;
 mod search;
 mod unfinished;
 
-pub use beds::{by_error_of, excess, own_error, widened};
+pub use beds::{excess, in_order_of_likelihood, own_error, relieved, typical_error, widened};
 pub use between_impacts::BetweenImpacts;
 pub use effects::{FirstFits, WallFits};
 pub use fitted_hypothesis::{Data, FittedHypothesis};
@@ -153,13 +153,7 @@ impl<P: Progress> Trials<'_, P> {
 
     /// The best of hypotheses with the same additions, in order.
     pub(super) fn best_of_each(&self, tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
-        let mut best: Vec<FittedHypothesis> = Vec::new();
-        for t in self.ordered(tried) {
-            if !best.iter().any(|b| b.hypothesis.additions == t.hypothesis.additions) {
-                best.push(t);
-            }
-        }
-        best
+        first_of_each(self.ordered(tried))
     }
 
     /// Fits the best few once more, about what was found but with the wall's own numbers as given. All stay as they
@@ -213,4 +207,15 @@ impl<P: Progress> Trials<'_, P> {
         let again = refit(&self.data, h, whole, &values);
         again.filter(|new| against(&self.data, new) < against(&self.data, &part)).unwrap_or(part)
     }
+}
+
+/// Of hypotheses with the same additions the first: what was fitted twice is no rival of itself.
+pub fn first_of_each(tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
+    let mut first: Vec<FittedHypothesis> = Vec::new();
+    for t in tried {
+        if !first.iter().any(|other| other.hypothesis.additions == t.hypothesis.additions) {
+            first.push(t);
+        }
+    }
+    first
 }

@@ -6,13 +6,13 @@
 
 use super::few::Few;
 use super::probe::Probe;
-use super::{by_excess, excess, in_rounds, own_error, widened};
+use super::{by_excess, excess, in_rounds, typical_error, widened};
 use crate::Progress;
-use crate::diagnose::fit::{Fit, Problem, nats};
+use crate::diagnose::fit::{Fit, Problem, WindowFit, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
 use crate::diagnose::trials::imitation::seconds;
 use crate::diagnose::trials::search::{judged_from_measured, states_of, with_values};
-use crate::diagnose::trials::{Data, FittedHypothesis, Trials, joint_error};
+use crate::diagnose::trials::{Data, FittedHypothesis, Trials, all_windows, joint_error};
 use crate::limits::{
     BEDS_ASKED_FOR, BEDS_BESIDE_EFFECTS, BEDS_NEAR_BEST, BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR,
     BESIDE_BEDS_GAP, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL, WORTH_A_NAME,
@@ -30,8 +30,8 @@ impl<P: Progress> Trials<'_, P> {
         let with_effect = best.hypothesis.additions[1..].iter().all(|a| a.role() != Some(Role::Bed));
         let others = others.iter().filter(|_| with_effect).collect::<Vec<_>>();
         found.extend(others.par_iter().filter_map(|bed| self.on_other_bed(bed, &best)).collect::<Vec<_>>());
-        self.best_finished(&mut found);
-        found
+        in_order_of_likelihood(&mut found);
+        self.first_finished(found)
     }
 
     /// Joints that give beside single effects that follow best on sharp edges, what follows the tests best first: those that take
@@ -52,9 +52,7 @@ impl<P: Progress> Trials<'_, P> {
             self.progress.advance(1);
             fitted
         };
-        let mut found = begun.par_iter().filter_map(fit).collect::<Vec<_>>();
-        self.best_finished(&mut found);
-        found
+        self.best_finished(begun.par_iter().filter_map(fit).collect())
     }
 
     /// Joints that give beside an effect, fitted to few windows of which half are those that `first` follows worst; those that take
@@ -112,24 +110,29 @@ impl<P: Progress> Trials<'_, P> {
             self.progress.advance(1);
             fitted
         };
-        let mut found = promising.par_iter().filter_map(fit).collect::<Vec<_>>();
-        self.best_finished(&mut found);
-        found
+        self.best_finished(promising.par_iter().filter_map(fit).collect())
     }
 
-    /// Orders hypotheses by what follows best, and fits that to the end.
-    pub(super) fn best_finished(&self, found: &mut [FittedHypothesis]) {
-        by_error_of(found);
-        if let Some(best) = found.first_mut()
-            && let Some(finished) = self.finished_beside_own_error(best)
+    /// Hypotheses in the order of how they follow all windows, the first fitted to the end.
+    pub(super) fn best_finished(&self, mut found: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
+        let error = |t: &FittedHypothesis| joint_error(t).unwrap_or(f64::INFINITY);
+        found.sort_by(|a, b| error(a).total_cmp(&error(b)));
+        self.first_finished(found)
+    }
+
+    /// The first of hypotheses fitted to the end.
+    fn first_finished(&self, mut found: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
+        if let Some(first) = found.first_mut()
+            && let Some(finished) = self.finished_beside_own_error(first)
         {
-            *best = finished;
+            *first = finished;
         }
+        found
     }
 
     /// The best of what few windows promise, and what comes near it there, fitted to all; none where that is little.
     fn effects_beside(&self, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
-        let few = Few::new(self.data.fit, BESIDE_BEDS_WINDOWS, own_error(bed));
+        let few = Few::new(self.data.fit, BESIDE_BEDS_WINDOWS, typical_error(bed));
         let nearly = follows_nearly(bed);
         let mut promised = self.promised(&few, bed);
         let against = |tried: &FittedHypothesis| nats(&tried.fit.windows);
@@ -160,7 +163,7 @@ impl<P: Progress> Trials<'_, P> {
             fitted
         };
         let mut found = promised.par_iter().filter_map(fit).collect::<Vec<_>>();
-        by_error_of(&mut found);
+        in_order_of_likelihood(&mut found);
         found
     }
 
@@ -170,7 +173,7 @@ impl<P: Progress> Trials<'_, P> {
         bed: &FittedHypothesis,
         tried: &FittedHypothesis,
     ) -> Option<FittedHypothesis> {
-        let tests = widened(self.data.fit.tests, own_error(bed));
+        let tests = widened(self.data.fit.tests, typical_error(bed));
         let wide = Problem { tests: &tests, ..self.data.fit };
         let h = &tried.hypothesis;
         let start = wide.states(h, &tried.fit.values, &states_of(&bed.fit), 2, false)?;
@@ -254,11 +257,47 @@ const AT_THE_OTHER: f64 = 0.1;
 /// Whether joints that give leave so little that windows tell an effect beside them by likelihood. The widest loss, under which
 /// fits begin, would move the numbers for a few windows that no state follows.
 fn follows_nearly(bed: &FittedHypothesis) -> bool {
-    own_error(bed) < BESIDE_BEDS_GAP
+    typical_error(bed) < BESIDE_BEDS_GAP
 }
 
-/// What follows the windows best first.
-pub fn by_error_of(tried: &mut [FittedHypothesis]) {
-    let error = |t: &FittedHypothesis| joint_error(t).unwrap_or(f64::INFINITY);
-    tried.sort_by(|a, b| error(a).total_cmp(&error(b)));
+/// What the windows say least against first, with what the best typically leaves in the place of noise.
+pub fn in_order_of_likelihood(tried: &mut [FittedHypothesis]) {
+    let least = tried.iter().map(typical_error).fold(f64::INFINITY, f64::min);
+    tried.sort_by(|a, b| nats_beside(least, a).total_cmp(&nats_beside(least, b)));
+}
+
+/// What all windows say against a hypothesis, with an error in the place of noise, in natural logarithms of likelihood.
+fn nats_beside(error: f64, tried: &FittedHypothesis) -> f64 {
+    nats(&relieved(&all_windows(tried), error))
+}
+
+/// What is left of windows, with an error in the place of their noise.
+pub fn relieved(windows: &[WindowFit], error: f64) -> Vec<WindowFit> {
+    let by = |window: &WindowFit| WindowFit { squares: window.squares / (error * error), ..window.clone() };
+    windows.iter().map(by).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::hypothesis::example::starter_with;
+
+    /// Windows with so many times the noise, squared, of a hypothesis.
+    fn tried(name: &str, reduced: &[f64]) -> FittedHypothesis {
+        let window = |reduced: &f64| WindowFit { x: vec![0.0; 4], squares: 200.0 * reduced, freedom: 200.0 };
+        let windows = reduced.iter().map(window).collect();
+        let fit = Fit { values: Vec::new(), windows, cost: 0.0, covariance: None };
+        let held_out = Fit { windows: Vec::new(), ..fit.clone() };
+        FittedHypothesis { hypothesis: starter_with(&[name]), fit, held_out }
+    }
+
+    #[test]
+    fn analytic_what_most_windows_say_goes_before_few_far_off() {
+        let follows_most = tried("cubic_stiffness", &[1.0, 1.1, 1.2, 1.1, 1.0, 900.0, 900.0]);
+        let follows_none = tried("gap", &[2.0, 2.0, 2.1, 2.0, 2.0, 100.0, 100.0]);
+        assert!(joint_error(&follows_most) > joint_error(&follows_none));
+        let mut both = [follows_none, follows_most];
+        in_order_of_likelihood(&mut both);
+        assert_eq!(both[0].hypothesis.name(), "cubic_stiffness");
+    }
 }
