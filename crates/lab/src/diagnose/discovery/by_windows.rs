@@ -1,5 +1,6 @@
 //! Laws found over points, fitted to windows with their impacts: these alone judge.
 
+use super::asked::{AskedOfLaws, OpenGap, Scope};
 use super::equals::{law_of, simplest_of_equals};
 use super::guards::{holds_in_each_test, lies_inside};
 use super::points::Points;
@@ -13,7 +14,9 @@ use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
     Data, FittedHypothesis, Trials, against, does_something, follows_to_noise, judged, refit, shared_states,
 };
-use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS};
+use crate::limits::{
+    EQUIVALENT, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS,
+};
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -34,12 +37,27 @@ pub struct Discovered {
     pub excited: [[[f64; 2]; 2]; 3],
     /// Laws of one atom, as far as they were fitted to windows.
     pub(super) singles: Vec<Fitted>,
+    /// Laws of two atoms, as far as they were fitted to windows.
+    pairs: Vec<Fitted>,
+    /// What the best law of two atoms says more over points than the first that holds, in natural logarithms of likelihood.
+    second_says_more: Option<f64>,
 }
 
 impl Discovered {
     /// What was excited at a site: least and largest displacement and velocity.
     pub fn at(&self, site: Site) -> [[f64; 2]; 2] {
         self.excited[site as usize]
+    }
+
+    /// Whether the first law that holds has one atom, and points, which weigh every two, say no more of any two.
+    pub fn is_all_of_one_atom(&self) -> bool {
+        let of_one = |law: &FittedHypothesis| law_of(law).is_some_and(|law| law.second.is_none());
+        self.equals.first().is_some_and(of_one) && self.second_says_more.is_some_and(|more| more < EQUIVALENT)
+    }
+
+    /// Whether nothing holds.
+    pub fn is_open(&self) -> bool {
+        self.equals.is_empty()
     }
 }
 
@@ -49,36 +67,6 @@ pub(super) struct Fitted {
     pub law: FittedHypothesis,
     /// Whether its fit ended by itself, and not because it had worked as much as it may.
     pub is_done: bool,
-}
-
-/// A gap that the catalogue does not close.
-#[derive(Debug, Clone, Copy)]
-pub struct OpenGap<'t> {
-    /// The wall with its uncertain numbers fitted.
-    pub recalibrated: &'t FittedHypothesis,
-    /// The hypothesis of the catalogue that follows best: the states of windows start from its own.
-    pub nearest: &'t FittedHypothesis,
-    /// Windowed error of the wall as given.
-    pub error: f64,
-    /// Whether laws of two atoms, and curves, are looked for too.
-    pub in_full: bool,
-    /// Laws that windows speak of already: they are tried whatever points say.
-    pub kin: &'t [Law],
-    /// What was found before, without laws of two atoms: laws of one atom are not fitted again.
-    pub before: Option<&'t Discovered>,
-}
-
-/// What a law is asked beside its fit.
-pub trait AskedOfLaws {
-    /// Whether a law of two atoms is worth it beside the best of one, in all windows or between impacts.
-    fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool;
-    /// Whether it follows the tests held out as it does those fitted, but for what another formulation of a contact leaves, and misses
-    /// nothing there that no impact excuses.
-    fn follows_held_out(&self, law: &FittedHypothesis) -> bool;
-    /// Whether what it leaves is noise, or what another formulation of a contact leaves: nothing that a second atom could take away.
-    fn leaves_nothing(&self, law: &FittedHypothesis) -> bool;
-    /// Which of [`Guard::Bend`] and [`Guard::Trend`] speak against a law.
-    fn other_law(&self, law: &FittedHypothesis) -> Vec<Guard>;
 }
 
 impl<P: Progress> Trials<'_, P> {
@@ -102,22 +90,25 @@ impl<P: Progress> Trials<'_, P> {
         let is_open = !closing.iter().any(|law| asked.leaves_nothing(law));
         let mut tried = singles.iter().map(|fitted| fitted.law.clone()).collect::<Vec<_>>();
         let single = searched.singles.first().map_or(0.0, |c| c.evidence);
-        if gap.in_full && is_open && searched.pairs.first().is_some_and(|pair| pair.evidence > single) {
+        let says_more = searched.pairs.first().is_some_and(|pair| pair.evidence > single);
+        let mut pairs = Vec::new();
+        if gap.scope >= Scope::TwoAtoms && is_open && says_more {
             let simpler = tried.first().unwrap_or(gap.recalibrated).clone();
-            let pairs = self.laws_in_windows(gap, &searched, &[], &searched.pairs, "laws of two atoms");
+            pairs = self.pairs_in_windows(gap, &searched);
             let (of_two, of_pairs) = judge(&pairs, Some(&simpler));
             closing.extend(of_two);
             refused.extend(of_pairs);
             refused.extend(self.refused_over_points(&searched, &searched.pairs));
-            tried.extend(pairs.into_iter().map(|fitted| fitted.law));
+            tried.extend(pairs.iter().map(|fitted| fitted.law.clone()));
         }
         let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
         let mut tried = self.ordered(tried);
-        let curve =
-            if gap.in_full && equals.is_empty() { self.curve(gap, &searched, tried.first()) } else { None };
+        let has_curve = gap.scope == Scope::Curves && equals.is_empty();
+        let curve = if has_curve { self.curve(gap, &searched, tried.first()) } else { None };
         tried.truncate(LAWS_TOLD);
         let laws = equals.iter().filter_map(law_of).collect::<Vec<_>>();
         let stability = Stability::of(&searched, &laws);
+        let second_says_more = laws.first().and_then(|told| searched.second_says_more(told));
         Some(Discovered {
             equals,
             tried,
@@ -126,6 +117,8 @@ impl<P: Progress> Trials<'_, P> {
             stability,
             excited: Site::ALL.map(|site| points.range(site)),
             singles,
+            pairs,
+            second_says_more,
         })
     }
 
@@ -153,16 +146,28 @@ impl<P: Progress> Trials<'_, P> {
         let Some(before) = gap.before else {
             return self.laws_in_windows(gap, searched, gap.kin, &searched.singles, "laws of one atom");
         };
-        // What follows best by now has states that these laws have not tried.
-        let sharing = |fitted: &Fitted| Fitted {
-            law: shared_states(&self.data, &fitted.law, &[gap.nearest]),
-            ..fitted.clone()
-        };
-        let mut singles = before.singles.par_iter().map(sharing).collect::<Vec<_>>();
+        let mut singles = self.with_states_since(gap, &before.singles);
         if !gap.kin.is_empty() {
             singles.extend(self.laws_in_windows(gap, searched, gap.kin, &[], "laws of one atom"));
         }
         self.in_order(singles)
+    }
+
+    /// Laws of two atoms, fitted to windows: those that were fitted before.
+    fn pairs_in_windows(&self, gap: &OpenGap, searched: &Searched) -> Vec<Fitted> {
+        match gap.before.map(|before| &before.pairs[..]) {
+            Some(before @ [_, ..]) => self.in_order(self.with_states_since(gap, before)),
+            _ => self.laws_in_windows(gap, searched, &[], &searched.pairs, "laws of two atoms"),
+        }
+    }
+
+    /// Laws that were fitted before. What follows best by now has states that they have not tried.
+    fn with_states_since(&self, gap: &OpenGap, fitted: &[Fitted]) -> Vec<Fitted> {
+        let sharing = |fitted: &Fitted| Fitted {
+            law: shared_states(&self.data, &fitted.law, &[gap.nearest]),
+            ..fitted.clone()
+        };
+        fitted.par_iter().map(sharing).collect()
     }
 
     /// What speaks against a law that was fitted to windows; nothing where it closes the gap with numbers that mean something.

@@ -1,6 +1,7 @@
 //! A force without a formula, fitted to windows with their impacts: an answer where these say that it is one.
 
-use super::by_windows::{OpenGap, beside};
+use super::asked::OpenGap;
+use super::by_windows::beside;
 use super::curve::curve_of;
 use super::search::Searched;
 use crate::Progress;
@@ -105,6 +106,7 @@ fn shrinks(data: &Data, given: &Wall, wall: &FittedHypothesis, found: &FittedHyp
 
 #[cfg(test)]
 mod tests {
+    use super::super::asked::Scope;
     use super::super::points::Points;
     use super::super::search::search;
     use super::super::twin::{Twin, wall_with};
@@ -125,7 +127,7 @@ mod tests {
             recalibrated: &wall.recalibrated,
             nearest: &wall.recalibrated,
             error: before,
-            in_full: true,
+            scope: Scope::Curves,
             kin: &[],
             before: None,
         };

@@ -125,15 +125,17 @@ fn as_large(law: Law, other: &Law, points: &Points) -> Law {
 /// Exponents of the catalogue nearer than this are its own.
 const NEAR_EXPONENT: f64 = 0.15;
 
-/// Whether a law of one atom is a power that the catalogue has, or nearly.
+/// Whether every atom of a law is a power that the catalogue has, or nearly.
 pub fn is_of_catalogue(law: &Law) -> bool {
-    let own: &[f64] = match law.first.shape {
-        Shape::Drag => &[0.0, 1.0],
-        Shape::Spring => &[3.0],
-        Shape::OneSidedSpring(_) => &[1.0],
-        _ => &[],
+    let own = |atom: &Atom| -> &[f64] {
+        match atom.shape {
+            Shape::Drag => &[0.0, 1.0],
+            Shape::Spring => &[3.0],
+            Shape::OneSidedSpring(_) => &[1.0],
+            _ => &[],
+        }
     };
-    law.second.is_none() && own.iter().any(|n| (law.first.numbers[0] - n).abs() < NEAR_EXPONENT)
+    law.atoms().all(|atom| own(&atom).iter().any(|n| (atom.numbers[0] - n).abs() < NEAR_EXPONENT))
 }
 
 /// Values of a hypothesis in which a law stands for an effect of another.
@@ -269,6 +271,10 @@ mod tests {
         assert!(!is_of_catalogue(&drag(0.5, 300.0)) && !is_of_catalogue(&drag(2.0, 300.0)));
         let spring = |n: f64| Law::of(Atom { shape: Shape::Spring, ..drag(n, 300.0).first });
         assert!(is_of_catalogue(&spring(2.9)) && !is_of_catalogue(&spring(1.0)));
+        // Of two atoms both must be.
+        let both = |one: Law, two: Law| Law { second: Some(two.first), ..one };
+        assert!(is_of_catalogue(&both(drag(1.0, 300.0), spring(3.0))));
+        assert!(!is_of_catalogue(&both(drag(1.0, 300.0), spring(2.0))));
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `points` | the missing force as equations, with what is uncertain of the wall |
 //! | `search` | all laws of one atom and of two, weighed by evidence over points |
+//! | `asked` | the gap that a law is to close, and what it must do |
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
 //! | `guards` | what refuses a law that fits |
 //! | `kin` | a name whose exponent, set free, does clearly better |
@@ -12,6 +13,7 @@
 //! | `equals` | laws that the tests cannot tell apart |
 //! | [`Stability`] | how sure the form of a law is |
 
+mod asked;
 mod by_windows;
 mod curve;
 mod curve_in_windows;
@@ -25,7 +27,8 @@ mod stability;
 #[cfg(test)]
 mod twin;
 
-pub use by_windows::{AskedOfLaws, Discovered, OpenGap};
+pub use asked::{AskedOfLaws, OpenGap, Scope};
+pub use by_windows::Discovered;
 pub use kin::is_of_catalogue;
 pub use points::Points;
 pub use refused::{Guard, Refused};

@@ -229,6 +229,15 @@ pub struct Searched<'p> {
     pub equations: Equations<'p>,
 }
 
+impl Searched<'_> {
+    /// What the best law of two atoms says more than one that was found in windows, its sizes fitted to points; `None` where these
+    /// may not be.
+    pub fn second_says_more(&self, told: &Law) -> Option<f64> {
+        let of_two = self.pairs.first().map_or(0.0, |pair| pair.evidence);
+        Some(of_two - self.equations.fitted(told)?.evidence)
+    }
+}
+
 /// Searches all laws of one atom and of two over points.
 pub fn search(points: &Points) -> Option<Searched<'_>> {
     let atoms = atoms(points);
@@ -404,6 +413,7 @@ mod tests {
     use super::super::twin::{points_of, tests_of, wall_with};
     use super::*;
     use crate::diagnose::formula::Side;
+    use crate::limits::WORTH_A_NAME;
 
     const NOISE_RAD: f64 = 3e-5;
 
@@ -422,6 +432,21 @@ mod tests {
         assert_eq!((atom.site, atom.shape), (Site::Top, Shape::Spring), "{atom:?}");
         assert!((atom.numbers[0] - 3.0).abs() < 0.1, "{atom:?}");
         assert!((atom.size / (2e6 * q0.powi(3)) - 1.0).abs() < 0.05, "{atom:?}");
+    }
+
+    #[test]
+    fn analytic_a_second_atom_says_more_of_what_has_two() {
+        let more = |effects: &str| {
+            let points = points_of(&tests_of(&wall_with(effects), NOISE_RAD));
+            let found = search(&points).expect("laws");
+            found.second_says_more(&found.singles[0].law).expect("sizes that may be")
+        };
+        let friction = "[[effects]]\nkind = \"coulomb_friction\"\nforce_n = 150.0\n";
+        let spring = "[[effects]]\nkind = \"cubic_stiffness\"\ncoefficient_n_per_m3 = 2e6\n";
+        assert!(more(spring) < EQUIVALENT, "{}", more(spring));
+        // Neither is any power of the other's variable.
+        let both = more(&[friction, spring].concat());
+        assert!(both > WORTH_A_NAME, "{both}");
     }
 
     #[test]

@@ -11,10 +11,16 @@ use nalgebra::{DMatrix, DVector};
 ///
 /// Wrong corners make a curve of displacement too, a step at zero, but off that direction.
 pub fn acts_at_top(points: &[ForcePoint]) -> bool {
-    let along = median_share_off_top(points)
-        .is_some_and(|(share, count)| share < ALONG_TOP && count >= LEAST_DIRECTIONS);
+    let along = lie_along_top(points) == Some(true);
     let explained = |against| explained_by(points, against).is_some_and(|share| share > EXPLAINED_BY_ONE);
     along && Against::ALL.into_iter().any(explained)
+}
+
+/// Whether the points lie along the direction of a force at the top; `None` where too few have a direction, as those of a crack that
+/// hardly opens.
+pub fn lie_along_top(points: &[ForcePoint]) -> Option<bool> {
+    let (share, _) = median_share_off_top(points).filter(|(_, count)| *count >= LEAST_DIRECTIONS)?;
+    Some(share < ALONG_TOP)
 }
 
 /// A point says nothing if its noise is so many times the usual and such a share of its force.
@@ -343,6 +349,19 @@ mod tests {
         assert!(left(|_, v| -1000.0 * v * v.abs()) > 40.0);
         assert!(left(|x, v| -8000.0 * x.abs() * v) > 40.0);
         assert!(left(|_, v| -20.0 * v.signum()) > 40.0);
+    }
+
+    #[test]
+    fn analytic_points_lie_along_the_top_or_off_it_or_have_no_direction() {
+        let with = |shares: &[f64]| {
+            let mut all = points(|x, v| 4000.0 * x - 900.0 * v);
+            all.iter_mut().zip(shares).for_each(|(point, share)| point.share_off_top = Some(*share));
+            lie_along_top(&all)
+        };
+        assert_eq!(with(&[1e-3, 2e-3, 0.5]), Some(true));
+        assert_eq!(with(&[0.2, 0.1, 1e-3]), Some(false));
+        assert_eq!(with(&[1e-3; LEAST_DIRECTIONS - 1]), None);
+        assert_eq!(with(&[]), None);
     }
 
     #[test]

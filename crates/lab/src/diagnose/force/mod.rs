@@ -11,10 +11,10 @@ mod jumps;
 mod points;
 mod weak_form;
 
-pub use curves::acts_at_top;
 pub use curves::curve_left;
 pub use curves::explained_by;
 pub use curves::{Against, CurvePoint, Drawn, LawCurve, law_curves};
+pub use curves::{acts_at_top, lie_along_top};
 pub use jumps::{Jump, jumps};
 pub use jumps::{Stretch, stretches};
 pub use points::Kernel;

@@ -8,6 +8,7 @@ use super::at_impacts::{
 use super::beds_beside::BedsBeside;
 use super::found::Found;
 use super::on_beds::{on_beds_instead, on_beds_last};
+use super::outside::follow_few;
 use super::worth_naming::{could_show, place, worth_two};
 use super::{OtherLaw, Verdict};
 use super::{name_of_number, names, names_of_all};
@@ -75,7 +76,7 @@ pub(super) struct Gap<'t, P> {
     pub(super) wall: WallFits,
     /// Windowed error of the wall as given.
     pub(super) error: f64,
-    /// Laws outside the catalogue of one atom, where they were looked for before the best effect is fitted once more.
+    /// Laws outside the catalogue, where they were looked for before the best effect is fitted once more or joints that give beside it.
     pub(super) early: OnceCell<Discovered>,
 }
 
@@ -110,7 +111,7 @@ impl<P: Progress> Gap<'_, P> {
 
     /// One effect or two by name, or the place of what is missing.
     fn with_effects(self, singles: Vec<FittedHypothesis>, gain: f64) -> Found {
-        let early = self.told_early(&singles);
+        let early = if follow_few(&singles) { self.told_early(&singles) } else { None };
         let singles = if early.is_some() { singles } else { self.trials.with_far_refined(singles) };
         let singles = self.trials.with_imitations(singles, self.error);
         if self.only_other_impacts(&singles) {
@@ -128,6 +129,11 @@ impl<P: Progress> Gap<'_, P> {
                 });
             }
         }
+        // Where every effect misses many windows and one atom leaves noise, two effects of the catalogue would be two atoms: points, which
+        // weigh all of these, would say more of them.
+        if one.is_none() && early.as_ref().is_some_and(Discovered::is_all_of_one_atom) {
+            return self.placed_by(early, None, singles);
+        }
         // What a window can say is bounded: of a gap far above the noise a single effect may take little of it, and two all.
         let far = joint_error(&self.wall.recalibrated).is_some_and(|error| error > HELD_OUT_ERROR);
         if one.is_none() && !far && gain <= WORTH_PAIRS {
@@ -137,7 +143,10 @@ impl<P: Progress> Gap<'_, P> {
         if let Some(found) = one.as_ref().and_then(instead) {
             return found;
         }
-        let beds = if one.is_none() { BedsBeside::an_effect(self.trials, &singles) } else { None };
+        // A force that is told at the top is none of joints that give, and these take long to fit.
+        let early = early.or_else(|| if one.is_none() { self.told_early(&singles) } else { None });
+        let may_give = one.is_none() && early.is_none();
+        let beds = if may_give { BedsBeside::an_effect(self.trials, &singles) } else { None };
         let follow = beds.as_ref().and_then(|beds| beds.following(self.trials, &self.wall, &singles));
         if let Some(found) = follow {
             return found;
@@ -151,13 +160,16 @@ impl<P: Progress> Gap<'_, P> {
             return self.other_impacts(tried);
         }
         let Some(answer) = answer else {
+            if early.is_some() {
+                return self.placed_by(early, None, tried);
+            }
             let little = |beds: BedsBeside| beds.leaving_little(self.trials, &self.wall, &tried);
             let of_pairs = || BedsBeside::an_effect_of_pairs(self.trials, &tried);
             let found = beds.and_then(little).or_else(|| of_pairs().and_then(little));
             if let Some(found) = found {
                 return self.or_another_law(found, || None);
             }
-            let discovered = early.or_else(|| self.discovered(&tried, &[]));
+            let discovered = self.discovered(&tried, &[]);
             // A force that is told along the direction of the top is none of joints that give, and these take long to fit.
             if discovered.as_ref().is_some_and(|one| self.is_told_at_top(one)) {
                 return self.placed_by(discovered, None, tried);

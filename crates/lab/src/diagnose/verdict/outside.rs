@@ -6,12 +6,12 @@ use super::judge::{Answer, Gap};
 use super::worth_naming::{leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
 use crate::Progress;
-use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refused, is_of_catalogue};
-use crate::diagnose::force::{acts_at_top, force_points};
+use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refused, Scope, is_of_catalogue};
+use crate::diagnose::force::{ForcePoint, acts_at_top, force_points, lie_along_top};
 use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{FittedHypothesis, against, closes, closes_held_out, kinds};
-use crate::limits::{EQUIVALENT, TREND_SHARE_ON_BEDS, WORTH_A_NAME};
+use crate::diagnose::trials::{FittedHypothesis, against, closes, closes_held_out, joint_error, kinds};
+use crate::limits::{BEDS_GAP, EQUIVALENT, TREND_SHARE_ON_BEDS, WORTH_A_NAME};
 use mrbd_kernel::model::Role;
 
 /// The place of a missing force with the curve that it is, where one holds.
@@ -21,6 +21,13 @@ fn with_curve(placed: Found) -> Found {
         Some(after) => Found { verdict: Verdict::Curve, after, ..placed },
         None => placed,
     }
+}
+
+/// Whether even the single effect that follows the windows best misses many of them.
+pub(super) fn follow_few(singles: &[FittedHypothesis]) -> bool {
+    let answers = singles.iter().filter(|t| kinds(t).is_some());
+    let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
+    follows.is_some_and(|follows| follows.fit.is_far())
 }
 
 impl<P: Progress> AskedOfLaws for Gap<'_, P> {
@@ -45,19 +52,32 @@ impl<P: Progress> AskedOfLaws for Gap<'_, P> {
 }
 
 impl<P: Progress> Gap<'_, P> {
-    /// A law of one atom outside the catalogue that leaves noise where every effect misses many windows: none of these needs to be
-    /// fitted once more.
+    /// A law outside the catalogue that leaves noise, but for what another formulation of a contact leaves, and acts at the top: no effect
+    /// needs to be fitted once more, nor do joints that give beside one. Looked for once.
     pub(super) fn told_early(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
-        let answers = singles.iter().filter(|t| kinds(t).is_some());
-        let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()))?;
-        if !follows.fit.is_far() {
+        if self.early.get().is_some() {
             return None;
         }
-        let found = self.looked_for(singles, &[], false)?;
+        let of_one = self.looked_for(singles, &[], Scope::OneAtom, None)?;
+        let may_act_at_top = self.may_act_at_top();
+        let found = if of_one.is_open() && may_act_at_top {
+            self.looked_for(singles, &[], Scope::TwoAtoms, Some(&of_one)).unwrap_or(of_one)
+        } else {
+            of_one
+        };
         let found = self.early.get_or_init(|| found).clone();
         let laws = found.equals.iter().flat_map(|t| t.hypothesis.laws(&t.fit.values));
         let is_none_of_it = !laws.into_iter().any(|law| is_of_catalogue(&law));
-        (is_none_of_it && self.is_told_at_top(&found)).then_some(found)
+        let best = found.equals.first()?;
+        let at_top = best.hypothesis.additions[0].place() == "top" && may_act_at_top;
+        (is_none_of_it && at_top && self.leaves_nothing(best)).then_some(found)
+    }
+
+    /// Whether what the wall as given lacks may be a force at the top, and nothing that joints do which give: it lies along the direction
+    /// of the top, or has no direction and left so much that joints that give were asked for before any effect.
+    fn may_act_at_top(&self) -> bool {
+        let wide = || joint_error(&self.wall.recalibrated).is_some_and(|error| error > BEDS_GAP);
+        lie_along_top(&self.missing()).unwrap_or_else(wide)
     }
 
     /// Whether the best law found leaves noise and acts at the top, and the measured force lies along that direction.
@@ -68,8 +88,13 @@ impl<P: Progress> Gap<'_, P> {
 
     /// Whether what the wall as given lacks lies along the direction of the top.
     fn acts_at_top(&self) -> bool {
+        acts_at_top(&self.missing())
+    }
+
+    /// What the wall as given lacks.
+    fn missing(&self) -> Vec<ForcePoint> {
         let physics = self.wall.before.hypothesis.physics(&self.wall.before.fit.values);
-        physics.is_some_and(|physics| acts_at_top(&force_points(self.trials.data.fit.tests, &physics)))
+        physics.map_or_else(Vec::new, |physics| force_points(self.trials.data.fit.tests, &physics))
     }
 
     /// A name whose exponent set free does clearly better is none: a law outside the catalogue that does as much better, or the
@@ -170,16 +195,21 @@ impl<P: Progress> Gap<'_, P> {
 
     /// Laws outside the catalogue, some of which windows speak of already.
     pub(super) fn discovered(&self, tried: &[FittedHypothesis], kin: &[Law]) -> Option<Discovered> {
-        self.looked_for(tried, kin, true)
+        self.looked_for(tried, kin, Scope::Curves, self.early.get())
     }
 
-    /// The same; `in_full` with laws of two atoms and curves.
-    fn looked_for(&self, tried: &[FittedHypothesis], kin: &[Law], in_full: bool) -> Option<Discovered> {
+    /// The same as far as asked for, where some may have been looked for `before`.
+    fn looked_for(
+        &self,
+        tried: &[FittedHypothesis],
+        kin: &[Law],
+        scope: Scope,
+        before: Option<&Discovered>,
+    ) -> Option<Discovered> {
         let (trials, recalibrated) = (self.trials, &self.wall.recalibrated);
         let nearest = tried.iter().chain([recalibrated]);
         let nearest = nearest.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)));
-        let before = self.early.get();
-        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error, in_full, kin, before };
+        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error, scope, kin, before };
         trials.discover(&gap, self)
     }
 
