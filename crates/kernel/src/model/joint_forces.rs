@@ -77,13 +77,6 @@ impl Masses {
     pub fn impulses(&self, arms: &TurnedArms, jump: &PointVelocities) -> JointForces {
         self.through_joints(arms, jump, 0.0)
     }
-
-    /// Sum of the masses times the magnitudes of their velocities, N s.
-    #[inline(always)]
-    pub fn momentum_size(&self, v: &PointVelocities) -> f64 {
-        let speed = |v: Vector| v.x.abs() + v.y.abs();
-        self.m[0] * speed(v.g1) + self.m[1] * speed(v.g2) + (self.m_d + self.m_dp) * speed(v.c)
-    }
 }
 
 impl<N: Number> Masses<N> {
@@ -124,6 +117,13 @@ impl<N: Number> Masses<N> {
             ground: JointForce { shear: through_ground.x, normal: through_ground.y, moment: about_origin },
             crack: JointForce { shear: in_crack.x, normal: in_crack.y, moment: about_middle },
         }
+    }
+
+    /// Sum of the masses times the magnitudes of their velocities, N s.
+    #[inline(always)]
+    pub fn momentum_size(&self, v: &PointVelocities<N>) -> N {
+        let speed = |v: Vector<N>| v.x.magnitude() + v.y.magnitude();
+        self.m[0] * speed(v.g1) + self.m[1] * speed(v.g2) + (self.m_d + self.m_dp) * speed(v.c)
     }
 
     /// Power of a uniform acceleration on the masses, W: Σ m v · a, of the carriage in x only.

@@ -50,6 +50,12 @@ impl LaneKind {
 }
 
 impl Motion {
+    /// Whether there are further laws than a linear spring.
+    #[inline]
+    pub fn has_further_laws(&self) -> bool {
+        self.damped || self.laws.cubic_n_per_m3 != 0.0
+    }
+
     /// The kind of motions this one may go side by side with; `None` where it moves alone.
     #[inline]
     pub fn side_by_side(&self) -> Option<LaneKind> {
@@ -61,7 +67,7 @@ impl Motion {
         if !known || self.freedom == Freedom::None {
             return None;
         }
-        let further = self.damped || self.laws.cubic_n_per_m3 != 0.0;
+        let further = self.has_further_laws();
         Some(match self.freedom {
             freedom if self.is_bedded() => LaneKind::Bedded(freedom),
             Freedom::Monolithic => LaneKind::AsOne { further },

@@ -59,6 +59,13 @@ impl<N: Number> MassMatrix<N> {
             }
         }
     }
+
+    /// Twice the kinetic energy, ωᵀ M ω, J.
+    #[inline(always)]
+    pub fn quadratic(&self, omega: [N; 2]) -> N {
+        let two = self.m12.constant(2.0);
+        self.m11 * omega[0] * omega[0] + two * self.m12 * omega[0] * omega[1] + self.m22 * omega[1] * omega[1]
+    }
 }
 
 impl MassMatrix {
@@ -82,12 +89,6 @@ impl MassMatrix {
     /// aᵀ M b.
     pub fn product(&self, a: Pair, b: Pair) -> f64 {
         a[0] * (self.m11 * b[0] + self.m12 * b[1]) + a[1] * (self.m12 * b[0] + self.m22 * b[1])
-    }
-
-    /// Twice the kinetic energy, ωᵀ M ω, J.
-    #[inline(always)]
-    pub fn quadratic(&self, omega: Pair) -> f64 {
-        self.m11 * omega[0] * omega[0] + 2.0 * self.m12 * omega[0] * omega[1] + self.m22 * omega[1] * omega[1]
     }
 }
 

@@ -9,6 +9,7 @@
 mod bed;
 mod bedded_lanes;
 mod contact;
+mod crack_impact;
 mod effect;
 mod formula;
 mod geometry;
@@ -27,6 +28,7 @@ mod parameters;
 mod regime;
 mod rocking;
 mod side_by_side;
+mod strike_row;
 mod top;
 mod vector;
 mod wall;
@@ -36,6 +38,7 @@ pub use bed::{Bed, CrushingJoint, JointLaw, RoundedEdges, TrilinearJoint};
 pub(crate) use bed::{BeddedMotion, Branch, Pose};
 pub(crate) use bedded_lanes::BeddedMotions;
 pub use contact::{Contact, Joint, PATTERN_NAMES, Pivot, Touching};
+pub(crate) use crack_impact::CrackRow;
 pub(crate) use effect::GroundChange;
 pub use effect::{
     Effect, EffectChoice, EffectEntry, EffectError, EffectKind, EffectParameter, EffectVariant, FurtherLaw,
@@ -51,7 +54,7 @@ pub(crate) use lane_laws::LaneKind;
 pub(crate) use mass_matrix::Freedom;
 pub use motion::MotionRate;
 pub(crate) use motion::{Configuration, Motion, RatePair};
-pub(crate) use motion_row::MotionRow;
+pub(crate) use motion_row::{MotionRow, PivotRow};
 pub(crate) use next_contact::Carried;
 pub use parameters::{ImpactLaw, Restitution, WallParameters};
 pub(crate) use regime::Kink;
@@ -59,6 +62,7 @@ pub use regime::{Regime, Side, TopMemory};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
 pub(crate) use side_by_side::{Motions, RateLanes, ReactionLanes, sin_cos_lanes};
+pub(crate) use strike_row::StrikeRow;
 pub use vector::Vector;
 pub use wall::{G_M_S2, ImpossibleWall, Wall, crushed_widths_m};
 

@@ -1,15 +1,27 @@
 //! The motions of the walls of a row in memory, from where [`super::side_by_side`] takes them into registers.
 
+use fearless_simd::{Simd, mask64x4};
+
 use super::bed::BedRow;
 use super::lane_laws::LawRow;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
-use crate::lanes::Numbers;
+use crate::lanes::{Numbers, exchange};
 
 /// The motions of the walls of a row, number by number as registers take them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct MotionRow {
     pub(super) upper: Numbers,
+    pub(super) lower_mass: Numbers,
+    pub(super) upper_mass: Numbers,
+    pub(super) pivots: PivotRow,
+    pub(super) laws: LawRow,
+    pub(super) beds: BedRow,
+}
+
+/// What of a motion depends on the corners about which it turns.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PivotRow {
     pub(super) o_x: Numbers,
     pub(super) o_c: Numbers,
     pub(super) q_x: Numbers,
@@ -21,21 +33,16 @@ pub(crate) struct MotionRow {
     pub(super) whole_moment: [Numbers; 2],
     pub(super) whole_inertia: Numbers,
     pub(super) inertias: [Numbers; 2],
-    pub(super) lower_mass: Numbers,
-    pub(super) upper_mass: Numbers,
     pub(super) lower_inertia: Numbers,
-    pub(super) laws: LawRow,
-    pub(super) beds: BedRow,
 }
 
-impl MotionRow {
-    /// Puts a motion in a lane.
+impl PivotRow {
+    /// Puts that of a motion in a lane.
     pub fn put(&mut self, i: usize, m: &Motion) {
         let put = |to: &mut [Numbers; 2], [first, second]: [f64; 2]| {
             to[0][i] = first;
             to[1][i] = second;
         };
-        self.upper[i] = f64::from(u8::from(m.freedom == Freedom::Upper));
         self.o_x[i] = m.o_x;
         self.o_c[i] = m.o_c;
         self.q_x[i] = m.q_x;
@@ -47,9 +54,36 @@ impl MotionRow {
         put(&mut self.whole_moment, [m.whole_moment.x, m.whole_moment.y]);
         self.whole_inertia[i] = m.whole_inertia;
         put(&mut self.inertias, m.inertias.to_array());
+        self.lower_inertia[i] = m.lower_inertia;
+    }
+
+    /// Exchanges those of some lanes.
+    #[inline(always)]
+    fn exchange<S: Simd>(&mut self, simd: S, which: mask64x4<S>, other: &mut Self) {
+        exchange(simd, which, &mut self.o_x, &mut other.o_x);
+        exchange(simd, which, &mut self.o_c, &mut other.o_c);
+        exchange(simd, which, &mut self.q_x, &mut other.q_x);
+        exchange(simd, which, &mut self.whole_inertia, &mut other.whole_inertia);
+        exchange(simd, which, &mut self.lower_inertia, &mut other.lower_inertia);
+        for k in 0..2 {
+            exchange(simd, which, &mut self.q[k], &mut other.q[k]);
+            exchange(simd, which, &mut self.c[k], &mut other.c[k]);
+            exchange(simd, which, &mut self.v[k], &mut other.v[k]);
+            exchange(simd, which, &mut self.u[k], &mut other.u[k]);
+            exchange(simd, which, &mut self.whole_arm[k], &mut other.whole_arm[k]);
+            exchange(simd, which, &mut self.whole_moment[k], &mut other.whole_moment[k]);
+            exchange(simd, which, &mut self.inertias[k], &mut other.inertias[k]);
+        }
+    }
+}
+
+impl MotionRow {
+    /// Puts a motion in a lane.
+    pub fn put(&mut self, i: usize, m: &Motion) {
+        self.upper[i] = f64::from(u8::from(m.freedom == Freedom::Upper));
         self.lower_mass[i] = m.lower_mass;
         self.upper_mass[i] = m.upper_mass;
-        self.lower_inertia[i] = m.lower_inertia;
+        self.pivots.put(i, m);
         self.laws.put(i, m);
         if let Some(bedded) = m.on_beds() {
             self.beds.put(i, bedded);
@@ -59,5 +93,11 @@ impl MotionRow {
     /// The formulas of a motion whose other laws are in the lane.
     pub fn put_formulas(&mut self, i: usize, m: &Motion) {
         self.laws.put_formulas(i, m);
+    }
+
+    /// Turns some walls about their other corners, and keeps what they turned about until then.
+    #[inline(always)]
+    pub fn turn_over<S: Simd>(&mut self, simd: S, which: mask64x4<S>, others: &mut PivotRow) {
+        self.pivots.exchange(simd, which, others);
     }
 }

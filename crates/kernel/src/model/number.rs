@@ -27,6 +27,10 @@ pub trait Number:
     #[must_use]
     fn root(self) -> Self;
 
+    /// Without its sign.
+    #[must_use]
+    fn magnitude(self) -> Self;
+
     /// This number, or a least one where it is below that or no number.
     #[must_use]
     fn at_least(self, least: Self) -> Self;
@@ -53,6 +57,11 @@ impl Number for f64 {
     #[inline(always)]
     fn root(self) -> Self {
         self.sqrt()
+    }
+
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        self.abs()
     }
 
     #[inline(always)]
@@ -85,6 +94,11 @@ impl<S: Simd> Number for f64x4<S> {
     #[inline(always)]
     fn root(self) -> Self {
         self.sqrt()
+    }
+
+    #[inline(always)]
+    fn magnitude(self) -> Self {
+        self.abs()
     }
 
     #[inline(always)]

@@ -233,6 +233,12 @@ impl RockingWall {
         (self.masses.m[0] + self.masses.m[1] + self.masses.m_d) * G_M_S2
     }
 
+    /// Relative velocity below which a joint that would open stays closed, rad/s.
+    #[inline]
+    pub(crate) fn capture_rad_s(&self) -> f64 {
+        self.capture_rad_s
+    }
+
     /// One over that weight, 1/N.
     #[inline]
     pub(crate) fn per_weight(&self) -> f64 {

@@ -15,6 +15,7 @@ use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4}
 use super::formula::angles;
 use super::joint_forces::{JointForces, Reactions};
 use super::lane_laws::{FurtherLanes, SpringLanes};
+use super::mass_matrix::MassMatrix;
 use super::motion_row::MotionRow;
 use super::vector::{COS, SIN, sin_cos};
 use super::wall::G_M_S2;
@@ -27,21 +28,21 @@ type F<S> = f64x4<S>;
 pub(crate) struct Motions<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
     upper: mask64x4<S>,
     any_upper: bool,
-    o_x: F<S>,
+    pub(super) o_x: F<S>,
     o_c: F<S>,
-    q_x: F<S>,
-    q: [F<S>; 2],
-    c: [F<S>; 2],
+    pub(super) q_x: F<S>,
+    pub(super) q: [F<S>; 2],
+    pub(super) c: [F<S>; 2],
     v: [F<S>; 2],
     u: [F<S>; 2],
     whole_arm: [F<S>; 2],
     whole_moment: [F<S>; 2],
     whole_inertia: F<S>,
-    inertias: [F<S>; 2],
+    pub(super) inertias: [F<S>; 2],
     lower_mass: F<S>,
     upper_mass: F<S>,
     lower_inertia: F<S>,
-    m_dp: F<S>,
+    pub(super) m_dp: F<S>,
     spring: SpringLanes<S>,
     further: Option<FurtherLanes<S>>,
 }
@@ -54,10 +55,10 @@ pub(crate) struct ConfigurationLanes<S: Simd> {
     sin_2: F<S>,
     cos_2: F<S>,
     /// r_Q, r_C, V, U.
-    q: [F<S>; 2],
-    c: [F<S>; 2],
+    pub(super) q: [F<S>; 2],
+    pub(super) c: [F<S>; 2],
     v: [F<S>; 2],
-    u: [F<S>; 2],
+    pub(super) u: [F<S>; 2],
 }
 
 impl<S: Simd> ConfigurationLanes<S> {
@@ -76,9 +77,7 @@ pub(crate) struct RateLanes<S: Simd> {
 }
 
 struct Equations<S: Simd> {
-    m11: F<S>,
-    m12: F<S>,
-    m22: F<S>,
+    mass: MassMatrix<F<S>>,
     f: [F<S>; 2],
     squares: [F<S>; 2],
     x_c: F<S>,
@@ -151,20 +150,20 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
         Self {
             upper,
             any_upper: upper.any_true(),
-            o_x: one(&row.o_x),
-            o_c: one(&row.o_c),
-            q_x: one(&row.q_x),
-            q: two(&row.q),
-            c: two(&row.c),
-            v: two(&row.v),
-            u: two(&row.u),
-            whole_arm: two(&row.whole_arm),
-            whole_moment: two(&row.whole_moment),
-            whole_inertia: one(&row.whole_inertia),
-            inertias: two(&row.inertias),
+            o_x: one(&row.pivots.o_x),
+            o_c: one(&row.pivots.o_c),
+            q_x: one(&row.pivots.q_x),
+            q: two(&row.pivots.q),
+            c: two(&row.pivots.c),
+            v: two(&row.pivots.v),
+            u: two(&row.pivots.u),
+            whole_arm: two(&row.pivots.whole_arm),
+            whole_moment: two(&row.pivots.whole_moment),
+            whole_inertia: one(&row.pivots.whole_inertia),
+            inertias: two(&row.pivots.inertias),
             lower_mass: one(&row.lower_mass),
             upper_mass: one(&row.upper_mass),
-            lower_inertia: one(&row.lower_inertia),
+            lower_inertia: one(&row.pivots.lower_inertia),
             m_dp: one(&row.laws.m_dp),
             spring: SpringLanes::new(simd, &row.laws),
             further,
@@ -283,9 +282,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
             f = [further.with(f[0], joint_moments[0]), further.with(f[1], joint_moments[1])];
         }
         Equations {
-            m11: self.inertias[0] + t.q[1] * t.q[1] * self.m_dp,
-            m22: self.inertias[1] + t.c[1] * t.c[1] * self.m_dp,
-            m12: (t.q[0] * t.u[0] + t.q[1] * t.u[1]) + self.m_dp * t.q[1] * t.c[1],
+            mass: self.mass_matrix(t),
             f,
             squares,
             x_c,
@@ -317,7 +314,8 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
 
     /// As [`super::mass_matrix::MassMatrix::solve`].
     #[inline(always)]
-    fn solve(&self, &Equations { m11, m12, m22, f: [f1, f2], .. }: &Equations<S>) -> [F<S>; 2] {
+    fn solve(&self, equations: &Equations<S>) -> [F<S>; 2] {
+        let (MassMatrix { m11, m12, m22 }, [f1, f2]) = (equations.mass, equations.f);
         if AS_ONE {
             let x = (f1 + f2) / (m11 + m12 * 2.0 + m22);
             return [x, x];

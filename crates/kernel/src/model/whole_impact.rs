@@ -13,10 +13,10 @@ use super::{MechanicsError, Table2Change};
 pub(super) struct WholeImpact {
     change: Option<Table2Change>,
     /// Velocity that the plastic impact leaves, rad/s.
-    plastic: f64,
+    pub(super) plastic: f64,
     /// Kinetic energy at 1 rad/s about the corner before, and about that after, J.
-    before_j: f64,
-    after_j: f64,
+    pub(super) before_j: f64,
+    pub(super) after_j: f64,
 }
 
 /// Pattern 3 about a corner.
@@ -42,6 +42,12 @@ impl RockingWall {
         })
     }
 
+    /// The impact of the wall that turns as one about a corner.
+    #[inline]
+    pub(super) fn whole_impact_about(&self, ground: Pivot) -> Option<&WholeImpact> {
+        self.whole_impacts[usize::from(ground == Pivot::Left)].as_ref()
+    }
+
     /// The outcome of an impact at a state whose touching joints have zero opening.
     ///
     /// # Errors
@@ -63,8 +69,7 @@ impl RockingWall {
         if !as_one || touching != BOTH || state.theta != [0.0; 2] {
             return None;
         }
-        let side = usize::from(from.ground == Pivot::Left);
-        let WholeImpact { change, plastic, before_j, after_j } = self.whole_impacts[side]?;
+        let &WholeImpact { change, plastic, before_j, after_j } = self.whole_impact_about(from.ground)?;
         let plastic = plastic * before;
         if plastic.abs() < self.capture_rad_s {
             return None;

@@ -12,7 +12,7 @@ use crate::instructions::lanes_pay;
 use crate::model::{LaneKind, Reactions};
 
 /// Steps one after another without an event, after which it pays to board a lane.
-const QUIET_STEPS: u32 = 8;
+const QUIET_STEPS: u32 = 3;
 
 /// The lane of a run.
 const LANE: usize = 0;

@@ -23,7 +23,7 @@ pub(super) fn keep<S: Simd>(which: Mask<S>, numbers: &mut Numbers, new: F<S>) {
 }
 
 #[inline(always)]
-fn keep_both<S: Simd>(which: Mask<S>, numbers: &mut [Numbers; 2], new: [F<S>; 2]) {
+pub(super) fn keep_both<S: Simd>(which: Mask<S>, numbers: &mut [Numbers; 2], new: [F<S>; 2]) {
     keep(which, &mut numbers[0], new[0]);
     keep(which, &mut numbers[1], new[1]);
 }
@@ -126,14 +126,19 @@ impl LimitRow {
 
     /// Smallest corner force of the joint that is closed, over the weight, and whether it surely stays closed.
     #[inline(always)]
-    fn corner_force<S: Simd>(&self, [_, normal, moment]: [F<S>; 3]) -> (F<S>, Mask<S>) {
-        let simd = normal.simd;
-        let (half, lever) = (normal * 0.5, moment * from_row(simd, &self.per_width));
-        let end = (half + lever).min_precise(half - lever) * from_row(simd, &self.per_weight);
+    pub fn corner_force<S: Simd>(&self, joint: [F<S>; 3]) -> (F<S>, Mask<S>) {
+        let (simd, end) = (joint[0].simd, self.least_at_corners(joint));
         let start = from_row(simd, &self.corner_force);
         let size = start.abs().max(end.abs()) + (end - start).abs();
         let stays = end.simd_ge(0.0) & start.min(end).simd_gt(size * NEAR_ZERO);
         (end, stays | from_row(simd, &self.closed).simd_eq(0.0))
+    }
+
+    /// As [`crate::model::RockingWall::smallest_corner_force`] of the joint that is closed.
+    #[inline(always)]
+    pub fn least_at_corners<S: Simd>(&self, [_, normal, moment]: [F<S>; 3]) -> F<S> {
+        let (half, lever) = (normal * 0.5, moment * from_row(normal.simd, &self.per_width));
+        (half + lever).min_precise(half - lever) * from_row(normal.simd, &self.per_weight)
     }
 
     /// Whether the pivots are under tension as they were.
@@ -171,7 +176,7 @@ impl SumRow {
     }
 
     #[inline(always)]
-    fn add<S: Simd>(done: Mask<S>, sum: &mut Numbers, more: F<S>) {
+    pub fn add<S: Simd>(done: Mask<S>, sum: &mut Numbers, more: F<S>) {
         *sum = (from_row(more.simd, sum) + done.select(more, F::splat(more.simd, 0.0))).into();
     }
 
@@ -239,7 +244,7 @@ impl Row {
 
     /// Requests the next steps of some lanes, with so much left of their pieces in s.
     #[inline(always)]
-    fn request<S: Simd>(&mut self, done: Mask<S>, left_s: F<S>) {
+    pub fn request<S: Simd>(&mut self, done: Mask<S>, left_s: F<S>) {
         let simd = left_s.simd;
         let next = self.errors.next_s(left_s);
         keep(done, &mut self.moving.h, next);
@@ -277,7 +282,7 @@ impl Row {
 
     /// Adds the steps of some lanes up.
     #[inline(always)]
-    fn account<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>, h: F<S>) {
+    pub fn account<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>, h: F<S>) {
         let normals = self.normals(landed);
         let (simd, sums, ground) = (h.simd, &mut self.sums, &self.ground);
         let start_s = from_row(simd, &ground.start_s) + from_row(simd, &ground.offset_s);
@@ -291,7 +296,13 @@ impl Row {
 
     /// Raises the largest displacement of tops that turn back inside the step, as [`super::run`] does.
     #[inline(always)]
-    fn turn_top<S: Simd, M: Stepping<S>>(&mut self, done: Mask<S>, motions: &M, landed: &Landed<S>, h: F<S>) {
+    pub fn turn_top<S: Simd, M: Stepping<S>>(
+        &mut self,
+        done: Mask<S>,
+        motions: &M,
+        landed: &Landed<S>,
+        h: F<S>,
+    ) {
         let (simd, now) = (h.simd, landed.reactions.top[1]);
         let before = from_row(simd, &self.limits.top_velocity_m_s);
         let most_m = landed.reactions.top[0].abs() + (before.abs() + now.abs()) * 2.0 * h;

@@ -234,6 +234,11 @@ pub(super) trait Stepping<S: Simd> {
     /// Displacement of the top at rotations, m.
     fn top_displacement_m(&self, theta: [F<S>; 2]) -> F<S>;
 
+    /// Goes through what happened in the steps of lanes that are left, where the row can: the bits of these lanes.
+    fn meet(&mut self, _: S, _: &mut Row, _: &Landed<S>, _: u64) -> u64 {
+        0
+    }
+
     /// Puts back what was taken out of the row.
     fn put_back(self, row: &mut MotionRow);
 }
@@ -257,6 +262,20 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S
     }
 
     #[inline(always)]
+    fn meet(&mut self, simd: S, row: &mut Row, landed: &Landed<S>, left: u64) -> u64 {
+        if FURTHER {
+            return 0;
+        }
+        let met = apart(
+            simd,
+            #[inline(always)]
+            || row.meet_impacts::<S, AS_ONE>(simd, landed, left),
+        );
+        *self = Self::new(simd, &mut row.motions);
+        met
+    }
+
+    #[inline(always)]
     fn put_back(self, row: &mut MotionRow) {
         Motions::put_back(self, row);
     }
@@ -265,10 +284,13 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S
 /// Steps of a row until something happens to one of the runs in it: gives its lane, and those of others to which
 /// something does at once.
 #[inline(always)]
-fn steps_until<S: Simd>(simd: S, motions: impl Stepping<S>, alone: bool, row: &mut Row) -> u64 {
+fn steps_until<S: Simd>(simd: S, mut motions: impl Stepping<S>, alone: bool, row: &mut Row) -> u64 {
     loop {
         let landed = motions.step(simd, row);
-        let left = row.settle(&motions, alone, &landed);
+        let mut left = row.settle(&motions, alone, &landed);
+        if left != 0 {
+            left &= !motions.meet(simd, row, &landed, left);
+        }
         if left != 0 || row.watched {
             row.landed.store(&landed);
             motions.put_back(&mut row.motions);

@@ -85,11 +85,16 @@ impl Impacts {
 
     /// Counts one impact.
     pub fn count(&mut self, change: Option<Table2Change>, captured: bool) {
-        match change {
-            Some(change) => self.table2[change.index()] += 1,
-            None => self.other += 1,
-        }
+        self.add(change, 1);
         self.captured += u64::from(captured);
+    }
+
+    /// Adds impacts of one change, none of them captured.
+    pub(crate) fn add(&mut self, change: Option<Table2Change>, count: u64) {
+        match change {
+            Some(change) => self.table2[change.index()] += count,
+            None => self.other += count,
+        }
     }
 }
 

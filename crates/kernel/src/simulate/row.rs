@@ -8,6 +8,7 @@ use std::sync::Arc;
 use fearless_simd::Simd;
 
 use super::ground_path::Piece;
+use super::lane_impacts::ImpactRow;
 use super::lane_steps::Landed;
 use super::response::Peak;
 use super::totals::raise_rotations;
@@ -32,6 +33,7 @@ pub(super) struct Row {
     pub limits: LimitRow,
     pub kinks: KinkRow,
     pub beds: BedLimitRow,
+    pub impacts: ImpactRow,
     pub sums: SumRow,
     pub landed: LandedRow,
     /// Whether the runs are watched, and then where and when they were before the last step.

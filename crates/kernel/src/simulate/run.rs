@@ -2,6 +2,7 @@
 
 mod bed;
 mod boarding;
+mod boarding_impacts;
 mod carried;
 mod ending;
 mod event;
@@ -23,6 +24,7 @@ use crate::model::{
 use crate::solver::{Controller, Point, Quintic, STAGES, Step};
 use carried::CarriedRun;
 pub(super) use carried::CarriedStep;
+pub(super) use event::{PROGRESS, SHORT};
 pub(super) use step::StepRequest;
 
 /// A run between two of its steps.

@@ -86,11 +86,11 @@ struct Pool<'w, O> {
     lanes_pay: bool,
 }
 
-/// A row and the slots of the runs in it, with the contact and the branch of the laws in which they boarded.
+/// A row and the slots of the runs in it, with the branch of the laws in which they boarded.
 #[derive(Default)]
 struct Aboard {
     row: Box<Row>,
-    slots: [Option<(usize, Contact)>; LANES],
+    slots: [Option<usize>; LANES],
     /// Of those whose laws have branches.
     regimes: [Regime; LANES],
 }
@@ -120,7 +120,7 @@ impl Aboard {
 
     fn take<O: Observer>(&mut self, i: usize, slot: usize, run: &Run<O>) {
         self.row.taken |= 1 << i;
-        self.slots[i] = Some((slot, run.contact()));
+        self.slots[i] = Some(slot);
         if let Some(regime) = run.regime() {
             self.regimes[i] = regime;
         }
@@ -232,7 +232,7 @@ impl<'w, O: Observer> Pool<'w, O> {
     /// Shows a step that was kept in a lane to whoever watches the run.
     fn show(&mut self, kind: LaneKind, i: usize) {
         let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
-        let Some((slot, _)) = slots[i] else { return };
+        let Some(slot) = slots[i] else { return };
         let Some((_, run)) = &mut self.slots[slot] else { return };
         if run.is_watched_on(row, i) {
             return;
@@ -245,13 +245,15 @@ impl<'w, O: Observer> Pool<'w, O> {
     /// Goes through what happened to the run in a lane, and lets it or another one board there.
     fn attend(&mut self, kind: LaneKind, i: usize) {
         let Aboard { row, slots, .. } = &mut self.rows[kind.index()];
-        let Some((slot, boarded)) = slots[i] else { return };
+        let Some(slot) = slots[i] else { return };
+        let mut in_lane = Contact::REST;
         if let Some((_, run)) = &mut self.slots[slot] {
             if row.limits.advances[i] == 1.0 && run.approaches_event_in(row, i) {
                 return;
             }
             slots[i] = None;
             run.alight(row, i);
+            in_lane = run.contact();
             run.finish_step(&mut row.step(i), &row.landed.reactions(i));
         }
         let number = |pool: &Self| pool.slots[slot].as_ref().map(|(number, _)| *number);
@@ -262,7 +264,7 @@ impl<'w, O: Observer> Pool<'w, O> {
         aboard.row.taken &= !(1 << i);
         match (next, &self.slots[slot]) {
             (Some(next), Some((_, run))) if next == kind => match same {
-                true => aboard.board_again(i, slot, run, boarded),
+                true => aboard.board_again(i, slot, run, in_lane),
                 false => aboard.board(i, slot, run),
             },
             (Some(next), _) => self.queues[next.index()].push(slot),

@@ -5,7 +5,7 @@ use crate::model::{Contact, Impact, JointForces};
 use crate::solver::{Bernstein, Quintic};
 
 /// A change of forces over times of 1e-7 of a sample step, with room: over such a time they change by some 1e-7.
-const LITTLE: f64 = 1e-5;
+pub(super) const LITTLE: f64 = 1e-5;
 
 /// Everything a run adds up.
 #[derive(Debug, Clone, Default)]

@@ -10,7 +10,10 @@ pub struct Bernstein<const N: usize>(pub [f64; N]);
 const MOST_HALVINGS: u32 = 40;
 
 /// Shares nearer than this are one: a root is known no better, because coefficients carry roundings.
-const SAME_SHARE: f64 = 1e-14;
+pub(super) const SAME_SHARE: f64 = 1e-14;
+
+/// Corrections of a root, more than halving takes.
+pub(super) const MOST_CORRECTIONS: u32 = 80;
 
 impl<const N: usize> Bernstein<N> {
     /// Value at a share of the interval (de Casteljau).
@@ -104,7 +107,7 @@ impl<const N: usize> Bernstein<N> {
         let (mut low, mut high) = (0.0, 1.0);
         let (first, last) = (self.0[0], self.0[N - 1]);
         let mut share = first / (first - last);
-        for _ in 0..80 {
+        for _ in 0..MOST_CORRECTIONS {
             let [value, slope, second, third] = taylor(&powers, share);
             if value >= 0.0 {
                 low = share
@@ -142,7 +145,7 @@ impl<const N: usize> Bernstein<N> {
 }
 
 /// C(N - 1, k).
-const fn binomials<const N: usize>() -> [f64; N] {
+pub(super) const fn binomials<const N: usize>() -> [f64; N] {
     let (mut choose, mut k) = ([1.0; N], 1);
     while k < N {
         choose[k] = choose[k - 1] * (N - k) as f64 / k as f64;

@@ -5,12 +5,14 @@
 //! [`Quintic`] through them, which is as accurate as the step itself.
 
 mod bernstein;
+mod bernstein_lanes;
 mod beside;
 mod controller;
 mod nystrom;
 mod quintic;
 
 pub use bernstein::Bernstein;
+pub(crate) use bernstein_lanes::{only_roots, turn_negative_once};
 pub(crate) use beside::Beside;
 pub(crate) use controller::ErrorRow;
 pub use controller::{Controller, ErrorScale};

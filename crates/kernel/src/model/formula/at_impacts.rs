@@ -35,15 +35,22 @@ impl ImpactFactors {
 }
 
 impl RockingWall {
+    /// Whether the coefficients of impacts are the same however fast these are.
+    #[inline]
+    pub(in crate::model) fn strikes_alike(&self) -> bool {
+        let ImpactFactors(factors) = &self.wall().impact_factors;
+        factors.is_empty() && self.wall().effects.impact_fading_s_per_m == 0.0
+    }
+
     /// By what the velocities before scale the coefficient of an impact; 1 where they do not matter. Where both joints touch at once, the
     /// one whose edge comes down faster counts.
     #[inline]
     pub(in crate::model) fn factor_at_impact(&self, touching: Touching, omega: Pair) -> f64 {
-        let ImpactFactors(factors) = &self.wall().impact_factors;
-        let fading_s_per_m = self.wall().effects.impact_fading_s_per_m;
-        if factors.is_empty() && fading_s_per_m == 0.0 {
+        if self.strikes_alike() {
             return 1.0;
         }
+        let ImpactFactors(factors) = &self.wall().impact_factors;
+        let fading_s_per_m = self.wall().effects.impact_fading_s_per_m;
         let closing = |joint: Joint| {
             let rate_rad_s = opening(joint, omega).abs();
             state([self.width_m(joint) * rate_rad_s, rate_rad_s, self.wall().weights_n()[joint as usize]])

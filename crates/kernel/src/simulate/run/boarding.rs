@@ -24,7 +24,7 @@ impl<O: Observer> Run<O> {
     }
 
     /// Whether steps without an event are the same for it as for any other run.
-    fn is_plain(&self) -> bool {
+    pub(super) fn is_plain(&self) -> bool {
         let formulas = self.wall.formulas();
         let watched = formulas.have_switches() || formulas.remember_largest();
         !watched && !self.wall.is_held()
@@ -35,6 +35,7 @@ impl<O: Observer> Run<O> {
         row.errors.put(i, &self.controller);
         self.board_ground(row, i);
         self.board_kinks(row, i);
+        row.impacts.cracks.put(i, &self.wall);
         self.board_contact(row, i);
     }
 
@@ -42,6 +43,7 @@ impl<O: Observer> Run<O> {
     pub fn board_contact(&self, row: &mut Row, i: usize) {
         row.motions.put(i, self.wall.motion(self.contact));
         self.board_limits(row, i);
+        self.board_impacts(row, i);
         self.board_again(row, i);
     }
 
@@ -96,9 +98,8 @@ impl<O: Observer> Run<O> {
         row.ground.put(i, piece, self.k, self.offset_s);
         row.errors.put(i, &self.controller);
         row.motions.put_formulas(i, self.wall.motion(self.contact));
-        let advances = self.advances() && self.is_plain();
+        self.board_task(row, i);
         let (limits, totals) = (&mut row.limits, &self.totals);
-        limits.advances[i] = f64::from(u8::from(advances));
         limits.put_rotations(i, &totals.theta_max);
         put(&mut limits.tension, i, totals.in_tension.map(|tension| f64::from(u8::from(tension))));
         limits.corner_force[i] = self.corner_force.unwrap_or_default();
@@ -125,6 +126,7 @@ impl<O: Observer> Run<O> {
         sums.effect_loss_j[i] = totals.energy.effect_loss_j;
         sums.passed_through_j[i] = totals.energy.passed_through_j;
         (sums.steps[i], sums.tolerance_steps[i]) = (0.0, 0.0);
+        self.board_strikes(row, i);
     }
 
     /// Shows whoever watches the step that was kept in a lane. False where they have seen enough; the run has alighted
@@ -147,6 +149,8 @@ impl<O: Observer> Run<O> {
     /// Takes over what became of it in a lane.
     pub fn alight(&mut self, row: &Row, i: usize) {
         row.errors.tell(i, &mut self.controller);
+        self.follow_lane(row, i);
+        self.take_over_impacts(row, i);
         let steps = row.sums.steps[i] as u64;
         if steps == 0 {
             return;

@@ -15,7 +15,7 @@ pub(super) const AFTER_OPENING: f64 = 1e-9;
 
 /// A share of a sample step so short that a parabola is exact over it. Its cube times any jerk of a wall is
 /// below roundings. A share and no time, so that a wall four times as large moves the same to the bit.
-const SHORT: f64 = 2e-7;
+pub(in super::super) const SHORT: f64 = 2e-7;
 /// Newton corrections of an event's time; one suffices but for grazing impacts.
 const MOST_CORRECTIONS: u32 = 4;
 
@@ -24,7 +24,7 @@ const MOST_CORRECTIONS: u32 = 4;
 /// zero.
 const MOST_EVENTS_AT_ONCE: u32 = 50_000;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
-const PROGRESS: f64 = 1e-6;
+pub(in super::super) const PROGRESS: f64 = 1e-6;
 
 impl<O: Observer> Run<O> {
     /// Keeps a step, or requests one up to the first event inside it.
@@ -85,6 +85,7 @@ impl<O: Observer> Run<O> {
     /// Requests a step up to the first event inside the one that a row has taken in a lane, without alighting. False
     /// where there is none, or the step may not be kept.
     pub fn approaches_event_in(&mut self, row: &mut Row, i: usize) -> bool {
+        self.follow_lane(row, i);
         let (step, piece, from_s) = (row.step(i), row.ground.at(i), row.ground.offset_s[i]);
         if self.wall.piecewise_laws().is_some() || self.wall.wall().gives() {
             return false;
@@ -103,8 +104,7 @@ impl<O: Observer> Run<O> {
         self.totals.work.evaluations += STAGES;
         row.errors.put(i, &controller);
         self.request_up_to(event.into(), share, step.h);
-        row.limits.advances[i] = 0.0;
-        row.moving.h[i] = self.requested_s();
+        self.board_task(row, i);
         true
     }
 

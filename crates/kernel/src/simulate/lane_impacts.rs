@@ -1,0 +1,335 @@
+//! Impacts in the lanes: walls that turn as one strike the ground and turn on about their other corner, or the crack of others
+//! closes and opens on the other side. These are most impacts of most runs, and the row goes on through them.
+//!
+//! The same sums in the same order as a run does by itself ([`super::run`]): the search for the impact, the step up to it, its
+//! correction, the accounts, the impact, and the motion after it. Where anything else may happen the step is left to the run.
+
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x4, mask64x4};
+
+use super::events::ROUNDINGS;
+use super::lane_accounts::{keep, keep_both};
+use super::lane_paths::{bound, keeps_to, scale};
+use super::lane_steps::{GroundLanes, Landed};
+use super::row::{LimitRow, Row, SumRow};
+use super::run::{PROGRESS, SHORT};
+use super::totals::LITTLE;
+use crate::lanes::{Numbers, exchange, from_row};
+use crate::model::{CrackRow, Motions, PivotRow, RateLanes, ReactionLanes, StrikeRow};
+use crate::solver::{only_roots, turn_negative_once};
+
+type F<S> = f64x4<S>;
+type Mask<S> = mask64x4<S>;
+
+/// What the impacts of the walls of a row need.
+#[derive(Debug, Default)]
+pub(super) struct ImpactRow {
+    /// 1 of walls that may go through their impacts in their lane.
+    pub known: Numbers,
+    /// 1 where the step is to reach an impact inside a longer one, of this length in s.
+    pub reaches: Numbers,
+    pub most_s: Numbers,
+    /// What the impact leaves that ends this contact state, and that which ends the one after it.
+    pub here: StrikeRow,
+    pub there: StrikeRow,
+    /// What the motion turns about after it, and the time in that pattern, s.
+    pub pivots_there: PivotRow,
+    pub time_there_s: Numbers,
+    pub cracks: CrackRow,
+    /// Openings up to this are contact, rad, and velocities below this leave a joint closed, rad/s.
+    pub contact_rad: Numbers,
+    pub capture_rad_s: Numbers,
+    pub loss_j: Numbers,
+    /// Steps since the run boarded in which an impact was found.
+    pub found: Numbers,
+}
+
+/// The end of a step to an impact, moved onto it.
+struct Reached<S: Simd> {
+    landed: Landed<S>,
+    h: F<S>,
+    /// Offset reached in the piece, s.
+    offset_s: F<S>,
+}
+
+/// What an impact leaves.
+struct Left<S: Simd> {
+    theta: [F<S>; 2],
+    omega: [F<S>; 2],
+    loss_j: F<S>,
+}
+
+/// The motion after an impact.
+struct TurnedOn<S: Simd> {
+    rate: RateLanes<S>,
+    reactions: ReactionLanes<S>,
+    corner_force: F<S>,
+}
+
+impl ImpactRow {
+    /// What impacts of walls leave that turn as one, and which of them turn on: as [`crate::model::RockingWall::impact`].
+    #[inline(always)]
+    fn whole<S: Simd>(&self, before: F<S>) -> (Left<S>, Mask<S>) {
+        let of = |numbers: &Numbers| from_row(before.simd, numbers);
+        let plastic = of(&self.here.plastic) * before;
+        let omega = of(&self.here.coefficient) * plastic;
+        let loss_j = of(&self.here.before_j) * before * before - of(&self.here.after_j) * omega * omega;
+        let left = Left { theta: [F::splat(before.simd, 0.0); 2], omega: [omega; 2], loss_j };
+        (left, plastic.abs().simd_ge(of(&self.capture_rad_s)))
+    }
+
+    /// The same of impacts at cracks that were open on these sides, where the ground is out of reach.
+    #[inline(always)]
+    fn at_crack<S: Simd, const AS_ONE: bool>(
+        &self,
+        motions: [&Motions<S, AS_ONE, false>; 2],
+        landed: &Landed<S>,
+        sides: [F<S>; 2],
+    ) -> (Left<S>, Mask<S>) {
+        let of = |numbers: &Numbers| from_row(sides[0].simd, numbers);
+        let theta = landed.position[0];
+        let limits = [of(&self.here.coefficient), of(&self.capture_rad_s)];
+        let (impact, turns_on) = self.cracks.strike(motions, (theta, landed.velocity), -sides[1], limits);
+        let apart = (sides[0] * theta).simd_gt(of(&self.contact_rad));
+        (Left { theta: [theta; 2], omega: impact.omega, loss_j: impact.loss_j }, turns_on & apart)
+    }
+}
+
+impl SumRow {
+    /// As [`super::totals::Totals::surely_outdo`].
+    #[inline(always)]
+    fn surely_outdo<S: Simd>(&self, i: usize, limits: &LimitRow, [shear, normal]: [F<S>; 2]) -> Mask<S> {
+        let of = |numbers: &Numbers| from_row(normal.simd, numbers);
+        of(&limits.tension[i]).simd_eq(0.0)
+            & (shear.abs() * (1.0 + LITTLE)).simd_lt(of(&self.friction[i]) * normal)
+            & (normal * (1.0 + LITTLE)).simd_lt(of(&self.compression_n[i]))
+    }
+}
+
+/// The opening of the joint that closes: at the ground, or at the crack.
+#[inline(always)]
+fn gap<S: Simd, const AS_ONE: bool>([lower, upper]: [F<S>; 2]) -> F<S> {
+    if AS_ONE { lower } else { upper - lower }
+}
+
+/// Where that joint is among both.
+const fn joint(as_one: bool) -> usize {
+    if as_one { 0 } else { 1 }
+}
+
+impl Row {
+    /// Finds impacts in the steps of the lanes that are left, and goes through those that were to be reached. Gives the bits of
+    /// the lanes that go on so.
+    #[inline(always)]
+    pub fn meet_impacts<S: Simd, const AS_ONE: bool>(
+        &mut self,
+        simd: S,
+        landed: &Landed<S>,
+        left: u64,
+    ) -> u64 {
+        if self.watched {
+            return 0;
+        }
+        let known = from_row(simd, &self.impacts.known).simd_eq(1.0) & Mask::from_bitmask(simd, left);
+        let reaches = from_row(simd, &self.impacts.reaches).simd_eq(1.0);
+        let found = self.find_impacts::<S, AS_ONE>(known & !reaches, landed);
+        let gone = self.go_through_impacts::<S, AS_ONE>(known & reaches, landed);
+        (found | gone).to_bitmask()
+    }
+
+    /// Requests steps up to the impacts inside those of some lanes, where nothing else happens.
+    #[inline(always)]
+    fn find_impacts<S: Simd, const AS_ONE: bool>(&mut self, which: Mask<S>, landed: &Landed<S>) -> Mask<S> {
+        if !which.any_true() {
+            return which;
+        }
+        let simd = landed.position[0].simd;
+        let all = |value: f64| F::splat(simd, value);
+        let h = from_row(simd, &self.moving.h);
+        let (path, clear) = self.closing_path::<S, AS_ONE>(landed, h);
+        let error = self.errors.of(landed.position_error, landed.velocity_error, h);
+        let advances = from_row(simd, &self.limits.advances).simd_eq(1.0);
+        let found = which & clear & advances & error.simd_le(1.0);
+        if !found.any_true() {
+            return found;
+        }
+        self.errors.propose(found, error, h);
+        keep(found, &mut self.moving.h, only_roots(found, &path) * h);
+        keep(found, &mut self.impacts.most_s, h);
+        keep(found, &mut self.impacts.reaches, all(1.0));
+        keep(found, &mut self.limits.advances, all(0.0));
+        SumRow::add(found, &mut self.impacts.found, all(1.0));
+        found
+    }
+
+    /// The gap of the joint that may close over the steps, and where it does so once and nothing else happens.
+    #[inline(always)]
+    fn closing_path<S: Simd, const AS_ONE: bool>(&self, landed: &Landed<S>, h: F<S>) -> ([F<S>; 6], Mask<S>) {
+        let (simd, scale, limits) = (h.simd, scale(h), &self.limits);
+        let side = |i: usize| from_row(simd, &limits.sides[i]);
+        let stands = |i: usize, size: F<S>| size.simd_lt(from_row(simd, &limits.collapse_rad[i]));
+        let lower = self.moving.path(0, landed, scale);
+        let (size, sum) = (bound(&lower), landed.sum(0));
+        let finite = sum.simd_eq(sum);
+        let (path, size, clear) = if AS_ONE {
+            let (_, stays_closed) = limits.corner_force(landed.reactions.crack);
+            (lower, size, finite & stands(0, size) & stands(1, size) & stays_closed)
+        } else {
+            let (upper, sum) = (bound(&self.moving.path(1, landed, scale)), landed.sum(1));
+            let stands = stands(0, size) & stands(1, upper);
+            let clear = finite & sum.simd_eq(sum) & stands & keeps_to(side(0), &lower);
+            (self.moving.opening_of_crack(landed, scale), upper, clear)
+        };
+        let side = side(joint(AS_ONE));
+        let path = path.map(|c| c * side);
+        // Beyond the rotations' own roundings on both sides.
+        let rounding = size * (ROUNDINGS * f64::EPSILON);
+        let closes = path[0].simd_gt(rounding) & path[5].simd_lt(-rounding) & turn_negative_once(&path);
+        (path, clear & closes)
+    }
+
+    /// Goes through the impacts that some lanes have reached.
+    #[inline(always)]
+    fn go_through_impacts<S: Simd, const AS_ONE: bool>(
+        &mut self,
+        which: Mask<S>,
+        landed: &Landed<S>,
+    ) -> Mask<S> {
+        if !which.any_true() {
+            return which;
+        }
+        let simd = landed.position[0].simd;
+        let (reached, on_time) = self.onto_impact::<S, AS_ONE>(landed);
+        let may = which & on_time;
+        if !may.any_true() {
+            return may;
+        }
+        let before = Motions::<S, AS_ONE, false>::new(simd, &mut self.motions);
+        self.motions.turn_over(simd, may, &mut self.impacts.pivots_there);
+        let after = Motions::<S, AS_ONE, false>::new(simd, &mut self.motions);
+        let (left, turns_on) = self.struck::<S, AS_ONE>([&before, &after], &reached.landed);
+        let (turned, stays_closed) = self.turned_on(&after, &reached, &left);
+        let (gone, back) = (may & turns_on & stays_closed, may & !(turns_on & stays_closed));
+        if back.any_true() {
+            self.motions.turn_over(simd, back, &mut self.impacts.pivots_there);
+        }
+        self.account_for_flight(gone, &before, &reached);
+        self.turn_on::<S, AS_ONE>(gone, &reached, &left, &turned);
+        gone
+    }
+
+    /// The ends of steps moved onto the impact, and where it may be so: by little, with forces that need no second look, and
+    /// joints that fall back.
+    #[inline(always)]
+    fn onto_impact<S: Simd, const AS_ONE: bool>(&self, landed: &Landed<S>) -> (Reached<S>, Mask<S>) {
+        let simd = landed.position[0].simd;
+        let of = |numbers: &Numbers| from_row(simd, numbers);
+        let (theta, omega, theta_dd) = (landed.position, landed.velocity, landed.acceleration);
+        let late_s = gap::<S, AS_ONE>(theta) / gap::<S, AS_ONE>(omega);
+        let (short_s, h, step_s) = (-late_s, of(&self.moving.h) - late_s, of(&self.ground.step_s));
+        let position = |i: usize| theta[i] + short_s * (omega[i] + short_s * 0.5 * theta_dd[i]);
+        let velocity = |i: usize| omega[i] + short_s * theta_dd[i];
+        let (position, velocity) = ([position(0), position(1)], [velocity(0), velocity(1)]);
+        let [x_c, v_c, a_c] = landed.reactions.top;
+        let top = [x_c + short_s * v_c, v_c + short_s * a_c, a_c];
+        let offset_s = of(&self.ground.offset_s) + h;
+        let [ground, crack] = [landed.reactions.ground, landed.reactions.crack];
+        let outdone = self.sums.surely_outdo(0, &self.limits, [ground[0], ground[1]])
+            & (self.sums.surely_outdo(1, &self.limits, [crack[0], crack[1]])
+                | of(&self.limits.cracked).simd_eq(0.0));
+        let falls_back = gap::<S, AS_ONE>(velocity) * of(&self.limits.sides[joint(AS_ONE)]);
+        let on_time = late_s.abs().simd_le(step_s * SHORT)
+            & h.simd_ge(step_s * PROGRESS)
+            & offset_s.simd_lt(of(&self.ground.length_s))
+            & outdone
+            & falls_back.simd_lt(0.0);
+        let reactions = ReactionLanes { top, ..landed.reactions };
+        (Reached { landed: Landed { position, velocity, reactions, ..*landed }, h, offset_s }, on_time)
+    }
+
+    /// What the impacts leave, by the motions before and after, and where these are surely those after.
+    #[inline(always)]
+    fn struck<S: Simd, const AS_ONE: bool>(
+        &self,
+        motions: [&Motions<S, AS_ONE, false>; 2],
+        landed: &Landed<S>,
+    ) -> (Left<S>, Mask<S>) {
+        let simd = landed.position[0].simd;
+        if AS_ONE {
+            return self.impacts.whole(landed.velocity[0]);
+        }
+        let sides = [0, 1].map(|i| from_row(simd, &self.limits.sides[i]));
+        self.impacts.at_crack(motions, landed, sides)
+    }
+
+    /// The motion after the impact, and whether a crack that is closed stays so in it.
+    #[inline(always)]
+    fn turned_on<S: Simd, const AS_ONE: bool>(
+        &self,
+        after: &Motions<S, AS_ONE, false>,
+        reached: &Reached<S>,
+        left: &Left<S>,
+    ) -> (TurnedOn<S>, Mask<S>) {
+        let simd = reached.h.simd;
+        let ground = GroundLanes::of_row(simd, &self.ground).at(reached.h);
+        let (rate, reactions) =
+            after.rate_and_reactions(&after.configuration(left.theta), left.omega, ground);
+        let corner_force = self.limits.least_at_corners(reactions.crack);
+        let stays = corner_force.simd_ge(0.0) | from_row(simd, &self.limits.closed).simd_eq(0.0);
+        (TurnedOn { rate, reactions, corner_force }, stays)
+    }
+
+    /// Adds up the steps to the impacts, as [`Row::settle`] does whole ones.
+    #[inline(always)]
+    fn account_for_flight<S: Simd, const AS_ONE: bool>(
+        &mut self,
+        gone: Mask<S>,
+        motions: &Motions<S, AS_ONE, false>,
+        reached: &Reached<S>,
+    ) {
+        let Reached { landed, h, .. } = reached;
+        keep(gone, &mut self.moving.h, *h);
+        let scale = scale(*h);
+        let lower = bound(&self.moving.path(0, landed, scale));
+        let upper = if AS_ONE { lower } else { bound(&self.moving.path(1, landed, scale)) };
+        let rises = |i: usize, size: F<S>| size.simd_gt(from_row(h.simd, &self.limits.theta_max_rad[i]));
+        let rises = gone & (rises(0, lower) | rises(1, upper));
+        if rises.any_true() {
+            self.landed.store_motion(landed);
+            self.raise_rotations(rises.to_bitmask());
+        }
+        self.account(gone, landed, *h);
+        self.turn_top(gone, motions, landed, *h);
+    }
+
+    /// Makes the motion after the impacts the present.
+    #[inline(always)]
+    fn turn_on<S: Simd, const AS_ONE: bool>(
+        &mut self,
+        gone: Mask<S>,
+        reached: &Reached<S>,
+        left: &Left<S>,
+        after: &TurnedOn<S>,
+    ) {
+        let simd = reached.h.simd;
+        let all = |value: f64| F::splat(simd, value);
+        let impacts = &mut self.impacts;
+        SumRow::add(gone, &mut impacts.here.count, all(1.0));
+        SumRow::add(gone, &mut impacts.loss_j, left.loss_j);
+        SumRow::add(gone, &mut self.sums.passed_through_j, left.loss_j.abs());
+        keep(gone, &mut impacts.reaches, all(0.0));
+        impacts.here.exchange(simd, gone, &mut impacts.there);
+        exchange(simd, gone, &mut self.sums.pattern_time_s, &mut impacts.time_there_s);
+        let side = &mut self.limits.sides[joint(AS_ONE)];
+        let other = -from_row(simd, side);
+        keep(gone, side, other);
+        keep(gone, &mut self.limits.advances, all(1.0));
+        keep(gone, &mut self.limits.corner_force, after.corner_force);
+        keep(gone, &mut self.limits.top_velocity_m_s, after.reactions.top[1]);
+        keep_both(gone, &mut self.moving.position, left.theta);
+        keep_both(gone, &mut self.moving.velocity, left.omega);
+        keep_both(gone, &mut self.moving.acceleration, after.rate.theta_dd);
+        keep_both(gone, &mut self.moving.powers_w, after.rate.powers_w);
+        keep(gone, &mut self.ground.offset_s, reached.offset_s);
+        self.request(gone, from_row(simd, &self.ground.length_s) - reached.offset_s);
+    }
+}

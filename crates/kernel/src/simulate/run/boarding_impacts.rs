@@ -1,0 +1,88 @@
+//! The impacts of a run that has boarded a lane: what the lane needs to go through them, and what came of those that it went through.
+
+use super::super::events::Event;
+use super::super::history::Observer;
+use super::super::row::Row;
+use super::{Run, Task};
+use crate::model::{Contact, Pivot, Table2Change, Touching};
+use crate::solver::STAGES;
+
+impl<O: Observer> Run<O> {
+    /// What impacts need that may be gone through in the lane.
+    pub(super) fn board_impacts(&self, row: &mut Row, i: usize) {
+        let (impacts, wall, contact) = (&mut row.impacts, &self.wall, self.contact);
+        let further = wall.motion(contact).has_further_laws() || wall.piecewise_laws().is_some();
+        let onto = if self.is_plain() && !further { wall.strikes_on(contact) } else { None };
+        let known = onto
+            .is_some_and(|(onto, _)| impacts.here.put(i, wall, contact) && impacts.there.put(i, wall, onto));
+        impacts.known[i] = f64::from(u8::from(known));
+        if let Some((onto, _)) = onto {
+            impacts.pivots_there.put(i, wall.motion(onto));
+            impacts.contact_rad[i] = self.contact_rad;
+            impacts.capture_rad_s[i] = wall.capture_rad_s();
+        }
+    }
+
+    /// The event of the impact that the lane goes through.
+    fn impact_in_lane(&self) -> Event {
+        Event::Impact(Touching { ground: self.contact.crack.is_closed(), crack: true })
+    }
+
+    /// Whether the step is to reach an impact that the lane may go through.
+    fn reaches_in(&self, row: &Row, i: usize) -> bool {
+        let reaches = matches!(self.task, Task::ReachEvent { event, .. } if event == self.impact_in_lane());
+        row.impacts.known[i] == 1.0 && reaches
+    }
+
+    /// Puts what the next step is for in a lane.
+    pub(super) fn board_task(&self, row: &mut Row, i: usize) {
+        row.impacts.reaches[i] = f64::from(u8::from(self.reaches_in(row, i)));
+        let advances = self.advances() && self.is_plain();
+        row.limits.advances[i] = f64::from(u8::from(advances));
+        row.moving.h[i] = self.requested_s();
+        if let Task::ReachEvent { most_s, .. } = self.task {
+            row.impacts.most_s[i] = most_s;
+        }
+    }
+
+    /// Takes over about which corners the lane has it turn by now, and what its next step is for.
+    pub(super) fn follow_lane(&mut self, row: &Row, i: usize) {
+        let impacts = &row.impacts;
+        if impacts.known[i] != 1.0 {
+            return;
+        }
+        let [ground, crack] = [0, 1].map(|joint| Pivot::of_angle(row.limits.sides[joint][i]));
+        self.contact = Contact { ground, crack };
+        let h = row.moving.h[i];
+        if impacts.reaches[i] == 1.0 {
+            self.task = Task::ReachEvent { event: self.impact_in_lane(), h, most_s: impacts.most_s[i] };
+        } else if row.limits.advances[i] == 1.0 {
+            self.task = Task::Advance { h };
+        }
+    }
+
+    /// Takes over the impacts that were gone through in a lane, and that were found there.
+    pub(super) fn take_over_impacts(&mut self, row: &Row, i: usize) {
+        let impacts = &row.impacts;
+        self.totals.work.evaluations += STAGES * impacts.found[i] as u64;
+        let onto = if impacts.known[i] == 1.0 { self.wall.strikes_on(self.contact) } else { None };
+        let Some((onto, change)) = onto else { return };
+        let [here, there] = [&impacts.here, &impacts.there].map(|strikes| strikes.count[i] as u64);
+        self.totals.work.evaluations += here + there;
+        self.totals.impacts.add(change, here);
+        self.totals.impacts.add(Table2Change::of(onto, self.contact), there);
+        self.totals.pattern_time_s[onto.index()] = impacts.time_there_s[i];
+        self.totals.energy.impact_loss_j = impacts.loss_j[i];
+    }
+
+    /// Puts what adds up over the impacts in a lane.
+    pub(super) fn board_strikes(&self, row: &mut Row, i: usize) {
+        let impacts = &mut row.impacts;
+        impacts.found[i] = 0.0;
+        let onto = if impacts.known[i] == 1.0 { self.wall.strikes_on(self.contact) } else { None };
+        let Some((onto, _)) = onto else { return };
+        (impacts.here.count[i], impacts.there.count[i]) = (0.0, 0.0);
+        impacts.time_there_s[i] = self.totals.pattern_time_s[onto.index()];
+        impacts.loss_j[i] = self.totals.energy.impact_loss_j;
+    }
+}
