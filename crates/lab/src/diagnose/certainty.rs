@@ -52,6 +52,17 @@ fn is_of_bed(h: &Hypothesis, value: usize) -> bool {
     beds.any(|(index, _)| h.unknowns[value].belongs_to(index))
 }
 
+/// Whether what stands beside a bed differs from doing nothing by more than another way to model the bed would move it.
+pub fn differs_beside_bed(tried: &FittedHypothesis) -> bool {
+    let h = &tried.hypothesis;
+    let differs = |i: usize| {
+        let value = tried.fit.values[i];
+        let [low, high] = wider_by_model([value; 2], value);
+        !(low..=high).contains(&h.unknowns[i].start)
+    };
+    (h.nuisances..h.unknowns.len()).filter(|i| !is_of_bed(h, *i)).any(differs)
+}
+
 /// An interval about a number of a bed, or of what is beside it, with what another way to model the bed would move that number by.
 ///
 /// A softness is 1/√k: its relative deviation is half that of k.
@@ -322,6 +333,23 @@ mod tests {
         let expected = residuals.iter().map(|r| r * r).sum::<f64>() / 12.0;
         assert!((covariance[(0, 0)] - 0.25).abs() < 1e-15);
         assert!((scatter(&covariance, &pulls)[(0, 0)] - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn analytic_a_gain_beside_a_bed_differs_from_one_by_more_than_another_bed_moves_it() {
+        let hypothesis = starter_with(&["compliant_joint.both", "sensor_gain.lower"]);
+        let differs = |gain: f64| {
+            let fit =
+                Fit { values: vec![3e-5, 1e-3, gain], windows: Vec::new(), cost: 0.0, covariance: None };
+            differs_beside_bed(&FittedHypothesis {
+                hypothesis: hypothesis.clone(),
+                held_out: fit.clone(),
+                fit,
+            })
+        };
+        // 1.645 times half of three parts in a hundred: 2.5 %.
+        assert!(!differs(0.99) && !differs(1.02));
+        assert!(differs(0.97) && differs(1.03));
     }
 
     #[test]

@@ -9,6 +9,7 @@ use super::remainder::is_soft;
 use super::worth_naming::{leaves_noise, worth_two};
 use super::{Remainder, Verdict, names, names_of_all};
 use crate::Progress;
+use crate::diagnose::certainty::differs_beside_bed;
 use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{
@@ -241,7 +242,7 @@ fn worth_it<P: Progress>(
     alone: &FittedHypothesis,
     pairs: &[FittedHypothesis],
 ) -> Option<(FittedHypothesis, Vec<FittedHypothesis>)> {
-    let mut pairs = pairs.iter().filter(|two| !stands_for_dampers_of_bed(two));
+    let mut pairs = pairs.iter().filter(|two| !stands_for_part_of_bed(two));
     let two = pairs.next().filter(|two| is_worth_it(trials, wall, alone, two))?;
     // What follows to the noise or takes most is near only to what does so too.
     let clearly = is_clearly_worth_it(trials, wall, alone, two);
@@ -266,25 +267,25 @@ pub(super) fn is_worth_it<P: Progress>(
     alone: &FittedHypothesis,
     two: &FittedHypothesis,
 ) -> bool {
-    if stands_for_dampers_of_bed(two) {
+    if stands_for_part_of_bed(two) {
         return false;
     }
-    is_clearly_worth_it(trials, wall, alone, two)
-        || (does_something(two) && shows_beside_own_error(alone, two))
+    let shows = || does_something(two) && differs_beside_bed(two) && shows_beside_own_error(alone, two);
+    is_clearly_worth_it(trials, wall, alone, two) || shows()
 }
 
-/// Whether what is beside a bed may stand for what dampers under the joint do by another way to model them: a damper of the bed's own
-/// joint where both leave more than noise.
-fn stands_for_dampers_of_bed(two: &FittedHypothesis) -> bool {
-    has_damper_of_bed(&two.hypothesis.additions) && !is_noise(two)
+/// Whether what is beside a bed may stand for what springs and dampers under the joint do by another way to model them: a damper or
+/// another edge of the bed's own joint, where both leave more than noise.
+fn stands_for_part_of_bed(two: &FittedHypothesis) -> bool {
+    changes_joint_of_bed(&two.hypothesis.additions) && !leaves_noise(two)
 }
 
-/// Whether a damper turns with a joint that has a bed.
-fn has_damper_of_bed(additions: &[Addition]) -> bool {
+/// Whether a damper or another edge belongs to a joint that has a bed.
+fn changes_joint_of_bed(additions: &[Addition]) -> bool {
     let of = |role: Role| additions.iter().filter(move |a| a.role() == Some(role)).map(Addition::joint);
     // A bed without a joint of its own lies in both.
     let is_on_bed = |joint| of(Role::Bed).any(|bed| bed.is_none() || bed == Some(joint));
-    of(Role::Damper).flatten().any(is_on_bed)
+    of(Role::Damper).chain(of(Role::Corners)).flatten().any(is_on_bed)
 }
 
 /// Whether an effect beside joints that give follows to the noise and gains what a second effect must. Or they leave more than
@@ -375,8 +376,10 @@ mod tests {
     }
 
     #[test]
-    fn analytic_dampers_of_a_bed_turn_with_its_joint() {
-        let has = |names: &[&str]| has_damper_of_bed(&starter_with(names).additions);
+    fn analytic_dampers_and_edges_of_a_bed_are_those_of_its_joint() {
+        let has = |names: &[&str]| changes_joint_of_bed(&starter_with(names).additions);
+        assert!(has(&["compliant_joint.ground", "corner_indentation.ground"]));
+        assert!(!has(&["compliant_joint.ground", "corner_indentation.crack"]));
         assert!(has(&["compliant_joint.both", "joint_damping.crack"]));
         assert!(has(&["compliant_joint.crack", "joint_damping.crack"]));
         assert!(!has(&["compliant_joint.ground", "joint_damping.crack"]));

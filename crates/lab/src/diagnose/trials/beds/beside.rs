@@ -6,7 +6,7 @@
 
 use super::few::Few;
 use super::probe::Probe;
-use super::{by_excess, excess, in_rounds, typical_error, widened};
+use super::{by_excess, excess, in_rounds, may_be_named, typical_error, widened};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem, WindowFit, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
@@ -64,7 +64,7 @@ impl<P: Progress> Trials<'_, P> {
         let takes = |fit: &Fit| {
             excess(&fit.windows) < most * excess(&left) || nats(&fit.windows) < most * nats(&left)
         };
-        probe.begun().into_iter().filter(|(_, fit)| takes(fit)).collect()
+        probe.begun().into_iter().filter(|begun| takes(&begun.1) && may_be_named(begun)).collect()
     }
 
     /// One addition of a pair alone, with the numbers that it has there; `None` if these make no wall.

@@ -27,7 +27,7 @@ use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem, WindowFit, nats, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::TestData;
-use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST, BEDS_WINDOWS, NEAR_BEST};
+use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST, BEDS_WINDOWS, NEAR_BEST, STIFFEST_NAMED_PA_PER_M};
 pub use beside::{in_order_of_likelihood, relieved};
 pub use few::Few;
 use probe::Probe;
@@ -96,7 +96,8 @@ impl<P: Progress> Trials<'_, P> {
             return Vec::new();
         }
         let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
-        let begun = near_best(self.begun_under(&self.starts(before, recalibrated), None));
+        let mut begun = near_best(self.begun_under(&self.starts(before, recalibrated), None));
+        begun.retain(may_be_named);
         let near = begun.into_par_iter().filter(|(h, fit)| self.comes_near(&few, rival, h, fit));
         self.fitted_from(near.collect())
     }
@@ -139,7 +140,7 @@ impl<P: Progress> Trials<'_, P> {
     ) -> Vec<FittedHypothesis> {
         let left = nats(&Few::new(self.data.fit, BEDS_WINDOWS, 1.0).left(&named.fit));
         let mut begun = self.begun_under(&self.starts(before, recalibrated), None);
-        begun.retain(|(_, fit)| nats(&fit.windows) < left);
+        begun.retain(|bed| nats(&bed.1.windows) < left && may_be_named(bed));
         self.fitted_from(near_best(begun))
     }
 
@@ -210,6 +211,18 @@ fn near_best(mut begun: Vec<(Hypothesis, Fit)>) -> Vec<(Hypothesis, Fit)> {
     begun
 }
 
+/// Stiffness of a bed as it is begun, over the stiffest that has a name, from which it goes no further.
+///
+/// Chosen, a decade: to fit one of 3e12 Pa/m to all windows took minutes, for what would have been another way to model an edge.
+const TOO_STIFF: f64 = 10.0;
+
+/// Whether a bed that was begun in few windows may be soft enough for a name once it is fitted to all.
+fn may_be_named((h, fit): &(Hypothesis, Fit)) -> bool {
+    let stiffness = h.unknowns.iter().zip(&fit.values).filter(|(unknown, _)| unknown.is_softness());
+    let mut stiffness_pa_per_m = stiffness.map(|(unknown, value)| unknown.number(*value));
+    stiffness_pa_per_m.all(|k| k < TOO_STIFF * STIFFEST_NAMED_PA_PER_M)
+}
+
 /// Fits numbers and states under the widest loss, again while that follows the windows better.
 pub(super) fn in_rounds(problem: &Problem, h: &Hypothesis, start: Fit) -> Option<Fit> {
     let mut best = start;
@@ -229,6 +242,18 @@ pub(super) fn in_rounds(problem: &Problem, h: &Hypothesis, start: Fit) -> Option
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::hypothesis::example::starter_with;
+
+    #[test]
+    fn analytic_a_bed_a_decade_too_stiff_for_a_name_goes_no_further() {
+        let h = starter_with(&["compliant_joint.both"]);
+        let begun = |stiffness_pa_per_m: f64| {
+            let values = vec![h.unknowns[0].measure.value_of(stiffness_pa_per_m), 1e-3];
+            (h.clone(), Fit { values, windows: Vec::new(), cost: 0.0, covariance: None })
+        };
+        assert!(may_be_named(&begun(9e11)));
+        assert!(!may_be_named(&begun(1.1e12)));
+    }
 
     #[test]
     fn analytic_few_windows_far_off_do_not_make_the_typical_error() {
