@@ -9,7 +9,7 @@ use super::{laws, score, twins};
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-const SETS: [(&str, Draw); 12] = [
+const SETS: [(&str, Draw); 13] = [
     ("fresh11", cases::draw::draw),
     ("beds3", cases::beds::draw),
     ("nulls3", cases::nulls::draw),
@@ -18,6 +18,7 @@ const SETS: [(&str, Draw); 12] = [
     ("beds5", cases::beds::draw),
     ("beds7", cases::beds::draw),
     ("beds8", cases::beds::draw),
+    ("beds9", cases::beds::draw),
     ("impacts1", cases::impacts::draw),
     ("nulls5", cases::nulls::draw),
     ("nulls6", cases::nulls::draw),
@@ -78,7 +79,7 @@ fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
 }
 
 /// Recorded sets of laws, in the order in which they were answered.
-const SETS_OF_LAWS: [&str; 7] = ["laws1", "laws2", "laws3", "laws4", "laws6", "laws7", "laws8"];
+const SETS_OF_LAWS: [&str; 8] = ["laws1", "laws2", "laws3", "laws4", "laws6", "laws7", "laws8", "laws9"];
 
 #[test]
 fn regress_recorded_laws_are_what_is_drawn_under_their_numbers() {
