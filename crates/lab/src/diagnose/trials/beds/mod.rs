@@ -19,7 +19,6 @@ mod few;
 mod probe;
 mod rivals;
 
-use mrbd_kernel::model::Role;
 use rayon::prelude::*;
 
 use super::search::{judged_from_measured, judged_thoroughly, states_of};
@@ -169,14 +168,13 @@ impl<P: Progress> Trials<'_, P> {
         nats(&fit.windows) - nats(&few.left(&rival.fit)) < NEAR_BEST
     }
 
-    /// A hypothesis fitted to the end with the model's own error in the place of noise: what it leaves in all windows, or with an effect
-    /// beside its beds, which shows in most of them, what it typically leaves.
+    /// A hypothesis fitted to the end with the model's own error in the place of noise: what it typically leaves, for an effect beside beds
+    /// shows in most windows; of a held strip, which has few windows and nothing to be told beside its joints, what it leaves in all.
     ///
     /// So what was known of the wall counts as much as it should, and a deviation is that of a model with such errors.
     fn finished_beside_own_error(&self, coarse: &FittedHypothesis) -> Option<FittedHypothesis> {
         let h = &coarse.hypothesis;
-        let is_alone = h.additions.iter().all(|addition| addition.role() == Some(Role::Bed));
-        let error = if is_alone { own_error(coarse) } else { typical_error(coarse) };
+        let error = if self.is_held() { own_error(coarse) } else { typical_error(coarse) };
         let tests = widened(self.data.fit.tests, error);
         let wide = Problem { tests: &tests, ..self.data.fit };
         let start = wide.states(h, &coarse.fit.values, &states_of(&coarse.fit), 1, false)?;
