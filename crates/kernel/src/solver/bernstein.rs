@@ -1,5 +1,7 @@
 //! Polynomials over a step in Bernstein form, whose coefficients bound them: crossings cannot slip through.
 
+use std::ops::{Add, Mul};
+
 /// Coefficients of a polynomial of degree N - 1 over [0, 1] in the Bernstein basis.
 ///
 /// The polynomial starts at the first coefficient, ends at the last, and stays between the smallest and the largest.
@@ -108,7 +110,7 @@ impl<const N: usize> Bernstein<N> {
         let (first, last) = (self.0[0], self.0[N - 1]);
         let mut share = first / (first - last);
         for _ in 0..MOST_CORRECTIONS {
-            let [value, slope, second, third] = taylor(&powers, share);
+            let [value, slope, second, third] = taylor(&powers, share, 0.0);
             if value >= 0.0 {
                 low = share
             } else {
@@ -154,10 +156,14 @@ pub(super) const fn binomials<const N: usize>() -> [f64; N] {
     choose
 }
 
-/// Value and slope of a polynomial by its powers, and halves and sixths of its next derivatives (Horner).
+/// Value and slope of a polynomial by its powers, and halves and sixths of its next derivatives (Horner), of one or of several side by
+/// side; `none` is zero.
 #[inline(always)]
-fn taylor<const N: usize>(powers: &[f64; N], share: f64) -> [f64; 4] {
-    let [mut value, mut slope, mut second, mut third] = [powers[N - 1], 0.0, 0.0, 0.0];
+pub(super) fn taylor<T, const N: usize>(powers: &[T; N], share: T, none: T) -> [T; 4]
+where
+    T: Copy + Add<Output = T> + Mul<Output = T>,
+{
+    let [mut value, mut slope, mut second, mut third] = [powers[N - 1], none, none, none];
     for k in (0..N - 1).rev() {
         third = third * share + second;
         second = second * share + slope;

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
-use super::bernstein::{MOST_CORRECTIONS, SAME_SHARE, binomials};
+use super::bernstein::{MOST_CORRECTIONS, SAME_SHARE, binomials, taylor};
 
 type F<S> = f64x4<S>;
 
@@ -20,10 +20,11 @@ pub(crate) fn turn_negative_once<S: Simd, const N: usize>(c: &[F<S>; N]) -> mask
 #[inline(always)]
 pub(crate) fn only_roots<S: Simd, const N: usize>(which: mask64x4<S>, c: &[F<S>; N]) -> F<S> {
     let (simd, powers) = (c[0].simd, powers(c));
-    let (mut low, mut high) = (F::splat(simd, 0.0), F::splat(simd, 1.0));
+    let none = F::splat(simd, 0.0);
+    let (mut low, mut high) = (none, F::splat(simd, 1.0));
     let (mut share, mut open) = (c[0] / (c[0] - c[N - 1]), which);
     for _ in 0..MOST_CORRECTIONS {
-        let [value, slope, second, third] = taylor(&powers, share);
+        let [value, slope, second, third] = taylor(&powers, share, none);
         let above = value.simd_ge(0.0);
         (low, high) = (above.select(share, low), above.select(high, share));
         let square = slope * slope;
@@ -58,20 +59,6 @@ fn powers<S: Simd, const N: usize>(c: &[F<S>; N]) -> [F<S>; N] {
         differences[k] *= choose[k];
     }
     differences
-}
-
-/// As [`super::bernstein`] has it.
-#[inline(always)]
-fn taylor<S: Simd, const N: usize>(powers: &[F<S>; N], share: F<S>) -> [F<S>; 4] {
-    let none = F::splat(share.simd, 0.0);
-    let [mut value, mut slope, mut second, mut third] = [powers[N - 1], none, none, none];
-    for k in (0..N - 1).rev() {
-        third = third * share + second;
-        second = second * share + slope;
-        slope = slope * share + value;
-        value = value * share + powers[k];
-    }
-    [value, slope, second, third]
 }
 
 #[cfg(test)]

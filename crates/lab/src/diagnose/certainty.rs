@@ -7,7 +7,7 @@
 use super::fit::{Fit, Loss, Problem, WindowSlopes};
 use super::hypothesis::{Addition, Hypothesis};
 pub use super::next_tests::{NextPull, NextShaking, NextTests, next_tests};
-use super::trials::{Data, FittedHypothesis, own_error, widened};
+use super::trials::{Data, FittedHypothesis, own_error, relieved, widened};
 use crate::limits::{BED_MODEL_SD, DETECTED_SD, EQUIVALENT, IMITATED_SHARE};
 use mrbd_kernel::model::Role;
 use mrbd_statistics::normal::NINETY_PERCENT;
@@ -36,7 +36,7 @@ pub fn intervals_beside_own_error(data: &Data, tried: &FittedHypothesis) -> Vec<
     let error = own_error(tried);
     let tests = widened(data.fit.tests, error);
     let mut wider = tried.clone();
-    wider.fit.windows.iter_mut().for_each(|window| window.squares /= error * error);
+    wider.fit.windows = relieved(&wider.fit.windows, error);
     let found = intervals(&Data { fit: Problem { tests: &tests, ..data.fit }, ..*data }, &wider);
     let h = &tried.hypothesis;
     let beside_bed = |i: usize| i >= h.nuisances && !is_of_bed(h, i);

@@ -58,6 +58,11 @@ impl WindowFit {
         self.squares / self.freedom
     }
 
+    /// What is left beside a model's own error, so many times the noise, in the noise's place.
+    pub fn relieved(&self, error: f64) -> Self {
+        Self { squares: self.squares / (error * error), ..self.clone() }
+    }
+
     /// Whether noise alone does not leave so much: the squared error of noise has twice its freedom as variance.
     pub fn is_poor(&self) -> bool {
         self.reduced() > 1.0 + MISSED_SD * (2.0 / self.freedom).sqrt()

@@ -132,6 +132,12 @@ impl Hypothesis {
         self.unknowns.iter().map(|u| u.start).collect()
     }
 
+    /// Stiffness of every bed that values mean, Pa/m.
+    pub fn stiffness_pa_per_m(&self, values: &[f64]) -> impl Iterator<Item = f64> {
+        let of_beds = self.unknowns.iter().zip(values).filter(|(unknown, _)| unknown.is_softness());
+        of_beds.map(|(unknown, value)| unknown.number(*value))
+    }
+
     /// The values of another hypothesis for the numbers that both have, and the start for the rest.
     pub fn values_from(&self, other: &Self, values: &[f64]) -> Vec<f64> {
         let of = |unknown: &Unknown| {

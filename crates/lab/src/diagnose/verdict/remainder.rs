@@ -108,8 +108,7 @@ fn is_other(own: &Option<Vec<EffectKind>>, kinds: Option<Vec<EffectKind>>) -> bo
 pub fn is_soft(named: &FittedHypothesis) -> bool {
     let h = &named.hypothesis;
     let gives = h.additions.iter().any(|a| a.role() == Some(Role::Bed));
-    let stiffness = h.unknowns.iter().zip(&named.fit.values).filter(|(u, _)| u.is_softness());
-    gives && stiffness.map(|(u, value)| u.number(*value)).all(|k| k < STIFFEST_NAMED_PA_PER_M)
+    gives && h.stiffness_pa_per_m(&named.fit.values).all(|k| k < STIFFEST_NAMED_PA_PER_M)
 }
 
 /// Shares of the squared error above noise taken away in the tests to fit and in those held out.

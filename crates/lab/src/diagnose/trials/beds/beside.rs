@@ -6,9 +6,9 @@
 
 use super::few::Few;
 use super::probe::Probe;
-use super::{by_excess, excess, in_rounds, may_be_named, typical_error, widened};
+use super::{by_excess, excess, in_rounds, may_be_named, relieved, typical_error, widened};
 use crate::Progress;
-use crate::diagnose::fit::{Fit, Problem, WindowFit, nats};
+use crate::diagnose::fit::{Fit, Problem, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
 use crate::diagnose::trials::imitation::seconds;
 use crate::diagnose::trials::search::{judged_from_measured, states_of, with_values};
@@ -271,15 +271,10 @@ fn nats_beside(error: f64, tried: &FittedHypothesis) -> f64 {
     nats(&relieved(&all_windows(tried), error))
 }
 
-/// What is left of windows, with an error in the place of their noise.
-pub fn relieved(windows: &[WindowFit], error: f64) -> Vec<WindowFit> {
-    let by = |window: &WindowFit| WindowFit { squares: window.squares / (error * error), ..window.clone() };
-    windows.iter().map(by).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::fit::WindowFit;
     use crate::diagnose::hypothesis::example::starter_with;
 
     /// Windows with so many times the noise, squared, of a hypothesis.
@@ -296,6 +291,7 @@ mod tests {
         let follows_most = tried("cubic_stiffness", &[1.0, 1.1, 1.2, 1.1, 1.0, 900.0, 900.0]);
         let follows_none = tried("gap", &[2.0, 2.0, 2.1, 2.0, 2.0, 100.0, 100.0]);
         assert!(joint_error(&follows_most) > joint_error(&follows_none));
+        assert!((typical_error(&follows_most).powi(2) - 1.1).abs() < 1e-12, "few far off do not make it");
         let mut both = [follows_none, follows_most];
         in_order_of_likelihood(&mut both);
         assert_eq!(both[0].hypothesis.name(), "cubic_stiffness");

@@ -1,6 +1,6 @@
 //! Few of the windows to fit, spread over all of them: enough to tell what is worth a fit to all.
 
-use super::{excess, widened};
+use super::{excess, relieved, widened};
 use crate::diagnose::fit::{Fit, Problem, WindowFit};
 use crate::diagnose::trials::FittedHypothesis;
 use crate::experiment::{TestData, Window};
@@ -44,21 +44,12 @@ impl Few {
 
     /// What a hypothesis leaves in these windows.
     pub fn left(&self, fit: &Fit) -> Vec<WindowFit> {
-        let noise_2 = self.factor * self.factor;
-        let of = |k: &usize| {
-            let window = &fit.windows[*k];
-            WindowFit { squares: window.squares / noise_2, ..window.clone() }
-        };
-        self.asked.iter().map(of).collect()
+        self.asked.iter().map(|k| fit.windows[*k].relieved(self.factor)).collect()
     }
 
     /// Squared error of a fit to these windows above that of the tests' own noise.
     pub fn excess(&self, fit: &Fit) -> f64 {
-        let own = |window: &WindowFit| WindowFit {
-            squares: self.factor * self.factor * window.squares,
-            ..window.clone()
-        };
-        excess(&fit.windows.iter().map(own).collect::<Vec<_>>())
+        excess(&relieved(&fit.windows, 1.0 / self.factor))
     }
 
     /// Squared noise of these windows, in that of the tests.
