@@ -38,6 +38,7 @@ pub use answer::Diagnosis;
 use answer::Findings;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
+use mrbd_kernel::model::Pair;
 use trials::{
     Data, FirstFits, FittedHypothesis, Trials, Unfinished, WallFits, gain_misread, misses_windows,
     opened_as_given, opened_enough, opened_windows, reads_better, set_gain, typical_error,
@@ -88,18 +89,13 @@ impl<P: Progress> Flow<'_, P> {
             return Ok(answer);
         }
         let mut first_fits = self.trials(&windows).first_fits(wall);
-        for _ in 0..READ_AGAIN {
-            let Some(gain) = first_fits.singles.first().and_then(|best| gain_misread(&self.tests, best))
-            else {
-                break;
-            };
-            let before = set_gain(&mut self.tests, gain);
+        if let Some(before) = self.read_again(&first_fits)? {
             let (new_windows, new) = self.try_first_fits()?;
-            if !reads_better(&first_fits.singles, &new.singles) {
+            if reads_better(&first_fits.singles, &new.singles) {
+                (windows, first_fits) = (new_windows, new);
+            } else {
                 set_gain(&mut self.tests, before);
-                break;
             }
-            (windows, first_fits) = (new_windows, new);
         }
         if let Some(new_windows) = opened_windows(&Data::new(&self.tests, &windows), &first_fits) {
             first_fits = self.first_fits_in(&new_windows, Some(&first_fits.recalibrated.fit.values))?;
@@ -129,6 +125,26 @@ impl<P: Progress> Flow<'_, P> {
         }
         let found = on_beds(&self.trials(&windows), &wall, beds, pairs);
         Ok(found.map(|found| (windows, found)))
+    }
+
+    /// Reads the tests without the gain of a sensor, where the best single effect is one, and again without what is left of it once it is
+    /// fitted to the windows that this makes; the gain that they were read with before, where they are read anew.
+    fn read_again(&mut self, first_fits: &FirstFits) -> Result<Option<Pair>> {
+        let Some(mut best) = first_fits.singles.first().cloned() else { return Ok(None) };
+        let mut before = None;
+        for _ in 0..READ_AGAIN {
+            let Some(gain) = gain_misread(&self.tests, &best) else { break };
+            let last = set_gain(&mut self.tests, gain);
+            before = before.or(Some(last));
+            let (windows, wall) = self.wall()?;
+            let alone = [best.hypothesis.additions.clone()];
+            let starts = [&wall.before, &wall.recalibrated];
+            let nuisances = &self.experiment.nuisances;
+            let fitted = self.trials(&windows).try_all("the gain of a sensor", nuisances, &starts, &alone);
+            let Some(next) = fitted.into_iter().next() else { break };
+            best = next;
+        }
+        Ok(before)
     }
 
     /// The windows with both bodies free where a wall on beds follows them so, if it nearly follows the tests and these are enough. What

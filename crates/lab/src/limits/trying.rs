@@ -54,6 +54,11 @@ limits! {
     PAIRED: usize = 2, "";
     /// Pairs fitted of a single effect that closes the gap but may not be alone.
     PAIRS_BESIDE_A_NAME: usize = 4, "";
+    /// Gain of the best pair over a single effect that closes the gap from which pairs are fitted from other starts, and what could imitate
+    /// them.
+    ///
+    /// Half of [`WORTH_A_SECOND_SEEN`](super::WORTH_A_SECOND_SEEN): what other starts find are tens.
+    PROMISING_PAIR: f64 = 35.0, "ln of likelihood";
     /// Pairs fitted of each single effect that is paired where none closes the gap.
     PAIRS_WITHOUT_A_NAME: usize = 7, "";
     /// Effects fitted beside the best because a linear look says that they take away most.
@@ -82,6 +87,10 @@ limits! {
     ANSWER_ROUNDS: usize = 3, "";
     /// Gain that is worth another time.
     WORTH_A_ROUND: f64 = 1.0, "ln of likelihood";
+    /// By how much the numbers that it found must be more likely than those before, where windows are linear.
+    ///
+    /// A third of a standard deviation. What else a round finds are states of windows.
+    MOVED_IN_A_ROUND: f64 = 0.05, "ln of likelihood";
 }
 
 limits! {

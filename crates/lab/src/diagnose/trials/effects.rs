@@ -4,12 +4,12 @@
 
 use super::imitation::seconds;
 use super::search::{promise, refit, shared_states, try_hypothesis, try_second};
-use super::{FittedHypothesis, Trials, against, kinds, untouched};
+use super::{FittedHypothesis, Trials, against, follow_few, kinds, untouched};
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Nuisance, candidates};
 use crate::limits::{
-    BESIDE_THE_BEST, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME, PAIRS_WITHOUT_A_NAME, REFITTED_FROM,
-    STATES_FOR_WALL, WORTH_POLISH, WORTH_TRYING_AGAIN,
+    BESIDE_THE_BEST, LEAST_MOVING, PAIRED, PAIRS_BESIDE_A_NAME, PAIRS_WITHOUT_A_NAME, PROMISING_PAIR,
+    REFITTED_FROM, STATES_FOR_WALL, WORTH_POLISH, WORTH_TRYING_AGAIN,
 };
 use mrbd_kernel::model::Role;
 use rayon::prelude::*;
@@ -78,15 +78,38 @@ impl<P: Progress> Trials<'_, P> {
         let better = nearest.fold(recalibrated.clone(), |part, whole| self.better_part(part, whole));
         let worth = WORTH_POLISH.max(WORTH_TRYING_AGAIN * against(&self.data, &better));
         if against(&self.data, &recalibrated) - against(&self.data, &better) < worth {
-            let singles = self.polished(nuisances, before, singles, &better);
+            let singles = self.polished_if_near(before, singles, &better);
             return (better, self.with_giving(singles));
         }
         // What was tried before had missed the same; the best need not have.
         let starts = [Some(&better), singles.first()].into_iter().flatten().collect::<Vec<_>>();
         let again = self.try_all("single effects again", nuisances, &starts, &sets);
         let best = self.best_of_each([singles, again].concat());
-        let singles = self.polished(nuisances, before, best, &better);
+        let singles = self.polished_if_near(before, best, &better);
         (better, self.with_giving(singles))
+    }
+
+    /// Single effects in order, the best fitted once more unless even the one that follows best misses many windows: a law outside the
+    /// catalogue is looked for before these are.
+    fn polished_if_near(
+        &self,
+        before: &FittedHypothesis,
+        singles: Vec<FittedHypothesis>,
+        simpler: &FittedHypothesis,
+    ) -> Vec<FittedHypothesis> {
+        if follow_few(&singles) {
+            return singles;
+        }
+        self.polished(&self.experiment.nuisances, before, singles, simpler)
+    }
+
+    /// Single effects in order that even at best miss many windows, fitted once more.
+    pub fn far_again(&self, wall: &WallFits, singles: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
+        if !follow_few(&singles) {
+            return singles;
+        }
+        let again = self.polished(&self.experiment.nuisances, &wall.before, singles, &wall.recalibrated);
+        self.with_far_refined(self.with_giving(again))
     }
 
     /// Where single effects start: from the wall as given, and where one of its numbers was not known, with that fitted.
@@ -123,6 +146,10 @@ impl<P: Progress> Trials<'_, P> {
         let tried = self.finished(self.ordered(tried));
         let nearest = self.beside(answers.first().copied().unwrap_or(single));
         let tried = self.best_of_each([tried, nearest].concat());
+        let gain = |pair| against(&self.data, single) - against(&self.data, pair);
+        if name && tried.first().is_none_or(|pair| gain(pair) < PROMISING_PAIR) {
+            return tried;
+        }
         let tried = self.polished(&self.experiment.nuisances, before, tried, single);
         self.with_imitations(self.with_giving(tried), gap)
     }

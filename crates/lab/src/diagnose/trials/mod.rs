@@ -40,6 +40,7 @@ pub use friction::{FRICTION, giving_friction, kind_of};
 pub use joint_laws::crushes;
 pub use patterns::{gain_misread, reads_better, set_gain};
 pub use patterns::{opened_as_given, opened_enough, opened_under, opened_windows};
+pub use refinement::follow_few;
 #[cfg(test)]
 pub use search::try_hypothesis;
 pub use search::{judged, refit, shared_states, untouched, with_values};

@@ -15,29 +15,33 @@ use super::{FittedHypothesis, Trials, against, kinds};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
-use crate::limits::{ANSWER_FINISHED, ANSWER_ROUNDS, ANSWER_SHARES, LAW_SHARES, ONE_PLACE, WORTH_A_ROUND};
+use crate::limits::{
+    ANSWER_FINISHED, ANSWER_ROUNDS, ANSWER_SHARES, LAW_SHARES, MOVED_IN_A_ROUND, ONE_PLACE, WORTH_A_ROUND,
+};
 
 impl<P: Progress> Trials<'_, P> {
     /// Single effects in order. Where even the one that follows the windows best misses many of them, that one is
     /// refined. What such windows say is at its bound, and a fit ends before the numbers of the right law.
     pub fn with_far_refined(&self, tried: Vec<FittedHypothesis>) -> Vec<FittedHypothesis> {
-        let answers = tried.iter().filter(|t| kinds(t).is_some());
-        let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
-        let Some(far) = follows.filter(|t| t.fit.is_far()).cloned() else { return tried };
+        let Some(far) = follows_best(&tried).filter(|t| t.fit.is_far()).cloned() else { return tried };
         let refined = self.refined(far);
         self.best_of_each([tried, vec![refined]].concat())
     }
 
     /// The same additions with the numbers and states that speak least against them.
+    ///
+    /// A round that finds better states of windows and leaves the numbers where they are is the last: they do not hang on these.
     pub fn refined(&self, answer: FittedHypothesis) -> FittedHypothesis {
         let mut best = answer;
         for _ in 0..ANSWER_ROUNDS {
             let next = self.once_more(&best);
             let gain = against(&self.data, &best) - against(&self.data, &next);
+            let goes_on =
+                gain > WORTH_A_ROUND && likelihood_apart(&next.fit, &best.fit.values) > MOVED_IN_A_ROUND;
             if gain > 0.0 {
                 best = next;
             }
-            if gain < WORTH_A_ROUND {
+            if !goes_on {
                 break;
             }
         }
@@ -93,14 +97,31 @@ fn come_together(problem: &Problem, h: &Hypothesis, mut begun: Vec<Fit>) -> Vec<
     places.into_iter().filter_map(again).collect()
 }
 
-/// Whether values are as likely as those of a fit, where windows are linear, but for [`ONE_PLACE`].
+/// Whether values are as likely as those of a fit but for [`ONE_PLACE`].
 fn is_at(place: &Fit, values: &[f64]) -> bool {
+    likelihood_apart(place, values) < ONE_PLACE
+}
+
+/// By how much values are less likely than those of a fit, in natural logarithms, where windows are linear; without end where nothing is
+/// known of that.
+fn likelihood_apart(place: &Fit, values: &[f64]) -> f64 {
     let Some(covariance) = place.covariance.clone().and_then(nalgebra::DMatrix::cholesky) else {
-        return false;
+        return f64::INFINITY;
     };
     let apart = place.values.iter().zip(values).map(|(own, other)| other - own);
     let apart = DVector::from_iterator(values.len(), apart);
-    0.5 * apart.dot(&covariance.solve(&apart)) < ONE_PLACE
+    0.5 * apart.dot(&covariance.solve(&apart))
+}
+
+/// The effect or pair of effects that follows the windows with the least error, however unlikely.
+fn follows_best(tried: &[FittedHypothesis]) -> Option<&FittedHypothesis> {
+    let answers = tried.iter().filter(|t| kinds(t).is_some());
+    answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()))
+}
+
+/// Whether even the effect that follows the windows best misses many of them.
+pub fn follow_few(tried: &[FittedHypothesis]) -> bool {
+    follows_best(tried).is_some_and(|best| best.fit.is_far())
 }
 
 /// The values with one added number after the other moved; of an effect of more than two, all of them together.

@@ -8,7 +8,6 @@ use super::at_impacts::{
 use super::beds_beside::BedsBeside;
 use super::found::Found;
 use super::on_beds::{on_beds_instead, on_beds_last};
-use super::outside::follow_few;
 use super::worth_naming::{could_show, place, worth_two};
 use super::{OtherLaw, Verdict};
 use super::{name_of_number, names, names_of_all};
@@ -17,8 +16,8 @@ use crate::diagnose::discovery::Discovered;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
 use crate::diagnose::trials::{
-    FirstFits, FittedHypothesis, Trials, WallFits, against, best_answer, closes, does_something, is_noise,
-    joint_error, kinds,
+    FirstFits, FittedHypothesis, Trials, WallFits, against, best_answer, closes, does_something, follow_few,
+    is_noise, joint_error, kinds,
 };
 use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
 use mrbd_kernel::model::{EffectKind, Role};
@@ -112,7 +111,7 @@ impl<P: Progress> Gap<'_, P> {
     /// One effect or two by name, or the place of what is missing.
     fn with_effects(self, singles: Vec<FittedHypothesis>, gain: f64) -> Found {
         let early = if follow_few(&singles) { self.told_early(&singles) } else { None };
-        let singles = if early.is_some() { singles } else { self.trials.with_far_refined(singles) };
+        let singles = if early.is_some() { singles } else { self.trials.far_again(&self.wall, singles) };
         let singles = self.trials.with_imitations(singles, self.error);
         if self.only_other_impacts(&singles) {
             return self.other_impacts(singles);

@@ -10,7 +10,7 @@ use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refuse
 use crate::diagnose::force::{ForcePoint, acts_at_top, force_points, lie_along_top};
 use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{FittedHypothesis, against, closes, closes_held_out, joint_error, kinds};
+use crate::diagnose::trials::{FittedHypothesis, against, closes, closes_held_out, joint_error};
 use crate::limits::{BEDS_GAP, EQUIVALENT, TREND_SHARE_ON_BEDS, WORTH_A_NAME};
 use mrbd_kernel::model::Role;
 
@@ -21,13 +21,6 @@ fn with_curve(placed: Found) -> Found {
         Some(after) => Found { verdict: Verdict::Curve, after, ..placed },
         None => placed,
     }
-}
-
-/// Whether even the single effect that follows the windows best misses many of them.
-pub(super) fn follow_few(singles: &[FittedHypothesis]) -> bool {
-    let answers = singles.iter().filter(|t| kinds(t).is_some());
-    let follows = answers.min_by(|a, b| a.fit_error().total_cmp(&b.fit_error()));
-    follows.is_some_and(|follows| follows.fit.is_far())
 }
 
 impl<P: Progress> AskedOfLaws for Gap<'_, P> {
@@ -52,8 +45,9 @@ impl<P: Progress> AskedOfLaws for Gap<'_, P> {
 }
 
 impl<P: Progress> Gap<'_, P> {
-    /// A law outside the catalogue that leaves noise, but for what another formulation of a contact leaves, and acts at the top: no effect
-    /// needs to be fitted once more, nor do joints that give beside one. Looked for once.
+    /// A law outside the catalogue that leaves noise, but for what another formulation of a contact leaves, and acts at the top, or is one
+    /// atom at a joint beside which points say no more of two, as they would beside a bed: no effect needs to be fitted once more, nor do
+    /// joints that give beside one. Looked for once.
     pub(super) fn told_early(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
         if self.early.get().is_some() {
             return None;
@@ -69,8 +63,11 @@ impl<P: Progress> Gap<'_, P> {
         let laws = found.equals.iter().flat_map(|t| t.hypothesis.laws(&t.fit.values));
         let is_none_of_it = !laws.into_iter().any(|law| is_of_catalogue(&law));
         let best = found.equals.first()?;
-        let at_top = best.hypothesis.additions[0].place() == "top" && may_act_at_top;
-        (is_none_of_it && at_top && self.leaves_nothing(best)).then_some(found)
+        let is_told = match best.hypothesis.additions[0].place() {
+            "top" => may_act_at_top,
+            _ => found.is_all_of_one_atom(),
+        };
+        (is_none_of_it && is_told && self.leaves_nothing(best)).then_some(found)
     }
 
     /// Whether what the wall as given lacks may be a force at the top, and nothing that joints do which give: it lies along the direction
