@@ -7,6 +7,10 @@ limits! {
     TRIED:
     /// Most starts of two or more added numbers that are fitted coarsely.
     BEGUN: usize = 3, "";
+    /// Windows that coarse fits are made to, where there are half as many more.
+    ///
+    /// They tell what is worth a fit to all. Chosen: blind cases have about a hundred.
+    COARSE_WINDOWS: usize = 40, "";
     /// Share of the size that matters from which a start of one number does something.
     STARTS_FROM: f64 = 0.05, "share";
     /// Coarse fits that are always fitted to the end.

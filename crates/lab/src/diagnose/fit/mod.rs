@@ -40,6 +40,8 @@ pub use window_fit::{WindowFit, fit_windows};
 
 /// Steps of the states of windows after the numbers.
 const STEPS_AGAIN: usize = 2;
+/// The same from states that another hypothesis left.
+const STEPS_OF_COARSE: usize = 3;
 
 /// A fitted hypothesis.
 #[derive(Debug, Clone)]
@@ -173,6 +175,13 @@ impl Problem<'_> {
             self.search(&replay, &mut found, steps);
         }
         found.cost = cost(h, &found, Loss::NEAR);
+        Some(found)
+    }
+
+    /// The states of all windows with the numbers of a coarse fit to some, from those of another hypothesis.
+    pub fn states_of_coarse(&self, h: &Hypothesis, values: &[f64], x: &[Vec<f64>]) -> Option<Fit> {
+        let mut found = self.states(h, values, x, STEPS_OF_COARSE, false)?;
+        found.cost = cost(h, &found, Loss::Likelihood);
         Some(found)
     }
 

@@ -7,7 +7,8 @@
 
 use rayon::prelude::*;
 
-use super::beds::{Few, in_rounds, own_error};
+use super::Few;
+use super::beds::{in_rounds, own_error};
 use super::search::judged_from_measured;
 use super::{FittedHypothesis, Trials};
 use crate::Progress;

@@ -4,6 +4,7 @@
 //! | --- | --- |
 //! | `search` | one hypothesis: where its fit may start, the fit, and whether it is worth fitting to the end |
 //! | `fitted_hypothesis` | what came of it: whether it follows the tests within noise, closes a gap, does something |
+//! | `few` | few of the windows to fit, enough to tell what is worth a fit to all |
 //! | `effects` | the wall as given, its own numbers, effects one by one and in pairs |
 //! | `refinement` | an answer fitted again from about where it was found |
 //! | [`Unfinished`] | fits that ended because they had worked as much as they may |
@@ -18,6 +19,7 @@
 mod beds;
 mod between_impacts;
 mod effects;
+mod few;
 mod fitted_hypothesis;
 mod friction;
 mod imitation;
@@ -31,6 +33,7 @@ mod unfinished;
 pub use beds::{excess, in_order_of_likelihood, own_error, relieved, typical_error, widened};
 pub use between_impacts::BetweenImpacts;
 pub use effects::{FirstFits, WallFits};
+use few::Few;
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
     against, all_windows, best_answer, closes, closes_held_out, does_something, follows_to_noise, is_noise,

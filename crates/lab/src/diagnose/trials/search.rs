@@ -2,8 +2,8 @@
 //!
 //! Fits are coarse at first; only some are worth fitting to the end.
 
-use super::{Data, FittedHypothesis};
-use crate::diagnose::fit::Fit;
+use super::{Data, Few, FittedHypothesis};
+use crate::diagnose::fit::{Fit, Problem};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::limits::{BEGUN, FOLLOWING, LEAST_FINISHED, MOST_FINISHED, NEAR_BEST, STARTS_FROM};
 
@@ -118,7 +118,8 @@ pub fn try_hypothesis(
     finish(data, &try_coarsely(data, hypothesis, &[from])?)
 }
 
-/// The best coarse fit from starts about `base` that move the numbers from the `first` on; starts are compared at a glance.
+/// The best coarse fit from starts about `base` that move the numbers from the `first` on; to few windows where there are many, and the
+/// states of all with its numbers.
 fn best_coarse(
     data: &Data,
     h: &Hypothesis,
@@ -126,18 +127,41 @@ fn best_coarse(
     base: &[f64],
     first: usize,
 ) -> Option<Fit> {
-    let mut glances = glances(data, h, from, &ladder(h, base, first, &SIZES))?;
+    let Some(few) = Few::of_coarse(data.fit, &from.fit) else {
+        return best_coarse_in(data.fit, h, &from.hypothesis, &from.fit, base, first);
+    };
+    let found = best_coarse_in(few.problem(), h, &from.hypothesis, &few.of(from).fit, base, first)?;
+    let all = data.fit.states_of_coarse(h, &found.values, &states_of(&from.fit))?;
+    Some(Fit { covariance: found.covariance, ..all })
+}
+
+/// The same in windows as they are, which a fit of another hypothesis follows; starts are compared at a glance.
+fn best_coarse_in(
+    problem: Problem,
+    h: &Hypothesis,
+    other: &Hypothesis,
+    from: &Fit,
+    base: &[f64],
+    first: usize,
+) -> Option<Fit> {
+    let mut glances = glances(problem, h, other, from, &ladder(h, base, first, &SIZES))?;
     glances.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let begun =
         if h.unknowns.len() - first >= 2 { several(glances) } else { with_a_size(h, base, first, glances) };
-    let fits = begun.into_iter().filter_map(|start| data.fit.fit_coarsely(h, start));
+    let fits = begun.into_iter().filter_map(|start| problem.fit_coarsely(h, start));
     fits.min_by(|a, b| a.cost.total_cmp(&b.cost))
 }
 
 /// The states of another hypothesis, looked at with values of this one.
-fn glances(data: &Data, h: &Hypothesis, from: &FittedHypothesis, starts: &[Vec<f64>]) -> Option<Vec<Fit>> {
-    let chords = data.fit.chords(&from.hypothesis, &from.fit)?;
-    Some(starts.iter().filter_map(|values| data.fit.glance(h, values, &from.fit, &chords)).collect())
+fn glances(
+    problem: Problem,
+    h: &Hypothesis,
+    other: &Hypothesis,
+    from: &Fit,
+    starts: &[Vec<f64>],
+) -> Option<Vec<Fit>> {
+    let chords = problem.chords(other, from)?;
+    Some(starts.iter().filter_map(|values| problem.glance(h, values, from, &chords)).collect())
 }
 
 /// A fit with the tests held out beside it, of which the states alone are fitted. They start from those of another
@@ -237,7 +261,10 @@ pub fn promise(data: &Data, hypothesis: &Hypothesis, first: &FittedHypothesis) -
         return None;
     }
     let starts = ladder(hypothesis, &base, second, &FEW_SIZES);
-    glances(data, hypothesis, first, &starts)?.iter().map(|fit| fit.cost).min_by(f64::total_cmp)
+    glances(data.fit, hypothesis, &first.hypothesis, &first.fit, &starts)?
+        .iter()
+        .map(|fit| fit.cost)
+        .min_by(f64::total_cmp)
 }
 
 /// Fits a second addition beside one that was fitted, coarsely, from its values.

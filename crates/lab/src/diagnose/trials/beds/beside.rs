@@ -4,7 +4,6 @@
 //! joints that give, what these leave stands in the place of noise ([`widened`]). Few windows tell which effects are worth a
 //! fit to all of them.
 
-use super::few::Few;
 use super::probe::Probe;
 use super::{by_excess, excess, in_rounds, may_be_named, relieved, typical_error, widened};
 use crate::Progress;
@@ -12,7 +11,7 @@ use crate::diagnose::fit::{Fit, Problem, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
 use crate::diagnose::trials::imitation::seconds;
 use crate::diagnose::trials::search::{judged_from_measured, states_of, with_values};
-use crate::diagnose::trials::{Data, FittedHypothesis, Trials, all_windows, joint_error};
+use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, all_windows, joint_error};
 use crate::limits::{
     BEDS_ASKED_FOR, BEDS_BESIDE_EFFECTS, BEDS_NEAR_BEST, BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR,
     BESIDE_BEDS_GAP, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL, WORTH_A_NAME,

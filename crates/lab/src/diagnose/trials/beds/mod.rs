@@ -15,7 +15,6 @@
 //! model leaves, as if that were the noise.
 
 mod beside;
-mod few;
 mod probe;
 mod rivals;
 
@@ -23,14 +22,13 @@ use mrbd_statistics::median;
 use rayon::prelude::*;
 
 use super::search::{judged_from_measured, judged_thoroughly, states_of};
-use super::{FittedHypothesis, Trials, WallFits, all_windows, joint_error};
+use super::{Few, FittedHypothesis, Trials, WallFits, all_windows, joint_error};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem, WindowFit, nats, windowed_error};
 use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::TestData;
 use crate::limits::{BEDS_GAP, BEDS_NEAR_BEST, BEDS_WINDOWS, NEAR_BEST, STIFFEST_NAMED_PA_PER_M};
 pub use beside::in_order_of_likelihood;
-pub use few::Few;
 use probe::Probe;
 
 /// Squared error of windows above that of noise.
@@ -97,8 +95,7 @@ impl<P: Progress> Trials<'_, P> {
             return Vec::new();
         }
         let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
-        let mut begun = near_best(self.begun_under(&self.starts(before, recalibrated), None));
-        begun.retain(may_be_named);
+        let begun = near_best(self.begun_under(&self.starts(before, recalibrated), None));
         let near = begun.into_par_iter().filter(|(h, fit)| self.comes_near(&few, rival, h, fit));
         self.fitted_from(near.collect())
     }
@@ -118,7 +115,7 @@ impl<P: Progress> Trials<'_, P> {
         self.fitted_from(near_best(self.begun_under(walls, without)))
     }
 
-    /// The same as they are begun in few windows, the best first.
+    /// The same as they are begun in few windows, the best first, without those too stiff for a name.
     fn begun_under(
         &self,
         walls: &[&FittedHypothesis],
@@ -129,7 +126,9 @@ impl<P: Progress> Trials<'_, P> {
         }
         let probes = walls.iter().filter_map(|wall| Probe::new(self, wall, without));
         let probe = probes.min_by(|a, b| a.least().total_cmp(&b.least()));
-        probe.map(Probe::begun).unwrap_or_default()
+        let mut begun = probe.map(Probe::begun).unwrap_or_default();
+        begun.retain(may_be_named);
+        begun
     }
 
     /// Joints that give in the place of an effect that closes a gap and leaves more than noise; none where they follow few windows
@@ -141,7 +140,7 @@ impl<P: Progress> Trials<'_, P> {
     ) -> Vec<FittedHypothesis> {
         let left = nats(&Few::new(self.data.fit, BEDS_WINDOWS, 1.0).left(&named.fit));
         let mut begun = self.begun_under(&self.starts(before, recalibrated), None);
-        begun.retain(|bed| nats(&bed.1.windows) < left && may_be_named(bed));
+        begun.retain(|bed| nats(&bed.1.windows) < left);
         self.fitted_from(near_best(begun))
     }
 

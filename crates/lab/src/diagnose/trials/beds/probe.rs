@@ -1,11 +1,10 @@
 //! Beds looked at in few windows: whether these ask for one, and where its fit begins.
 
-use super::few::Few;
 use super::{by_excess, excess, in_rounds};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, WindowFit};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, Measure, beds};
-use crate::diagnose::trials::{FittedHypothesis, Trials};
+use crate::diagnose::trials::{Few, FittedHypothesis, Trials};
 use crate::limits::{
     BED_DAMPING, BED_HALF_DECADES, BED_OTHER_DAMPINGS, BEDS_ASKED_FOR, BEDS_WINDOWS, HELD_DAMPING,
 };

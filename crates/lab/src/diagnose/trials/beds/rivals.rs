@@ -2,9 +2,9 @@
 //!
 //! They lie far above what joints that give leave: few windows tell which come nearest, and a coarse fit to all how near.
 
-use super::few::Few;
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, candidates};
+use crate::diagnose::trials::Few;
 use crate::diagnose::trials::search::{judged, promise, states_of, try_coarsely};
 use crate::diagnose::trials::{Data, FittedHypothesis, Trials};
 use crate::limits::{BED_RIVALS, BED_RIVALS_IN_FEW, BEDS_WINDOWS};

@@ -1,9 +1,9 @@
 //! Few of the windows to fit, spread over all of them: enough to tell what is worth a fit to all.
 
-use super::{excess, relieved, widened};
+use super::{FittedHypothesis, excess, relieved, widened};
 use crate::diagnose::fit::{Fit, Problem, WindowFit};
-use crate::diagnose::trials::FittedHypothesis;
 use crate::experiment::{TestData, Window};
+use crate::limits::COARSE_WINDOWS;
 
 /// Few windows of tests whose noise is so many times as large.
 pub struct Few {
@@ -24,7 +24,14 @@ impl Few {
     /// What is missing beside an effect may show in few windows, as a joint that seldom opens.
     pub fn followed_worst(problem: Problem, most: usize, fit: &Fit) -> Self {
         let left = fit.windows.iter().map(WindowFit::reduced).collect::<Vec<_>>();
-        Self::these(problem, worst_and_spread(&left, most), 1.0)
+        Self::these(problem, worst_and_spread(&left, most / 2, most), 1.0)
+    }
+
+    /// The windows that coarse fits are made to, a quarter of them those that a fit follows worst; `None` where that would be nearly all.
+    pub fn of_coarse(problem: Problem, fit: &Fit) -> Option<Self> {
+        let left = fit.windows.iter().map(WindowFit::reduced).collect::<Vec<_>>();
+        let asked = worst_and_spread(&left, COARSE_WINDOWS / 4, COARSE_WINDOWS);
+        (left.len() > COARSE_WINDOWS * 3 / 2).then(|| Self::these(problem, asked, 1.0))
     }
 
     fn these(problem: Problem, asked: Vec<usize>, factor: f64) -> Self {
@@ -71,11 +78,11 @@ fn spread_over(count: usize, most: usize) -> Vec<usize> {
     (0..chosen).map(|i| i * count / chosen).collect()
 }
 
-/// At most `most` of the places of these errors: half of them where they are largest, the others spread evenly over the rest.
-fn worst_and_spread(errors: &[f64], most: usize) -> Vec<usize> {
+/// At most `most` of the places of these errors: so many of them where they are largest, the others spread evenly over the rest.
+fn worst_and_spread(errors: &[f64], worst: usize, most: usize) -> Vec<usize> {
     let mut places = (0..errors.len()).collect::<Vec<_>>();
     places.sort_by(|a, b| errors[*b].total_cmp(&errors[*a]));
-    let mut rest = places.split_off((most / 2).min(places.len()));
+    let mut rest = places.split_off(worst.min(places.len()));
     rest.sort_unstable();
     let spread = spread_over(rest.len(), most - places.len()).into_iter().map(|k| rest[k]);
     places.extend(spread);
@@ -98,8 +105,8 @@ mod tests {
     fn analytic_half_of_few_windows_are_those_followed_worst() {
         let errors = [1.0, 9.0, 1.0, 1.0, 1.0, 8.0, 1.0, 7.0];
         // 1 and 5 are the worst; of 0, 2, 3, 4, 6 and 7 the first and the fourth.
-        assert_eq!(worst_and_spread(&errors, 4), [0, 1, 4, 5]);
-        assert_eq!(worst_and_spread(&errors[..2], 4), [0, 1]);
-        assert!(worst_and_spread(&[], 4).is_empty());
+        assert_eq!(worst_and_spread(&errors, 2, 4), [0, 1, 4, 5]);
+        assert_eq!(worst_and_spread(&errors[..2], 2, 4), [0, 1]);
+        assert!(worst_and_spread(&[], 2, 4).is_empty());
     }
 }
