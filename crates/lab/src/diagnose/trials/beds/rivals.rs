@@ -4,9 +4,8 @@
 
 use crate::Progress;
 use crate::diagnose::hypothesis::{Addition, Hypothesis, candidates};
-use crate::diagnose::trials::Few;
 use crate::diagnose::trials::search::{judged, promise, states_of, try_coarsely};
-use crate::diagnose::trials::{Data, FittedHypothesis, Trials};
+use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials};
 use crate::limits::{BED_RIVALS, BED_RIVALS_IN_FEW, BEDS_WINDOWS};
 use rayon::prelude::*;
 
