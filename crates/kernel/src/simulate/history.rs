@@ -15,6 +15,10 @@ pub trait Observer {
     fn watches(&self) -> bool {
         true
     }
+    /// The time, s, up to which the motion need not be shown: all of it is, but for stretches that are known to end by then.
+    fn wants_from_s(&self) -> f64 {
+        f64::NEG_INFINITY
+    }
     /// Whether the rest of the run is not worth its time; checked at every sample of the record. The response
     /// is then that of the part that was run.
     fn seen_enough(&self) -> bool {
@@ -37,6 +41,10 @@ impl<O: Observer + ?Sized> Observer for &mut O {
 
     fn watches(&self) -> bool {
         (**self).watches()
+    }
+
+    fn wants_from_s(&self) -> f64 {
+        (**self).wants_from_s()
     }
 
     fn seen_enough(&self) -> bool {

@@ -10,6 +10,7 @@ use super::ground_path::LEAST_PIECE;
 use super::lane_paths::{bound, keeps_to, scale, value};
 use super::lane_steps::{Landed, Stepping};
 use super::row::{GroundRow, LimitRow, MovingRow, Row, Samples, SumRow};
+use super::run::PROGRESS;
 use crate::lanes::{Numbers, from_row, lanes};
 use crate::model::Vector;
 
@@ -143,7 +144,7 @@ impl LimitRow {
 
     /// Whether the pivots are under tension as they were.
     #[inline(always)]
-    fn same_tension<S: Simd>(&self, normals: [F<S>; 2]) -> Mask<S> {
+    pub fn same_tension<S: Simd>(&self, normals: [F<S>; 2]) -> Mask<S> {
         let simd = normals[0].simd;
         let none = F::splat(simd, 0.0);
         let now = |normal: F<S>| normal.simd_lt(0.0).select(F::splat(simd, 1.0), none);
@@ -216,6 +217,25 @@ impl Row {
         left
     }
 
+    /// Requests shorter steps in place of those of the lanes that are left whose errors are too large. Gives the bits of these lanes.
+    #[inline(always)]
+    pub fn reject<S: Simd>(&mut self, simd: S, landed: &Landed<S>, left: u64) -> u64 {
+        let (h, step_s) = (from_row(simd, &self.moving.h), from_row(simd, &self.ground.step_s));
+        let error = self.errors.of(landed.position_error, landed.velocity_error, h);
+        // Whether a step could be shorter at all is looked at by the run.
+        let could_be_shorter = h.simd_ge(step_s * PROGRESS);
+        let advances = from_row(simd, &self.limits.advances).simd_eq(1.0);
+        let too_large = Mask::from_bitmask(simd, left) & error.simd_gt(1.0) & could_be_shorter & advances;
+        if !too_large.any_true() {
+            return 0;
+        }
+        self.errors.propose_shorter(too_large.to_bitmask(), error.into(), h.into());
+        SumRow::add(too_large, &mut self.sums.rejected_steps, F::splat(simd, 1.0));
+        let left_s = from_row(simd, &self.ground.length_s) - from_row(simd, &self.ground.offset_s);
+        self.request(too_large, left_s);
+        too_large.to_bitmask()
+    }
+
     /// Keeps the steps of some lanes, and looks at maxima and at lengths that change in `told` of them.
     #[inline(always)]
     fn go_on<S: Simd, M: Stepping<S>>(
@@ -226,7 +246,10 @@ impl Row {
         &Settled { h, error, ref to, rise, corner_force }: &Settled<S>,
     ) {
         if self.watched {
-            self.remember();
+            self.shown = (done & self.is_wanted(h)).to_bitmask();
+            if self.shown != 0 {
+                self.remember();
+            }
         }
         let rises = told & rise;
         if rises.any_true() {
@@ -240,6 +263,14 @@ impl Row {
         self.errors.propose(told, error, h);
         let left_s = self.ground.move_on(done, to, &self.samples);
         self.request(done, left_s);
+    }
+
+    /// Whether steps of these lengths from here are wanted by those who watch.
+    #[inline(always)]
+    pub fn is_wanted<S: Simd>(&self, h: F<S>) -> Mask<S> {
+        let of = |numbers: &Numbers| from_row(h.simd, numbers);
+        let start_s = of(&self.ground.start_s) + of(&self.ground.offset_s);
+        (start_s + h).simd_gt(of(&self.wants_from_s))
     }
 
     /// Requests the next steps of some lanes, with so much left of their pieces in s.
@@ -274,7 +305,7 @@ impl Row {
 
     /// Normal forces through the ground and the crack, 0 where there is none.
     #[inline(always)]
-    fn normals<S: Simd>(&self, landed: &Landed<S>) -> [F<S>; 2] {
+    pub fn normals<S: Simd>(&self, landed: &Landed<S>) -> [F<S>; 2] {
         let normal = landed.reactions.crack[1];
         let cracked = from_row(normal.simd, &self.limits.cracked).simd_eq(1.0);
         [landed.reactions.ground[1], cracked.select(normal, F::splat(normal.simd, 0.0))]

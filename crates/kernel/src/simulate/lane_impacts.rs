@@ -126,9 +126,6 @@ impl Row {
         landed: &Landed<S>,
         left: u64,
     ) -> u64 {
-        if self.watched {
-            return 0;
-        }
         let known = from_row(simd, &self.impacts.known).simd_eq(1.0) & Mask::from_bitmask(simd, left);
         let reaches = from_row(simd, &self.impacts.reaches).simd_eq(1.0);
         let found = self.find_impacts::<S, AS_ONE>(known & !reaches, landed);
@@ -200,6 +197,8 @@ impl Row {
         let simd = landed.position[0].simd;
         let (reached, on_time) = self.onto_impact::<S, AS_ONE>(landed);
         let may = which & on_time;
+        // What leads up to an impact is shown by the run.
+        let may = if self.watched { may & !self.is_wanted(reached.h) } else { may };
         if !may.any_true() {
             return may;
         }

@@ -289,9 +289,12 @@ fn steps_until<S: Simd>(simd: S, mut motions: impl Stepping<S>, alone: bool, row
         let landed = motions.step(simd, row);
         let mut left = row.settle(&motions, alone, &landed);
         if left != 0 {
+            left &= !row.reject(simd, &landed, left);
+        }
+        if left != 0 {
             left &= !motions.meet(simd, row, &landed, left);
         }
-        if left != 0 || row.watched {
+        if left != 0 || row.shown != 0 {
             row.landed.store(&landed);
             motions.put_back(&mut row.motions);
             return left;

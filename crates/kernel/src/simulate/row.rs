@@ -36,8 +36,11 @@ pub(super) struct Row {
     pub impacts: ImpactRow,
     pub sums: SumRow,
     pub landed: LandedRow,
-    /// Whether the runs are watched, and then where and when they were before the last step.
+    /// Whether the runs are watched, the times in s up to which their motion need not be shown, the bits of the lanes whose last step
+    /// is to be shown, and where and when these were before it.
     pub watched: bool,
+    pub wants_from_s: Numbers,
+    pub shown: u64,
     pub before: MovingRow,
     pub before_s: Numbers,
 }
@@ -136,6 +139,8 @@ pub(super) struct SumRow {
     /// Steps since the run boarded, and those of them that the tolerance made end before a sample.
     pub steps: Numbers,
     pub tolerance_steps: Numbers,
+    /// Steps since then that were not kept.
+    pub rejected_steps: Numbers,
 }
 
 /// What the last step gave.

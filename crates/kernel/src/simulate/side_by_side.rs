@@ -201,11 +201,13 @@ impl<'w, O: Observer> Pool<'w, O> {
     fn step_row(&mut self, kind: LaneKind) {
         loop {
             self.fill(kind);
-            let left = advance(self.level, kind, &mut self.rows[kind.index()].row);
+            let row = &mut self.rows[kind.index()].row;
+            let left = advance(self.level, kind, row);
+            let shown = std::mem::take(&mut row.shown);
             for i in 0..LANES {
                 if left >> i & 1 == 1 {
                     self.attend(kind, i);
-                } else if self.rows[kind.index()].row.watched {
+                } else if shown >> i & 1 == 1 {
                     self.show(kind, i);
                 }
             }

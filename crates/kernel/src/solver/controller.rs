@@ -67,6 +67,13 @@ fn longer_s(h: f64, error: f64) -> f64 {
     h * (SAFETY * inverse_sixth_root(error)).min(MOST_FACTOR)
 }
 
+/// The length proposed after a step that was not kept, s. A NaN is an error too large to measure.
+#[inline]
+fn shorter_s(h: f64, error: f64) -> f64 {
+    let factor = SAFETY * inverse_sixth_root(error);
+    h * if factor.is_nan() { LEAST_FACTOR } else { factor.max(LEAST_FACTOR) }
+}
+
 /// The next whole number, as `ceil` has it. That is a call of a library on processors that may lack SSE4.1.
 #[inline]
 fn whole_parts(ratio: f64) -> f64 {
@@ -126,9 +133,7 @@ impl Controller {
             }
             return true;
         }
-        // A NaN is an error too large to measure.
-        let factor = SAFETY * inverse_sixth_root(error);
-        self.proposed_s = step.h * if factor.is_nan() { LEAST_FACTOR } else { factor.max(LEAST_FACTOR) };
+        self.proposed_s = shorter_s(step.h, error);
         false
     }
 }
@@ -192,6 +197,14 @@ impl ErrorRow {
         }
     }
 
+    /// As [`Controller::accepts`] proposes, of steps that it does not accept.
+    #[cold]
+    pub fn propose_shorter(&mut self, which: u64, error: Numbers, h: Numbers) {
+        for i in (0..LANES).filter(|i| which >> i & 1 == 1) {
+            self.proposed_s[i] = shorter_s(h[i], error[i]);
+        }
+    }
+
     /// As [`Controller::next_s`].
     #[inline(always)]
     pub fn next_s<S: Simd>(&self, remaining_s: f64x4<S>) -> f64x4<S> {
@@ -199,6 +212,10 @@ impl ErrorRow {
         let fits = remaining_s.simd_le(proposed_s);
         if fits.all_true() {
             return remaining_s;
+        }
+        // Two parts need no division, and are most that there are.
+        if remaining_s.simd_le(proposed_s * 2.0).all_true() {
+            return fits.select(remaining_s, remaining_s * 0.5);
         }
         let parts = (remaining_s / proposed_s).ceil();
         fits.select(remaining_s, remaining_s / parts)

@@ -53,6 +53,11 @@ impl<S: Sink> Observer for AtTimes<S> {
         }
     }
 
+    fn wants_from_s(&self) -> f64 {
+        // Whether it has seen enough is asked at every sample of the record.
+        if self.0.seen_enough() { f64::NEG_INFINITY } else { self.0.next_s().unwrap_or(f64::INFINITY) }
+    }
+
     fn seen_enough(&self) -> bool {
         self.0.seen_enough()
     }

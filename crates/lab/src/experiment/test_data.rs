@@ -112,7 +112,8 @@ impl TestData {
 
     /// Rotations of a sample, rad, with what is read at rest as zero and without the gains that were found.
     pub fn from_rest_rad(&self, k: usize) -> Pair {
-        [0, 1].map(|i| (self.theta_rad[k][i] - self.rest_offset_rad[i]) / self.read_gain[i])
+        let ([lower, upper], rest_rad, gain) = (self.theta_rad[k], self.rest_offset_rad, self.read_gain);
+        [(lower - rest_rad[0]) / gain[0], (upper - rest_rad[1]) / gain[1]]
     }
 
     /// Samples per second times `seconds`, at least one.

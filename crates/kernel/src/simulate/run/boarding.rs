@@ -96,6 +96,7 @@ impl<O: Observer> Run<O> {
         let Some(piece) = &self.piece else { unreachable!("a step is asked for within a piece") };
         row.moving.put(i, &self.now, self.quadrature_rate, self.requested_s());
         row.ground.put(i, piece, self.k, self.offset_s);
+        row.wants_from_s[i] = self.observer.wants_from_s();
         row.errors.put(i, &self.controller);
         row.motions.put_formulas(i, self.wall.motion(self.contact));
         self.board_task(row, i);
@@ -125,15 +126,17 @@ impl<O: Observer> Run<O> {
         sums.ground_work_j[i] = totals.energy.ground_work_j;
         sums.effect_loss_j[i] = totals.energy.effect_loss_j;
         sums.passed_through_j[i] = totals.energy.passed_through_j;
-        (sums.steps[i], sums.tolerance_steps[i]) = (0.0, 0.0);
+        (sums.steps[i], sums.tolerance_steps[i], sums.rejected_steps[i]) = (0.0, 0.0, 0.0);
         self.board_strikes(row, i);
     }
 
     /// Shows whoever watches the step that was kept in a lane. False where they have seen enough; the run has alighted
     /// then.
-    pub fn is_watched_on(&mut self, row: &Row, i: usize) -> bool {
+    pub fn is_watched_on(&mut self, row: &mut Row, i: usize) -> bool {
+        self.follow_lane(row, i);
         let (start_s, motion) = row.moved(i);
         self.observer.moved(start_s, self.contact, &motion);
+        row.wants_from_s[i] = self.observer.wants_from_s();
         let new_piece = row.ground.offset_s[i] == 0.0;
         if !new_piece || !self.observer.seen_enough() {
             return true;
@@ -151,7 +154,13 @@ impl<O: Observer> Run<O> {
         row.errors.tell(i, &mut self.controller);
         self.follow_lane(row, i);
         self.take_over_impacts(row, i);
-        let steps = row.sums.steps[i] as u64;
+        let [steps, rejected, tolerance] =
+            [row.sums.steps[i], row.sums.rejected_steps[i], row.sums.tolerance_steps[i]].map(|n| n as u64);
+        let work = &mut self.totals.work;
+        work.steps += steps;
+        work.rejected_steps += rejected;
+        work.evaluations += STAGES * (steps + rejected);
+        work.tolerance_steps += tolerance;
         if steps == 0 {
             return;
         }
@@ -173,8 +182,5 @@ impl<O: Observer> Run<O> {
         totals.energy.ground_work_j = sums.ground_work_j[i];
         totals.energy.effect_loss_j = sums.effect_loss_j[i];
         totals.energy.passed_through_j = sums.passed_through_j[i];
-        totals.work.steps += steps;
-        totals.work.evaluations += STAGES * steps;
-        totals.work.tolerance_steps += sums.tolerance_steps[i] as u64;
     }
 }

@@ -129,13 +129,15 @@ impl<'a> Replay<'a> {
         let test = &self.tests[window.test];
         let reading = self.simulators[window.test].wall().wall().reading();
         let measured = &test.theta_rad[window.samples.clone()];
-        let of = |(measured, (simulated, _)): (&Pair, &(Pair, Contact))| {
+        let mut r = DVector::zeros(2 * measured.len());
+        for (k, (measured, (simulated, _))) in measured.iter().zip(sampled.rows()).enumerate() {
             let simulated = reading.of(*simulated);
-            [0, 1]
-                .map(|i| (measured[i] - simulated[i]) / test.noise_rad[i])
-                .map(|r| if r.is_finite() { r } else { 0.0 })
-        };
-        DVector::from_iterator(2 * measured.len(), measured.iter().zip(sampled.rows()).flat_map(of))
+            for i in 0..2 {
+                let left = (measured[i] - simulated[i]) / test.noise_rad[i];
+                r[2 * k + i] = if left.is_finite() { left } else { 0.0 };
+            }
+        }
+        r
     }
 }
 
@@ -202,8 +204,8 @@ impl TopPast {
 /// Elastic part of the displacement of a top with a spring that yields, m, at every sample of a test.
 fn elastic_along_m(test: &TestData, physics: &Physics, wall: &RockingWall) -> Vec<f64> {
     let (mut plastic_m, mut elastic_m) = (0.0, 0.0);
-    let at = |k: usize| {
-        let theta = smoothed(test, k, &MEAN);
+    let smooth = smoothed(test, &MEAN);
+    let at = |theta: Pair| {
         if theta.iter().all(|t| t.is_finite()) {
             let x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
             plastic_m = physics.wall.plastic_displacement_m(plastic_m, x_c);
@@ -211,27 +213,26 @@ fn elastic_along_m(test: &TestData, physics: &Physics, wall: &RockingWall) -> Ve
         }
         elastic_m
     };
-    (0..test.theta_rad.len()).map(at).collect()
+    smooth.into_iter().map(at).collect()
 }
 
 /// Times (s) and displacements of the top (m) of a test.
 pub fn top_path(test: &TestData, wall: &RockingWall) -> Vec<[f64; 2]> {
-    let at = |k: usize| (test.time_s[k], smoothed(test, k, &PARABOLA));
-    experiment::top_path((0..test.theta_rad.len()).map(at), wall)
+    let times_s = test.time_s.iter().copied();
+    experiment::top_path(times_s.zip(smoothed(test, &PARABOLA)), wall)
 }
 
 /// The largest displacement of the top so far, m, at every sample of a test.
 pub fn largest_so_far_m(test: &TestData, wall: &RockingWall) -> Vec<f64> {
     let mut largest_m = 0.0_f64;
-    let at = |k: usize| {
-        let theta = smoothed(test, k, &PARABOLA);
+    let at = |theta: Pair| {
         if theta.iter().all(|t| t.is_finite()) {
             let x_c = wall.top_displacement_m(Contact::of_rotations(theta), theta);
             largest_m = largest_m.max(x_c.abs());
         }
         largest_m
     };
-    (0..test.theta_rad.len()).map(at).collect()
+    smoothed(test, &PARABOLA).into_iter().map(at).collect()
 }
 
 /// Weights of five samples: their mean, with less noise; no swing is shorter.
@@ -239,16 +240,20 @@ const MEAN: [f64; 5] = [1.0; 5];
 /// The middle of the parabola through five samples (Savitzky and Golay), which does not cut the peak of a swing.
 const PARABOLA: [f64; 5] = [-3.0, 12.0, 17.0, 12.0, -3.0];
 
-/// Five samples of a test about one, with these weights. At its ends those that there are.
-fn smoothed(test: &TestData, k: usize, weights: &[f64; 5]) -> Pair {
-    let mut sums = [0.0; 3];
-    for (i, weight) in weights.iter().enumerate() {
-        if let Some(k) = (k + i).checked_sub(2).filter(|k| *k < test.theta_rad.len()) {
-            let [lower, upper] = test.from_rest_rad(k);
-            sums = [sums[0] + weight * lower, sums[1] + weight * upper, sums[2] + weight];
+/// Five samples of a test about each, with these weights. At its ends those that there are.
+fn smoothed(test: &TestData, weights: &[f64; 5]) -> Vec<Pair> {
+    let from_rest = (0..test.theta_rad.len()).map(|k| test.from_rest_rad(k)).collect::<Vec<_>>();
+    let about = |k: usize| {
+        let (mut theta, mut all) = ([0.0; 2], 0.0);
+        for (i, weight) in weights.iter().enumerate() {
+            if let Some([lower, upper]) = (k + i).checked_sub(2).and_then(|k| from_rest.get(k)) {
+                theta = [theta[0] + weight * lower, theta[1] + weight * upper];
+                all += weight;
+            }
         }
-    }
-    [sums[0] / sums[2], sums[1] / sums[2]]
+        [theta[0] / all, theta[1] / all]
+    };
+    (0..from_rest.len()).map(about).collect()
 }
 
 #[cfg(test)]
