@@ -24,7 +24,9 @@ impl NewtonStep {
 /// would square the condition of J.
 pub(crate) fn step_of(jacobian: &DMatrix<f64>, residuals: &DVector<f64>) -> Option<NewtonStep> {
     let qr = jacobian.clone().qr();
-    let along = qr.q().transpose() * residuals;
+    let mut turned = residuals.clone();
+    qr.q_tr_mul(&mut turned);
+    let along = turned.rows(0, jacobian.ncols());
     let promise = along.norm_squared();
     let x = qr.r().solve_upper_triangular(&-along)?;
     x.iter().all(|x| x.is_finite()).then_some(NewtonStep { x, promise })

@@ -213,7 +213,7 @@ impl ErrorRow {
         if fits.all_true() {
             return remaining_s;
         }
-        // Two parts need no division, and are most that there are.
+        // Two parts need no division, and are most that there are. No quotient of a larger number rounds to one.
         if remaining_s.simd_le(proposed_s * 2.0).all_true() {
             return fits.select(remaining_s, remaining_s * 0.5);
         }
@@ -225,6 +225,8 @@ impl ErrorRow {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::instructions::{dispatch_lanes, lanes_pay};
+    use fearless_simd::Level;
 
     #[test]
     fn analytic_a_sixth_root_without_a_power() {
@@ -232,6 +234,39 @@ mod tests {
             for x in [1.0, 1.7, 2.3, 5.0].map(|digits| digits * 10.0_f64.powi(exponent)) {
                 let error = inverse_sixth_root(x) / x.powf(-1.0 / 6.0) - 1.0;
                 assert!(error.abs() < 1e-4, "{error:e} at {x:e}");
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn next_side_by_side<S: Simd>(simd: S, errors: &ErrorRow, remaining_s: &Numbers) -> Numbers {
+        errors.next_s(from_row(simd, remaining_s)).into()
+    }
+
+    #[test]
+    fn analytic_lengths_side_by_side_have_the_bits_of_each() {
+        let level = Level::new();
+        if !lanes_pay(level) {
+            return;
+        }
+        let scale = ErrorScale { position: [1.0; 2], time_s: 1.0, fastest_rate_per_s: 1.0 };
+        // Whole parts of a proposal and a rounding to either side, and lengths between.
+        let parts = (1..6).flat_map(|parts: u32| {
+            let whole = f64::from(parts) * 0.0037;
+            [whole.next_down(), whole, whole.next_up(), 0.7 * whole, 1.3 * whole]
+        });
+        let parts: Vec<f64> = parts.collect();
+        for remaining_s in parts.windows(LANES) {
+            let remaining_s: Numbers = std::array::from_fn(|i| remaining_s[i]);
+            for only in 0..=LANES {
+                // Alone beside lengths of a whole proposal, and all of them.
+                let asked: Numbers =
+                    std::array::from_fn(|i| if only == LANES || only == i { remaining_s[i] } else { 0.0037 });
+                let controller = Controller::new(scale, 1.0, 0.0037);
+                let mut errors = ErrorRow::default();
+                (0..LANES).for_each(|i| errors.put(i, &controller));
+                let found = dispatch_lanes!(level, simd => next_side_by_side(simd, &errors, &asked));
+                assert_eq!(found, asked.map(|length_s| controller.next_s(length_s)), "{asked:?}");
             }
         }
     }

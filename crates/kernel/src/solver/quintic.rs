@@ -112,14 +112,20 @@ impl Quintic {
     /// Positions at a share of the step.
     #[inline]
     pub fn position(&self, share: f64) -> [f64; 2] {
+        values(self.both, share).to_array()
+    }
+
+    /// The same for a history. Samples of a measurement mostly lie at those of the record, up to a rounding of their time: there
+    /// the path is a line.
+    #[inline]
+    pub fn sampled(&self, share: f64) -> [f64; 2] {
         let c = &self.both;
-        // Samples of a measurement mostly lie at those of the record, up to a rounding of their time. There the path is a line.
         if share < AT_END {
             return (c[0] + (c[1] - c[0]) * (5.0 * share)).to_array();
         } else if 1.0 - share < AT_END {
             return (c[5] - (c[5] - c[4]) * (5.0 * (1.0 - share))).to_array();
         }
-        values(self.both, share).to_array()
+        self.position(share)
     }
 
     /// Velocities at a share of the step.

@@ -39,7 +39,7 @@ impl<S: Sink> AtTimes<S> {
 impl<S: Sink> Observer for AtTimes<S> {
     fn moved(&mut self, start_s: f64, contact: Contact, motion: &Quintic) {
         let share = |time_s: f64| ((time_s - start_s) / motion.h()).clamp(0.0, 1.0);
-        self.until(start_s + motion.h(), contact, |time_s| motion.position(share(time_s)));
+        self.until(start_s + motion.h(), contact, |time_s| motion.sampled(share(time_s)));
     }
 
     fn stood(&mut self, _: f64, to_s: f64) {

@@ -182,8 +182,8 @@ fn normal_equations(
     let (mut a, mut g) = (DMatrix::zeros(count, count), DVector::zeros(count));
     for (window, linear) in fit.windows.iter().zip(linear) {
         let w = loss.weight(window);
-        a += linear.jp_left.transpose() * &linear.jp_left * w;
-        g += linear.jp_left.transpose() * &linear.r_left * w;
+        a += linear.jp_left.tr_mul(&linear.jp_left) * w;
+        g += linear.jp_left.tr_mul(&linear.r_left) * w;
     }
     h.add_prior(&fit.values, &mut a, &mut g);
     for (i, unknown) in h.unknowns.iter().enumerate() {

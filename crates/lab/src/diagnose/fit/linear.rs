@@ -62,9 +62,9 @@ impl Linear {
         changes: &[f64],
     ) -> Self {
         let q = if jx.ncols() > 0 { jx.clone().qr().q() } else { jx.clone() };
-        let left = |columns: &DMatrix<f64>| columns - &q * (q.transpose() * columns);
+        let left = |columns: &DMatrix<f64>| columns - &q * q.tr_mul(columns);
         let sides = jp.each_ref().map(left);
-        let r_left = &r - &q * (q.transpose() * &r);
+        let r_left = &r - &q * q.tr_mul(&r);
         let mut jp = (&jp[0] + &jp[1]) * 0.5;
         let mut jp_left = (&sides[0] + &sides[1]) * 0.5;
         let holds = !changes.iter().enumerate().any(|(i, change)| is_bent(&sides, i, *change));
