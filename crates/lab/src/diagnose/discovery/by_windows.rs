@@ -322,7 +322,7 @@ impl<P: Progress> Trials<'_, P> {
     fn start_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<Start> {
         let (hypothesis, values) = self.of_points(searched, law)?;
         let look =
-            |data: &Data| data.fit.states(&hypothesis, &values, &gap.nearest.states(), LOOK_STEPS, false);
+            |data: &Data| data.fit.states_to_begin(&hypothesis, &values, &gap.nearest.states(), LOOK_STEPS);
         let fit = self.within_budget(&law.name(), values.len(), look)?;
         Some(Start { nats: nats(&fit.windows), hypothesis, values })
     }

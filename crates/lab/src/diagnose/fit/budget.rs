@@ -7,6 +7,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Problem;
 
+/// A fit looks at its windows as often as this at least: one step of a single number takes a look to either side of it, four at changed
+/// states and five at states that follow, and a fit takes three losses.
+const LEAST_LOOKS: u64 = 20;
+
 /// What one fit may work, and what it has worked.
 #[derive(Debug)]
 pub struct Budget {
@@ -29,6 +33,13 @@ impl Budget {
         self.spent.fetch_add(evaluations, Ordering::Relaxed);
     }
 
+    /// Ends the fit where what has been spent on a first look at all windows says that it would work more than it may.
+    pub fn look_ahead(&self) {
+        if self.spent.load(Ordering::Relaxed).saturating_mul(LEAST_LOOKS) > self.most {
+            self.spend(self.most);
+        }
+    }
+
     /// Whether nothing is left. Asked between steps of a fit alone: within them windows run side by side, in any order.
     pub fn is_spent(&self) -> bool {
         self.spent.load(Ordering::Relaxed) > self.most
@@ -41,20 +52,36 @@ mod tests {
     use super::*;
 
     #[test]
-    fn analytic_a_fit_ends_between_steps_where_its_work_is_spent_and_else_is_what_it_was() {
+    fn analytic_a_fit_ends_without_an_answer_where_its_work_is_spent_and_else_is_what_it_was() {
         let (tests, h) = swaying();
         let windows = crate::experiment::windows(&tests);
         let free = Problem { tests: &tests, windows: &windows, budget: None };
         let fitted = |budget: Option<&Budget>| {
             let problem = Problem { budget, ..free };
             let start = problem.states(&h, &h.start(), &problem.measured_states(), 0, false).expect("a wall");
-            problem.fit_finely(&h, start).expect("a wall").values
+            problem.fit_finely(&h, start).map(|fit| fit.values)
         };
         let values = fitted(None);
-        assert_ne!(values, h.start());
+        assert_ne!(values.as_ref(), Some(&h.start()));
         let [none, enough] = [0.0, 1e12].map(|evaluations_per_s| Budget::of(&free, evaluations_per_s));
-        assert_eq!(fitted(Some(&none)), h.start());
+        assert_eq!(fitted(Some(&none)), None);
         assert_eq!(fitted(Some(&enough)), values);
         assert!(none.is_spent() && !enough.is_spent());
+    }
+
+    #[test]
+    fn analytic_a_fit_whose_first_look_takes_a_tenth_of_its_work_is_not_begun() {
+        let (tests, h) = swaying();
+        let windows = crate::experiment::windows(&tests);
+        let look_of = |budget: &Budget| {
+            let problem = Problem { tests: &tests, windows: &windows, budget: Some(budget) };
+            problem.states_to_begin(&h, &h.start(), &problem.measured_states(), 2).is_some()
+        };
+        let free = Problem { tests: &tests, windows: &windows, budget: None };
+        let counted = Budget::of(&free, 1e12);
+        assert!(look_of(&counted));
+        // Two looks of several steps of the states, of which one is the first.
+        let of_a_tenth = Budget { most: counted.spent.load(Ordering::Relaxed), spent: AtomicU64::new(0) };
+        assert!(!look_of(&of_a_tenth) && of_a_tenth.is_spent());
     }
 }

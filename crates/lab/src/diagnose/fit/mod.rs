@@ -178,6 +178,21 @@ impl Problem<'_> {
         Some(found)
     }
 
+    /// The states from which a fit begins. `None` also where a first look at them tells that it would work more than it may.
+    pub fn states_to_begin(
+        &self,
+        h: &Hypothesis,
+        values: &[f64],
+        x: &[Vec<f64>],
+        steps: usize,
+    ) -> Option<Fit> {
+        if let Some(budget) = self.budget {
+            self.states(h, values, x, 0, false)?;
+            budget.look_ahead();
+        }
+        if self.is_spent() { None } else { self.states(h, values, x, steps, false) }
+    }
+
     /// The states of all windows with the numbers of a coarse fit to some, from those of another hypothesis.
     pub fn states_of_coarse(&self, h: &Hypothesis, values: &[f64], x: &[Vec<f64>]) -> Option<Fit> {
         let mut found = self.states(h, values, x, STEPS_OF_COARSE, false)?;
@@ -241,13 +256,17 @@ impl Problem<'_> {
         Some(fit)
     }
 
-    /// Fits numbers and states to the end, from a coarse fit.
+    /// Fits numbers and states to the end, from a coarse fit. `None` where it has worked as much as it may, for then it is none of the
+    /// answers: what would be left to do might take many times as long.
     pub fn fit_finely(&self, h: &Hypothesis, coarse: Fit) -> Option<Fit> {
         let mut fit = coarse;
         let mut known = None;
         for loss in Loss::NARROWING {
             let patience = if loss == Loss::Likelihood { LAST } else { FINE };
             fit = self.descend(h, fit, loss, patience, &mut known);
+            if self.is_spent() {
+                return None;
+            }
             // Other valleys are looked for once the numbers are about right.
             fit = self.again(h, fit, known.as_ref(), loss != Loss::MIDDLE)?;
         }

@@ -226,7 +226,7 @@ pub fn refit(
     from: &FittedHypothesis,
     values: &[f64],
 ) -> Option<FittedHypothesis> {
-    let start = data.fit.states(&hypothesis, values, &states_of(&from.fit), 2, false)?;
+    let start = data.fit.states_to_begin(&hypothesis, values, &states_of(&from.fit), 2)?;
     let fit = data.fit.fit_finely(&hypothesis, start)?;
     judged(data, hypothesis, fit, from, true)
 }
@@ -238,7 +238,7 @@ pub fn first_steps(
     from: &FittedHypothesis,
     values: &[f64],
 ) -> Option<Fit> {
-    let start = data.fit.states(hypothesis, values, &states_of(&from.fit), 2, false)?;
+    let start = data.fit.states_to_begin(hypothesis, values, &states_of(&from.fit), 2)?;
     Some(data.fit.step_first(hypothesis, start))
 }
 
