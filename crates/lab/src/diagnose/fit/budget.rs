@@ -7,9 +7,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Problem;
 
-/// A fit looks at its windows as often as this at least: one step of a single number takes a look to either side of it, four at changed
-/// states and five at states that follow, and a fit takes three losses.
-const LEAST_LOOKS: u64 = 20;
+/// With each of the three losses a fit takes one step at least: a look at all windows to one side of every number, and a few at the
+/// states that follow.
+const LOSSES: u64 = 3;
+const LOOKS_AT_STATES: u64 = 3;
 
 /// What one fit may work, and what it has worked.
 #[derive(Debug)]
@@ -33,9 +34,10 @@ impl Budget {
         self.spent.fetch_add(evaluations, Ordering::Relaxed);
     }
 
-    /// Ends the fit where what has been spent on a first look at all windows says that it would work more than it may.
-    pub fn look_ahead(&self) {
-        if self.spent.load(Ordering::Relaxed).saturating_mul(LEAST_LOOKS) > self.most {
+    /// Ends a fit of so many numbers where what has been spent on a first look at all windows says that it would work more than it may.
+    pub fn look_ahead(&self, numbers: usize) {
+        let looks = LOSSES * (LOOKS_AT_STATES + numbers as u64);
+        if self.spent.load(Ordering::Relaxed).saturating_mul(looks) > self.most {
             self.spend(self.most);
         }
     }

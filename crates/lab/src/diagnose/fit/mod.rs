@@ -188,7 +188,7 @@ impl Problem<'_> {
     ) -> Option<Fit> {
         if let Some(budget) = self.budget {
             self.states(h, values, x, 0, false)?;
-            budget.look_ahead();
+            budget.look_ahead(h.unknowns.len());
         }
         if self.is_spent() { None } else { self.states(h, values, x, steps, false) }
     }
