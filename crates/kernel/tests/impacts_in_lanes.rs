@@ -2,8 +2,11 @@
 
 use fearless_simd::{Level, Simd};
 use mrbd_kernel::accelerogram::Accelerogram;
-use mrbd_kernel::model::{Effect, ImpactLaw, Restitution, Wall, WallParameters};
-use mrbd_kernel::simulate::{Accuracy, Response, Shaking, Simulator, simulate_side_by_side_at};
+use mrbd_kernel::model::{Contact, Effect, ImpactLaw, Pair, Restitution, Wall, WallParameters};
+use mrbd_kernel::simulate::{
+    Accuracy, Observer, Response, Shaking, Simulator, simulate_side_by_side_at, simulate_watched_side_by_side,
+};
+use mrbd_kernel::solver::Quintic;
 
 /// Ten seconds of sines that rock the table wall in all patterns, to both sides as far.
 fn shaking(strength_m_s2: f64) -> Shaking {
@@ -67,5 +70,84 @@ fn analytic_impacts_in_lanes_have_the_bits_of_impacts_one_after_another() {
             |change: usize| found.iter().map(|response| response.impacts.table2[change]).sum::<u64>();
         // Walls strike the ground as one, and their cracks close in both directions.
         assert!(table2(5) > 100 && table2(0) > 100 && table2(1) > 100, "{:?}", found[0].impacts);
+    }
+}
+
+/// Rotations and contacts every so often, s; nothing between is asked for where it may say so.
+struct Sampled {
+    every_s: f64,
+    says_so: bool,
+    rows: Vec<(Pair, Contact)>,
+}
+
+impl Sampled {
+    fn next_s(&self) -> f64 {
+        self.rows.len() as f64 * self.every_s
+    }
+
+    fn until(&mut self, end_s: f64, contact: Contact, theta_at: impl Fn(f64) -> Pair) {
+        while self.next_s() < end_s {
+            self.rows.push((theta_at(self.next_s()), contact));
+        }
+    }
+}
+
+impl Observer for Sampled {
+    fn moved(&mut self, start_s: f64, contact: Contact, motion: &Quintic) {
+        let theta_at = |time_s: f64| motion.sampled((time_s - start_s) / motion.h());
+        self.until(start_s + motion.h(), contact, theta_at);
+    }
+
+    fn stood(&mut self, _: f64, to_s: f64) {
+        self.until(to_s, Contact::REST, |_| [0.0; 2]);
+    }
+
+    fn ended(&mut self, _: f64, _: Contact, _: Pair) {}
+
+    fn wants_from_s(&self) -> f64 {
+        if self.says_so { self.next_s() } else { f64::NEG_INFINITY }
+    }
+}
+
+/// Runs watched every so often, beside each other or alone.
+fn watched(every_s: f64, beside: bool) -> (Vec<Vec<(Pair, Contact)>>, Vec<Response>) {
+    let simulators: Vec<_> = walls()
+        .iter()
+        .map(|wall| Simulator::new(wall, &shaking(1.3), Accuracy { tolerance: 1e-8 }))
+        .collect();
+    let sampled = |_: &Simulator| Sampled { every_s, says_so: beside, rows: Vec::new() };
+    let mut watching: Vec<_> = simulators.iter().map(sampled).collect();
+    let mut responses = vec![None; simulators.len()];
+    let pairs = simulators.iter().zip(&mut watching).enumerate();
+    if beside {
+        let prepare = |(k, (simulator, observer)): (usize, (&Simulator, _))| {
+            let observer: &mut Sampled = observer;
+            let observer: &mut dyn Observer = observer;
+            (k, simulator.watched_from(&simulator.release(), simulator.end_s(), observer))
+        };
+        let mut waiting = pairs.map(prepare);
+        simulate_watched_side_by_side(&mut || waiting.next(), &mut |k, response| {
+            responses[k] = Some(response)
+        });
+    } else {
+        for (k, (simulator, observer)) in pairs {
+            responses[k] = Some(simulator.run(observer));
+        }
+    }
+    let responses = responses.into_iter().map(|response| response.expect("every run ends")).collect();
+    (watching.into_iter().map(|sampled| sampled.rows).collect(), responses)
+}
+
+#[test]
+fn analytic_runs_that_are_watched_now_and_then_show_what_they_show_alone() {
+    // Between samples of the record, at them, and so seldom that most impacts lie between.
+    for every_s in [0.0037, 0.01, 0.31] {
+        let (expected, alone) = watched(every_s, false);
+        let (found, beside) = watched(every_s, true);
+        assert_eq!(found, expected, "every {every_s} s");
+        assert_eq!(format!("{beside:?}"), format!("{alone:?}"), "every {every_s} s");
+        assert!(found.iter().all(|rows| rows.len() as f64 > 8.0 / every_s));
+        let rejected = beside.iter().map(|response| response.work.rejected_steps).sum::<u64>();
+        assert!(rejected > 10, "{rejected}");
     }
 }
