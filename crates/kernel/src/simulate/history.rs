@@ -3,7 +3,7 @@
 use crate::model::{Contact, Pair};
 use crate::solver::Quintic;
 
-/// Receives every stretch of a run, in order.
+/// Receives every stretch of a run that it wants, in order.
 pub trait Observer {
     /// The wall moved in a contact state from a time in seconds, along a quintic.
     fn moved(&mut self, start_s: f64, contact: Contact, motion: &Quintic);
@@ -15,7 +15,7 @@ pub trait Observer {
     fn watches(&self) -> bool {
         true
     }
-    /// The time, s, up to which the motion need not be shown: all of it is, but for stretches that are known to end by then.
+    /// Stretches that end by this time, s, need not be shown; minus infinity: every one is. They may be shown all the same.
     fn wants_from_s(&self) -> f64 {
         f64::NEG_INFINITY
     }

@@ -144,7 +144,7 @@ impl LimitRow {
 
     /// Whether the pivots are under tension as they were.
     #[inline(always)]
-    pub fn same_tension<S: Simd>(&self, normals: [F<S>; 2]) -> Mask<S> {
+    fn same_tension<S: Simd>(&self, normals: [F<S>; 2]) -> Mask<S> {
         let simd = normals[0].simd;
         let none = F::splat(simd, 0.0);
         let now = |normal: F<S>| normal.simd_lt(0.0).select(F::splat(simd, 1.0), none);
@@ -305,7 +305,7 @@ impl Row {
 
     /// Normal forces through the ground and the crack, 0 where there is none.
     #[inline(always)]
-    pub fn normals<S: Simd>(&self, landed: &Landed<S>) -> [F<S>; 2] {
+    fn normals<S: Simd>(&self, landed: &Landed<S>) -> [F<S>; 2] {
         let normal = landed.reactions.crack[1];
         let cracked = from_row(normal.simd, &self.limits.cracked).simd_eq(1.0);
         [landed.reactions.ground[1], cracked.select(normal, F::splat(normal.simd, 0.0))]
