@@ -28,6 +28,10 @@ pub(in super::super) const PROGRESS: f64 = 1e-6;
 
 impl<O: Observer> Run<O> {
     /// Keeps a step, or requests one up to the first event inside it.
+    ///
+    /// That shorter step is taken for its accuracy. To go on from the path inside the longer one, bent so that it has the acceleration of
+    /// the equations of motion in its middle, was tried: runs on sharp edges took 0.94 of the time alone and 0.99 side by side, and their
+    /// errors doubled.
     #[inline]
     pub(super) fn advance(&mut self, piece: &Piece, step: &Step, reactions: &Reactions) -> Result<(), Stop> {
         if !self.controller.accepts(step) {
