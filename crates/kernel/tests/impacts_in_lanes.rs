@@ -120,12 +120,9 @@ fn watched(every_s: f64, beside: bool) -> (Vec<Vec<(Pair, Contact)>>, Vec<Respon
     let mut responses = vec![None; simulators.len()];
     let pairs = simulators.iter().zip(&mut watching).enumerate();
     if beside {
-        let prepare = |(k, (simulator, observer)): (usize, (&Simulator, _))| {
-            let observer: &mut Sampled = observer;
-            let observer: &mut dyn Observer = observer;
+        let mut waiting = pairs.map(|(k, (simulator, observer))| {
             (k, simulator.watched_from(&simulator.release(), simulator.end_s(), observer))
-        };
-        let mut waiting = pairs.map(prepare);
+        });
         simulate_watched_side_by_side(&mut || waiting.next(), &mut |k, response| {
             responses[k] = Some(response)
         });

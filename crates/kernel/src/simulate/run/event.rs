@@ -30,8 +30,8 @@ impl<O: Observer> Run<O> {
     /// Keeps a step, or requests one up to the first event inside it.
     ///
     /// That shorter step is taken for its accuracy. To go on from the path inside the longer one, bent so that it has the acceleration of
-    /// the equations of motion in its middle, was tried: runs on sharp edges took 0.94 of the time alone and 0.99 side by side, and their
-    /// errors doubled.
+    /// the equations of motion in its middle, was tried: it spared 4 % of the evaluations on sharp edges and 1 % of the time side by side,
+    /// and errors doubled.
     #[inline]
     pub(super) fn advance(&mut self, piece: &Piece, step: &Step, reactions: &Reactions) -> Result<(), Stop> {
         if !self.controller.accepts(step) {

@@ -7,10 +7,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Problem;
 
-/// With each of the three losses a fit takes one step at least: a look at all windows to one side of every number, and a few at the
-/// states that follow.
-const LOSSES: u64 = 3;
-const LOOKS_AT_STATES: u64 = 3;
+/// A fit looks at all windows to one side of every number under its first loss, and to both under its last: three times a number.
+const LOOKS_A_NUMBER: u64 = 3;
+/// And some times at states that follow, under each of three losses.
+const LOOKS_AT_STATES: u64 = 9;
 
 /// What one fit may work, and what it has worked.
 #[derive(Debug)]
@@ -34,9 +34,10 @@ impl Budget {
         self.spent.fetch_add(evaluations, Ordering::Relaxed);
     }
 
-    /// Ends a fit of so many numbers where what has been spent on a first look at all windows says that it would work more than it may.
+    /// Ends a fit of so many numbers where it would work more than it may if all looks at the windows took what has been spent on a first
+    /// one. A fit that would come to easier values is not waited for.
     pub fn look_ahead(&self, numbers: usize) {
-        let looks = LOSSES * (LOOKS_AT_STATES + numbers as u64);
+        let looks = LOOKS_A_NUMBER * numbers as u64 + LOOKS_AT_STATES;
         if self.spent.load(Ordering::Relaxed).saturating_mul(looks) > self.most {
             self.spend(self.most);
         }

@@ -178,7 +178,7 @@ impl Problem<'_> {
         Some(found)
     }
 
-    /// The states from which a fit begins. `None` also where a first look at them tells that it would work more than it may.
+    /// The states from which a fit begins. `None` also where a first look at them says that it would work more than it may.
     pub fn states_to_begin(
         &self,
         h: &Hypothesis,
