@@ -6,6 +6,7 @@ use super::file::{Purpose, TestTable};
 use super::local::{HALF_S, channel_noise_rad};
 use super::measured::median_step;
 use super::noise::{is_uneven, rest_offset_rad};
+use super::shaking::straightened;
 use super::test::Test;
 use crate::limits::{LEAST_SAMPLES, TOO_LARGE_RAD};
 use mrbd_files::error::InputError;
@@ -38,7 +39,7 @@ pub struct TestData {
     pub name: String,
     /// Whether the fit sees it, or the result is only judged by it.
     pub purpose: Purpose,
-    /// The records, and free motion to the end of the measurement.
+    /// The records, in as few samples as tell them, and free motion to the end of the measurement.
     pub shaking: Shaking,
     /// Times of the samples in the record's time, s.
     pub time_s: Vec<f64>,
@@ -95,10 +96,12 @@ impl TestData {
         }
         let [last_s, record_s] = [time_s.last().copied().unwrap_or(0.0), record_s(test)];
         let tail_s = (last_s - record_s).max(0.0) + gap_s;
+        let shaking = Shaking { tail_s, ..test.shaking.clone() };
+        let shaking = straightened(shaking, wall.parameters(), f64::min(lower_rad, upper_rad), last_s);
         Ok(Self {
             name: test.name.clone(),
             purpose: test.purpose,
-            shaking: Shaking { tail_s, ..test.shaking.clone() },
+            shaking,
             step_s,
             time_s,
             rest_offset_rad: rest_offset_rad(&theta_rad, noise_rad),
