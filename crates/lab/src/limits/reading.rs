@@ -84,6 +84,11 @@ limits! {
     ///
     /// Other starts are then tried: an impact just missed or just met has valleys of its own.
     MISSED_SD: f64 = 5.0, "standard deviations";
+    /// In windows of an answer with more error than noise leaves, by this much, other valleys are looked for.
+    ///
+    /// A window in a wrong valley may leave 40 natural logarithms without being missed, and holds the numbers of the answer several of their
+    /// deviations off. One window in six of a model that is right lies above; the noise of none tells which valley it is in.
+    LOOKED_ABOUT_SD: f64 = 1.0, "standard deviations";
     /// Share of missed windows above which no other valleys are looked for.
     MOST_MISSED: f64 = 0.3, "share";
     /// Squared error that the middle loss bounds: where a third of the windows lie beyond it, a fit is far from the tests.

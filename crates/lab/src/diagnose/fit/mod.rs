@@ -24,7 +24,7 @@ mod window_fit;
 
 use super::hypothesis::{Hypothesis, Physics};
 use crate::experiment::{TestData, Window};
-use crate::limits::MOST_MISSED;
+use crate::limits::{LOOKED_ABOUT_SD, MOST_MISSED};
 pub use budget::Budget;
 use descent::{COARSE, FINE, FIRST, LAST, cost};
 pub use linear::WindowSlopes;
@@ -207,13 +207,27 @@ impl Problem<'_> {
         if self.is_spent() {
             return;
         }
-        self.retried(found, |poor| {
+        self.retried(found, WindowFit::is_poor, |poor| {
             let measured = poor.iter().map(|(window, _)| (*window, window.measured.clone()));
             fit_windows(replay, measured.collect(), steps)
         });
         if !found.misses_many() {
-            self.retried(found, |poor| other_valleys(replay, poor, steps));
+            self.retried(found, WindowFit::is_poor, |poor| other_valleys(replay, poor, steps));
         }
+    }
+
+    /// A fit with other valleys looked for in all windows but those that are followed as well as noise lets most be. `None` where the model
+    /// misses most of them, and not their states.
+    pub fn looked_about(&self, h: &Hypothesis, fit: &Fit) -> Option<Fit> {
+        if fit.misses_many() {
+            return None;
+        }
+        let replay = self.replay(&h.physics(&fit.values)?);
+        let mut found = fit.clone();
+        let exceeds = |fit: &WindowFit| fit.exceeds_noise_by(LOOKED_ABOUT_SD);
+        self.retried(&mut found, exceeds, |these| other_valleys(&replay, these, STEPS_AGAIN));
+        found.cost = cost(h, &found, Loss::Likelihood);
+        Some(found)
     }
 
     /// Windows of a fit from the states of another one, where that is better. Asked are those that are followed badly, and
@@ -232,13 +246,14 @@ impl Problem<'_> {
         take_better(own, asked, found);
     }
 
-    /// Takes what is found for windows that are followed badly, where it is better.
+    /// Takes what is found for those of the windows that are asked for, where it is better.
     fn retried(
         &self,
         found: &mut Fit,
+        asked: impl Fn(&WindowFit) -> bool,
         find: impl Fn(&[(&Window, &WindowFit)]) -> Vec<WindowFit> + Send + Sync,
     ) {
-        let poor = (0..self.windows.len()).filter(|k| found.windows[*k].is_poor()).collect::<Vec<_>>();
+        let poor = (0..self.windows.len()).filter(|k| asked(&found.windows[*k])).collect::<Vec<_>>();
         let these = poor.iter().map(|k| (&self.windows[*k], &found.windows[*k])).collect::<Vec<_>>();
         let others = in_chunks(&these, find);
         take_better(found, poor, others);
@@ -298,5 +313,44 @@ impl Problem<'_> {
         }
         again.cost = cost(h, &again, Loss::NEAR);
         Some(again)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::linear::tests::swaying;
+    use super::*;
+    use crate::experiment::Sampled;
+
+    #[test]
+    fn analytic_windows_that_are_not_missed_are_looked_about_in_too() {
+        let (mut tests, h) = swaying();
+        let windows = crate::experiment::windows(&tests)[..1].to_vec();
+        let window = &windows[0];
+        // As it would be measured without noise.
+        let mut sampled = Sampled::at_all(&tests[0].time_s[window.samples.clone()]);
+        let physics = h.physics(&h.start()).expect("a wall");
+        Replay::new(&tests, &physics).run(window, &window.measured, &mut sampled);
+        for (theta, (simulated, _)) in
+            tests[0].theta_rad[window.samples.clone()].iter_mut().zip(sampled.rows())
+        {
+            *theta = *simulated;
+        }
+        let problem = Problem { tests: &tests, windows: &windows, budget: None };
+        let off = |share: f64| {
+            let mut x = window.measured.clone();
+            x[0] += share * window.spread[0];
+            problem.states(&h, &h.start(), &[x], 0, false).expect("a wall")
+        };
+        let exceeding = |sd: f64| {
+            let fits = (1..2000).map(|k| off(0.005 * f64::from(k)));
+            fits.into_iter().find(|fit| fit.windows[0].exceeds_noise_by(sd)).expect("a state far enough off")
+        };
+        let [little, more] = [LOOKED_ABOUT_SD - 1.0, LOOKED_ABOUT_SD + 1.0].map(exceeding);
+        assert!(!more.windows[0].is_poor() && !little.windows[0].exceeds_noise_by(LOOKED_ABOUT_SD));
+        let squares = |fit: &Fit| problem.looked_about(&h, fit).expect("a wall").windows[0].squares;
+        assert_eq!(squares(&little), little.windows[0].squares);
+        // Steps that promise less than this are not taken.
+        assert!(squares(&more) < window_fit::LITTLE, "{}", squares(&more));
     }
 }

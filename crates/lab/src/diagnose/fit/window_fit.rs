@@ -65,7 +65,12 @@ impl WindowFit {
 
     /// Whether noise alone does not leave so much: the squared error of noise has twice its freedom as variance.
     pub fn is_poor(&self) -> bool {
-        self.reduced() > 1.0 + MISSED_SD * (2.0 / self.freedom).sqrt()
+        self.exceeds_noise_by(MISSED_SD)
+    }
+
+    /// Whether it leaves more than noise by so many standard deviations.
+    pub fn exceeds_noise_by(&self, sd: f64) -> bool {
+        self.reduced() > 1.0 + sd * (2.0 / self.freedom).sqrt()
     }
 }
 

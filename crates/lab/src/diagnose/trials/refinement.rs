@@ -2,7 +2,8 @@
 //!
 //! Windows near an impact that the noise decides have several local minima. The one that a window lies in holds the numbers
 //! of a hypothesis where they are. Fits that start from other numbers find other minima. The best of all of them is the
-//! answer, and its intervals mean something.
+//! answer, and its intervals mean something. Windows that are not missed lie in wrong valleys too: of the answer, other states of all
+//! those are looked for that leave more than noise leaves in most.
 //!
 //! Most starts come to one place by the first steps of a fit, and differ by the states of some windows. They go on as one, with
 //! the better state of each window: what a further fit of each would find.
@@ -34,7 +35,7 @@ impl<P: Progress> Trials<'_, P> {
     pub fn refined(&self, answer: FittedHypothesis) -> FittedHypothesis {
         let mut best = answer;
         for _ in 0..ANSWER_ROUNDS {
-            let next = self.once_more(&best);
+            let next = self.looked_about(self.once_more(&best));
             let gain = against(&self.data, &best) - against(&self.data, &next);
             let goes_on =
                 gain > WORTH_A_ROUND && likelihood_apart(&next.fit, &best.fit.values) > MOVED_IN_A_ROUND;
@@ -46,6 +47,17 @@ impl<P: Progress> Trials<'_, P> {
             }
         }
         best
+    }
+
+    /// The same with other valleys looked for in its windows, and fitted to the end again where some were found.
+    fn looked_about(&self, found: FittedHypothesis) -> FittedHypothesis {
+        let (h, name) = (&found.hypothesis, found.hypothesis.name());
+        let again = self.within_budget(&name, h.unknowns.len(), |data| {
+            let looked = data.fit.looked_about(h, &found.fit)?;
+            let gains = nats(&found.fit.windows) - nats(&looked.windows) > WORTH_A_ROUND;
+            if gains { finish_begun(data, h.clone(), looked, &found) } else { None }
+        });
+        again.filter(|next| against(&self.data, next) < against(&self.data, &found)).unwrap_or(found)
     }
 
     fn once_more(&self, best: &FittedHypothesis) -> FittedHypothesis {
