@@ -125,7 +125,13 @@ impl Quintic {
         } else if 1.0 - share < AT_END {
             return (c[5] - (c[5] - c[4]) * (5.0 * (1.0 - share))).to_array();
         }
-        self.position(share)
+        // After Horner in the share times powers of what is left: a third of the operations of de Casteljau's way, for one rounding more.
+        let left = 1.0 - share;
+        let square = left * left;
+        let [of_1, of_2, of_3] = [5.0 * (square * square), 10.0 * (square * left), 10.0 * square];
+        let from_1 =
+            (((c[5] * share + c[4] * (5.0 * left)) * share + c[3] * of_3) * share + c[2] * of_2) * share;
+        ((from_1 + c[1] * of_1) * share + c[0] * (square * square * left)).to_array()
     }
 
     /// Velocities at a share of the step.
@@ -180,6 +186,7 @@ mod tests {
             let share = f64::from(i) / 10.0;
             // A few roundings of numbers near one.
             assert!((quintic.position(share)[0] - x(share * h)).abs() < 1e-14);
+            assert!((quintic.sampled(share)[1] + x(share * h)).abs() < 1e-14);
             assert!((quintic.velocity(share)[1] + v(share * h)).abs() < 1e-13);
             assert!((quintic.difference().value(share) + 2.0 * x(share * h)).abs() < 1e-14);
         }

@@ -201,7 +201,14 @@ pub struct Confused {
 struct Trace<'t> {
     tried: &'t FittedHypothesis,
     /// Of every window; `None` where it is not linear.
-    slopes: Vec<Option<WindowSlopes>>,
+    windows: Vec<Option<WindowTrace>>,
+}
+
+/// How a window changes with them.
+struct WindowTrace {
+    by_values: DMatrix<f64>,
+    /// Products of these columns with each other.
+    products: DMatrix<f64>,
 }
 
 /// Every effect of one number with what imitates most of it, the best imitated first.
@@ -219,7 +226,7 @@ pub fn confused(data: &Data, recalibrated: &FittedHypothesis, tried: &[FittedHyp
     };
     let traces = real.par_iter().filter_map(|t| trace(data, recalibrated, &chords, t)).collect::<Vec<_>>();
     let one = |t: &&Trace| t.tried.hypothesis.unknowns.len() == t.tried.hypothesis.nuisances + 1;
-    let effects = traces.iter().filter(|t| t.tried.hypothesis.additions[0].kind().is_some()).filter(one);
+    let effects = traces.par_iter().filter(|t| t.tried.hypothesis.additions[0].kind().is_some()).filter(one);
     let mut all = effects.filter_map(|effect| most_confused(effect, &traces)).collect::<Vec<_>>();
     all.sort_by(|a, b| b.share.total_cmp(&a.share));
     all
@@ -244,8 +251,11 @@ fn trace<'t>(
     let half = changes.iter().map(|c| c / 2.0).collect::<Vec<_>>();
     let slopes = data.fit.slopes_over(h, &at, &changes, Some(chords))?;
     let near = data.fit.slopes_over(h, &at, &half, Some(chords))?;
-    let linear = |(far, near): (WindowSlopes, WindowSlopes)| is_linear(&far, &near).then_some(far);
-    Some(Trace { tried, slopes: slopes.into_iter().zip(near).map(linear).collect() })
+    let linear = |(far, near): (WindowSlopes, WindowSlopes)| {
+        is_linear(&far, &near)
+            .then(|| WindowTrace { products: far.by_values.tr_mul(&far.by_values), by_values: far.by_values })
+    };
+    Some(Trace { tried, windows: slopes.into_iter().zip(near).map(linear).collect() })
 }
 
 /// Whether a window is linear over a change and over half of it, with the same slopes.
@@ -291,15 +301,18 @@ fn information(effect: &Trace, other: &Trace, added: usize) -> Option<f64> {
     let h = &effect.tried.hypothesis;
     let (own, at) = (h.nuisances, h.nuisances);
     let size = own + 1 + added;
-    let mut a = DMatrix::zeros(size, size);
-    for (w, window) in effect.slopes.iter().enumerate() {
-        let (Some(window), Some(theirs)) = (window, &other.slopes[w]) else { continue };
-        let mut columns = window.by_values.clone().resize_horizontally(size, 0.0);
-        for k in 0..added {
-            let theirs = theirs.by_values.column(other.tried.hypothesis.nuisances + k);
-            columns.set_column(own + 1 + k, &theirs);
-        }
-        a += columns.transpose() * &columns;
+    let (mut a, from) = (DMatrix::zeros(size, size), other.tried.hypothesis.nuisances);
+    for (mine, theirs) in effect.windows.iter().zip(&other.windows) {
+        let (Some(mine), Some(theirs)) = (mine, theirs) else { continue };
+        let mut own_block = a.view_mut((0, 0), (own + 1, own + 1));
+        own_block += &mine.products;
+        let shared = mine.by_values.tr_mul(&theirs.by_values.columns(from, added));
+        let mut right = a.view_mut((0, own + 1), (own + 1, added));
+        right += &shared;
+        let mut below = a.view_mut((own + 1, 0), (added, own + 1));
+        below += shared.transpose();
+        let mut their_block = a.view_mut((own + 1, own + 1), (added, added));
+        their_block += theirs.products.view((from, from), (added, added));
     }
     let scale = |k: usize| if a[(k, k)] > 0.0 { a[(k, k)].sqrt() } else { 1.0 };
     let scales = (0..size).map(scale).collect::<Vec<_>>();
