@@ -95,6 +95,11 @@ impl Controller {
         }
     }
 
+    /// Proposes less than before a step that was kept, whose small error says nothing: it may have proposed the most.
+    pub fn shorten(&mut self) {
+        self.proposed_s *= LEAST_FACTOR / MOST_FACTOR;
+    }
+
     /// Length for the next step with `remaining_s` to go: the proposal, or equal parts of what remains.
     #[inline]
     pub fn next_s(&self, remaining_s: f64) -> f64 {

@@ -3,6 +3,7 @@
 mod carried;
 mod impacts;
 mod memory;
+mod roots;
 
 use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::accelerogram::Accelerogram;

@@ -12,6 +12,10 @@ use super::laws::{FormulaLaw, joint_of};
 /// Speeds up to this many times that of a fall from the wall's own height. A wall that stands is far slower.
 const FALLS: f64 = 2.0;
 
+/// Below this share of such speeds, a millionth of a metre a second, roots of a rate go straight to zero. What creeps as slowly for a
+/// minute goes as far as a mortar joint is rough.
+const STRAIGHT_SHARE: f64 = 5e-8;
+
 /// The laws of motion among the formulas of a wall, checked over all that the wall can reach before it counts as collapsed.
 ///
 /// # Errors
@@ -45,7 +49,8 @@ fn law(wall: &Wall, formula: &Formula) -> Result<FormulaLaw, FormulaError> {
     let jumps = formula.check(&range)?;
     let friction = jumps.iter().position(|jump| *jump == Jump::AgainstMotion);
     let weight_n = if joint.is_some() { range.high[2] } else { 0.0 };
-    let law = FormulaLaw::new(formula, weight_n, friction, Carried::of(wall, formula, &range)?);
+    let law = FormulaLaw::new(formula, weight_n, friction, Carried::of(wall, formula, &range)?)
+        .straight_below(STRAIGHT_SHARE * range.high[1], range.high[0]);
     match joint {
         Some(_) if friction.is_some() => Err(FormulaError::found(
             "a moment that jumps at w = 0",

@@ -50,7 +50,12 @@ pub(crate) struct FormulaLaw {
     pub(super) friction: Option<usize>,
     pub(super) branches: Branches,
     pub(super) carried: Carried,
+    /// The rate below which a root of it goes straight to zero, m/s or rad/s; zero where there is no such root.
+    straight_below: f64,
 }
+
+/// How much steeper than over a hundred times as much a force may rise over the least rates: a power of 0.91.
+const STEEPEST: f64 = 1.5;
 
 impl FormulaLaw {
     /// In the branches of rest; friction holds.
@@ -62,7 +67,25 @@ impl FormulaLaw {
         let branches = friction.map_or(at_rest, |switch| at_rest.with(switch, Branch::Zero));
         let joint = joint_of(formula.place());
         let largest = formula.remembers().then_some(new);
-        Self { program, joint, weight_n, largest, friction, branches, carried }
+        Self { program, joint, weight_n, largest, friction, branches, carried, straight_below: 0.0 }
+    }
+
+    /// The same, going straight to what it is at rest below a rate where it is a root there, at a displacement or rotation of some size.
+    ///
+    /// A root rises without end at zero. What creeps under it follows in no time, at rates that are roundings: a wall that all but rests
+    /// took steps of 1e-7 s, or none was short enough.
+    #[must_use]
+    pub(super) fn straight_below(self, rate: f64, size: f64) -> Self {
+        let is_root = |q: f64, side: f64| {
+            let state = self.state_anywhere(q, side * rate);
+            let branches = self.program.branches_at(state, [0.0; 5]);
+            let at = |share: f64| self.program.value(self.state_anywhere(q, side * share * rate), &branches);
+            let [near, far] = [0.01, 1.0].map(|share| (at(share) - at(0.0)).abs() / share);
+            near > STEEPEST * far
+        };
+        let places = [size, -size, 0.1 * size, -0.1 * size, 0.0];
+        let root = places.into_iter().any(|q| is_root(q, 1.0) || is_root(q, -1.0));
+        Self { straight_below: if root { rate } else { 0.0 }, ..self }
     }
 
     /// The variables at a displacement or rotation and its rate.
@@ -95,7 +118,18 @@ impl FormulaLaw {
     /// Force or moment on the wall, N or N m.
     #[inline]
     fn value(&self, q: f64, rate: f64) -> f64 {
+        if rate.abs() < self.straight_below {
+            return self.straight(q, rate);
+        }
         self.program.value(self.state(q, rate), &self.branches)
+    }
+
+    /// The same between rest and the rate from which it is as written.
+    #[cold]
+    fn straight(&self, q: f64, rate: f64) -> f64 {
+        let [rest, there] = [0.0, self.straight_below.copysign(rate)]
+            .map(|rate| self.program.value(self.state(q, rate), &self.branches));
+        rest + (there - rest) * (rate.abs() / self.straight_below)
     }
 
     /// The same as it is written, whatever branch it is in.
@@ -285,4 +319,53 @@ fn largest_slopes(law: &FormulaLaw, size: f64, speed: f64) -> Pair {
     let both = |most: f64| SHARES.into_iter().flat_map(move |share| [share * most, -share * most]);
     let states = both(size).flat_map(|q| both(speed).chain([0.0]).map(move |rate| (q, rate)));
     states.map(|(q, rate)| law.slopes_at(q, rate)).fold([0.0; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])])
+}
+
+#[cfg(test)]
+mod tests {
+    use mrbd_formula::Parameter;
+
+    use super::*;
+
+    fn law(text: &str, parameters: &[(&str, f64, &str)]) -> FormulaLaw {
+        let own = parameters.iter().map(|(name, value, unit)| Parameter::new(name, *value, unit));
+        let formula = Formula::parse(text, Place::Top, &own.collect::<Vec<_>>()).expect("a formula");
+        FormulaLaw::new(&formula, 0.0, None, Carried::default()).straight_below(1e-6, 0.2)
+    }
+
+    #[test]
+    fn analytic_a_root_of_the_velocity_goes_straight_to_zero() {
+        for n in [0.3, 0.5, 0.9] {
+            let root = law("-c*sign(v)*abs(v)**n", &[("c", 4e3, "N*(s/m)**n"), ("n", n, "")]);
+            for side in [1.0, -1.0] {
+                let branch = if side > 0.0 { Branch::Positive } else { Branch::Negative };
+                let mut root = root.clone();
+                root.branches = root.branches.with(0, branch);
+                // As written from there on, and below in proportion; roundings of a power.
+                let written = |v: f64| -side * 4e3 * v.powf(n);
+                for (v, force_n) in
+                    [(1e-2, written(1e-2)), (1e-6, written(1e-6)), (2.5e-7, 0.25 * written(1e-6))]
+                {
+                    let found_n = root.value(0.05, side * v);
+                    assert!((found_n / force_n - 1.0).abs() < 1e-12, "{n} at {v}: {found_n}, {force_n}");
+                }
+                assert_eq!(root.value(0.05, 0.0), 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn analytic_what_is_no_root_is_as_written_down_to_zero() {
+        let c = |unit: &'static str| [("c", 2e3, unit), ("d", 0.1, "m/s")];
+        for (text, unit) in [
+            ("-c*v*(1 + abs(v)/d)", "N*s/m"),
+            ("-c*tanh(v/d)", "N"),
+            ("-c*sign(v)*(abs(v)/d)**1.5", "N"),
+            ("-c*sign(v)*(abs(v)/d)**0.95", "N"),
+            ("-c*v/(d + abs(v))", "N"),
+        ] {
+            assert_eq!(law(text, &c(unit)).straight_below, 0.0, "{text}");
+        }
+        assert_eq!(law("-c*sign(v)*sqrt(abs(v)/d)", &c("N")).straight_below, 1e-6);
+    }
 }

@@ -23,6 +23,9 @@ const MOST_CORRECTIONS: u32 = 4;
 /// some ten thousand until rest. It is that of a wall sixty times as high as thick with a capture velocity of
 /// zero.
 const MOST_EVENTS_AT_ONCE: u32 = 50_000;
+/// Turns of a formula's switch without progress from which steps are made shorter. Where a force rises steeply about zero velocity, steps
+/// that are too long for it swing to either side, by less than their error may be, and each of these is a turn.
+const MOST_TURNS_AT_ONCE: u32 = 8;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
 pub(in super::super) const PROGRESS: f64 = 1e-6;
 
@@ -171,6 +174,9 @@ impl<O: Observer> Run<O> {
         let to_s = from_s + step.h;
         let (start_s, time_s) = (piece.start_s + from_s, piece.start_s + to_s);
         self.progress(step.h, time_s)?;
+        if matches!(event, Event::Kink(Kink::Turns { .. })) && self.stalled > MOST_TURNS_AT_ONCE {
+            self.controller.shorten();
+        }
         self.keep(start_s, step, &Quintic::new(&step.start, &step.end, step.h), reactions);
         match event {
             Event::Collapse => return Err(Stop::Collapsed { time_s }),
