@@ -14,7 +14,7 @@ use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{
     FittedHypothesis, Trials, WallFits, against, all_windows, closes, crushes, does_something, excess,
-    first_of_each, in_order_of_likelihood, is_noise, joint_error, relieved, typical_error,
+    first_of_each, in_order_of_likelihood, is_noise, joint_error, kinds, relieved, typical_error,
 };
 use crate::limits::{
     BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
@@ -38,9 +38,10 @@ pub fn on_beds<P: Progress>(
         return None;
     }
     let rivals = rivals.unwrap_or_else(|| trials.rivals_of_beds(before));
-    let standing = Standing::of(trials, wall, &best, &rivals)?;
+    let (nearest, others) = near_held(trials, recalibrated, &best, rivals.clone());
+    let standing = Standing::of(trials, wall, &best, &others)?;
     let laws = trials.joint_laws(&best);
-    let equals = equals_of_held(trials, &beds, &laws);
+    let equals = equals_of_held(trials, &beds, &laws, &nearest);
     if !trials.is_held() {
         near.extend(laws.iter().filter(|law| stands_for(trials, &best, law)).cloned());
     }
@@ -58,17 +59,40 @@ pub fn on_beds<P: Progress>(
     Some(gap.or_another_law(found, named_alone))
 }
 
-/// What a strip whose top is held cannot tell from its best bed: beds at other joints and other laws that leave no more than a
-/// rival may; empty where nothing comes near, or no top is held.
+/// Effects on sharp edges that take away nearly as much of a strip whose top is held as joints that give do, and those that do not. The
+/// first are of one class with these: one moment against one rotation tells little, and which comes how near depends on the states of few
+/// windows. All are of the second where no top is held.
+fn near_held<P: Progress>(
+    trials: &Trials<P>,
+    without: &FittedHypothesis,
+    best: &FittedHypothesis,
+    rivals: Vec<FittedHypothesis>,
+) -> (Vec<FittedHypothesis>, Vec<FittedHypothesis>) {
+    if !trials.is_held() {
+        return (Vec::new(), rivals);
+    }
+    let left = |tried: &FittedHypothesis| {
+        let taken = Remainder::new(&trials.data, without, tried, &[]);
+        taken.map_or(1.0, |taken| 1.0 - taken.taken_held_out)
+    };
+    let most = REMAINDER_RIVAL * left(best);
+    rivals
+        .into_iter()
+        .partition(|rival| kinds(rival).is_some() && does_something(rival) && left(rival) < most)
+}
+
+/// What a strip whose top is held cannot tell from its best bed: beds at other joints, other laws that leave no more than a
+/// rival may, and the effects that come as near; empty where nothing does, or no top is held.
 fn equals_of_held<P: Progress>(
     trials: &Trials<P>,
     beds: &[FittedHypothesis],
     laws: &[FittedHypothesis],
+    nearest: &[FittedHypothesis],
 ) -> Vec<String> {
     let Some((best, others)) = beds.split_first().filter(|_| trials.is_held()) else { return Vec::new() };
     let left = |tried: &FittedHypothesis| excess(&all_windows(tried)).max(1.0);
     let near = others.iter().chain(laws).filter(|other| left(other) < REMAINDER_RIVAL * left(best));
-    let near = near.map(|other| other.hypothesis.name()).collect::<Vec<_>>();
+    let near = near.chain(nearest).map(|other| other.hypothesis.name()).collect::<Vec<_>>();
     if near.is_empty() { near } else { [vec![best.hypothesis.name()], near].concat() }
 }
 
