@@ -82,8 +82,19 @@ impl<P: Progress> Trials<'_, P> {
         numbers: usize,
         fit: impl FnOnce(&Data) -> Option<R>,
     ) -> Option<R> {
-        let budget = Budget::of(&self.data.fit, FIT_WORK * numbers.max(1) as f64);
-        let data = Data { fit: Problem { budget: Some(&budget), ..self.data.fit }, ..self.data };
+        self.within_budget_of(&self.data, name, numbers, fit)
+    }
+
+    /// The same to other windows.
+    pub(super) fn within_budget_of<R>(
+        &self,
+        data: &Data,
+        name: &str,
+        numbers: usize,
+        fit: impl FnOnce(&Data) -> Option<R>,
+    ) -> Option<R> {
+        let budget = Budget::of(&data.fit, FIT_WORK * numbers.max(1) as f64);
+        let data = Data { fit: Problem { budget: Some(&budget), ..data.fit }, ..*data };
         let found = fit(&data);
         if budget.is_spent() {
             self.unfinished.tell(name);
