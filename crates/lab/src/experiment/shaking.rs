@@ -91,7 +91,7 @@ pub(super) fn straightened(shaking: Shaking, wall: &WallParameters, noise_rad: f
 fn halved(record: &Accelerogram, most_off_m_s2: f64, until_s: f64) -> Option<Accelerogram> {
     let samples = record.acceleration_m_s2();
     let ends_before = record.duration_s() <= until_s;
-    if ends_before && samples.len() % 2 == 0 {
+    if ends_before && samples.len().is_multiple_of(2) {
         // Without its last sample a record is another one when it runs backwards.
         return None;
     }
