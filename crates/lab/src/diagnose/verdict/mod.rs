@@ -8,6 +8,7 @@
 //! | `at_impacts` | what is left at impacts, where formulations of a contact part |
 //! | `remainder` | a name that leaves more than noise |
 //! | `on_beds` | joints that give, where windows ask for them |
+//! | `held` | what a strip whose top is held cannot tell from joints that give |
 //! | `beds_beside` | the same beside an effect that is not enough on sharp edges |
 //! | `outside` | laws outside the catalogue, a curve, or a place |
 //! | `other_law` | whether a law outside the catalogue is behind a name |
@@ -15,6 +16,7 @@
 mod at_impacts;
 mod beds_beside;
 mod found;
+mod held;
 mod judge;
 mod on_beds;
 mod other_law;

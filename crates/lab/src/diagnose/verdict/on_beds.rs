@@ -4,6 +4,7 @@
 //! they hold, the others are fitted as rivals, and no more is tried.
 
 use super::found::Found;
+use super::held::{equals_of_held, near_held};
 use super::judge::Gap;
 use super::remainder::is_soft;
 use super::worth_naming::{leaves_noise, worth_two};
@@ -14,7 +15,7 @@ use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{
     FittedHypothesis, Trials, WallFits, against, all_windows, closes, crushes, does_something, excess,
-    first_of_each, in_order_of_likelihood, is_noise, joint_error, kinds, relieved, typical_error,
+    first_of_each, in_order_of_likelihood, is_noise, joint_error, relieved, typical_error,
 };
 use crate::limits::{
     BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
@@ -57,43 +58,6 @@ pub fn on_beds<P: Progress>(
         Some(Standing::of(trials, wall, &alone, &rivals)?.found(trials, wall, alone, &[], tried()))
     };
     Some(gap.or_another_law(found, named_alone))
-}
-
-/// Effects on sharp edges that take away nearly as much of a strip whose top is held as joints that give do, and those that do not. The
-/// first are of one class with these: one moment against one rotation tells little, and which comes how near depends on the states of few
-/// windows. All are of the second where no top is held.
-fn near_held<P: Progress>(
-    trials: &Trials<P>,
-    without: &FittedHypothesis,
-    best: &FittedHypothesis,
-    rivals: Vec<FittedHypothesis>,
-) -> (Vec<FittedHypothesis>, Vec<FittedHypothesis>) {
-    if !trials.is_held() {
-        return (Vec::new(), rivals);
-    }
-    let left = |tried: &FittedHypothesis| {
-        let taken = Remainder::new(&trials.data, without, tried, &[]);
-        taken.map_or(1.0, |taken| 1.0 - taken.taken_held_out)
-    };
-    let most = REMAINDER_RIVAL * left(best);
-    rivals
-        .into_iter()
-        .partition(|rival| kinds(rival).is_some() && does_something(rival) && left(rival) < most)
-}
-
-/// What a strip whose top is held cannot tell from its best bed: beds at other joints, other laws that leave no more than a
-/// rival may, and the effects that come as near; empty where nothing does, or no top is held.
-fn equals_of_held<P: Progress>(
-    trials: &Trials<P>,
-    beds: &[FittedHypothesis],
-    laws: &[FittedHypothesis],
-    nearest: &[FittedHypothesis],
-) -> Vec<String> {
-    let Some((best, others)) = beds.split_first().filter(|_| trials.is_held()) else { return Vec::new() };
-    let left = |tried: &FittedHypothesis| excess(&all_windows(tried)).max(1.0);
-    let near = others.iter().chain(laws).filter(|other| left(other) < REMAINDER_RIVAL * left(best));
-    let near = near.chain(nearest).map(|other| other.hypothesis.name()).collect::<Vec<_>>();
-    if near.is_empty() { near } else { [vec![best.hypothesis.name()], near].concat() }
 }
 
 /// Joints that give where the gap was too narrow for them to come first, and nothing that was tried closes it: a name if they
