@@ -125,7 +125,7 @@ impl Quintic {
         } else if 1.0 - share < AT_END {
             return (c[5] - (c[5] - c[4]) * (5.0 * (1.0 - share))).to_array();
         }
-        // After Horner in the share times powers of what is left: a third of the operations of de Casteljau's way, for one rounding more.
+        // After Horner in the share, times powers of what is left: less work than de Casteljau's way, by other roundings.
         let left = 1.0 - share;
         let square = left * left;
         let [of_1, of_2, of_3] = [5.0 * (square * square), 10.0 * (square * left), 10.0 * square];

@@ -36,3 +36,18 @@ fn analytic_a_wall_that_creeps_under_a_root_takes_no_endless_steps() {
         }
     }
 }
+
+#[test]
+fn analytic_walls_that_creep_side_by_side_move_as_they_do_alone() {
+    let walls = [0.3, 0.4, 0.5, 0.6, 0.7].map(|n| root(Place::Top, "v", 14e3, n));
+    let accuracy = Accuracy { tolerance: 1e-6 };
+    let simulators = walls.each_ref().map(|wall| Simulator::new(wall, &growing(1.1), accuracy));
+    let mut waiting = simulators.iter().enumerate();
+    let mut next = || waiting.next().map(|(index, simulator)| (index, simulator.prepared()));
+    let mut beside = vec![None; walls.len()];
+    simulate_side_by_side(&mut next, &mut |index, response| beside[index] = Some(response));
+    for (wall, beside) in walls.iter().zip(beside) {
+        let alone = simulate(wall, &growing(1.1), accuracy);
+        assert_eq!(format!("{beside:?}"), format!("{:?}", Some(alone)));
+    }
+}

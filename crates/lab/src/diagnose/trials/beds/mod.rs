@@ -171,20 +171,17 @@ impl<P: Progress> Trials<'_, P> {
     /// A hypothesis fitted to the end with the model's own error in the place of noise: what it typically leaves, for an effect beside beds
     /// shows in most windows; of a held strip, which has few windows and nothing to be told beside its joints, what it leaves in all.
     ///
-    /// So what was known of the wall counts as much as it should, and a deviation is that of a model with such errors. `None` where that
-    /// is more work than a fit may be: what is beside a bed that stands for something else may come to values that take minutes.
+    /// So what was known of the wall counts as much as it should, and a deviation is that of a model with such errors.
     fn finished_beside_own_error(&self, coarse: &FittedHypothesis) -> Option<FittedHypothesis> {
         let h = &coarse.hypothesis;
         let error = if self.is_held() { own_error(coarse) } else { typical_error(coarse) };
         let tests = widened(self.data.fit.tests, error);
-        self.within_budget(&h.name(), h.unknowns.len(), |data| {
-            let wide = Problem { tests: &tests, ..data.fit };
-            let start = wide.states(h, &coarse.fit.values, &states_of(&coarse.fit), 1, false)?;
-            let found = wide.fit_finely(h, start)?;
-            let fit = data.fit.states(h, &found.values, &states_of(&found), 1, false)?;
-            let fit = Fit { covariance: found.covariance, ..fit };
-            judged_thoroughly(data, h.clone(), fit)
-        })
+        let wide = Problem { tests: &tests, ..self.data.fit };
+        let start = wide.states(h, &coarse.fit.values, &states_of(&coarse.fit), 1, false)?;
+        let found = wide.fit_finely(h, start)?;
+        let fit = self.data.fit.states(h, &found.values, &states_of(&found), 1, false)?;
+        let fit = Fit { covariance: found.covariance, ..fit };
+        judged_thoroughly(&self.data, h.clone(), fit)
     }
 
     /// The first of hypotheses on beds fitted again where windows are others, from the measured states; the best to the end.
