@@ -1,6 +1,7 @@
 //! Laws found over points, fitted to windows with their impacts: these alone judge.
 
 use super::asked::{AskedOfLaws, OpenGap, Scope};
+use super::by_few::best_law;
 use super::equals::{law_of, simplest_of_equals};
 use super::guards::{holds_in_each_test, lies_inside};
 use super::points::Points;
@@ -12,10 +13,12 @@ use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, Site, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    Data, FittedHypothesis, Trials, against, does_something, follows_to_noise, judged, refit, shared_states,
+    Data, FittedHypothesis, Trials, against, does_something, follows_to_noise, joint_error, judged, refit,
+    shared_states,
 };
 use crate::limits::{
-    EQUIVALENT, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, WORTH_A_NAME, WORTH_WINDOWS,
+    EQUIVALENT, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, NEXT_TO_NOTHING, WORTH_A_NAME,
+    WORTH_WINDOWS,
 };
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -67,6 +70,8 @@ pub(super) struct Fitted {
     pub law: FittedHypothesis,
     /// Whether its fit ended by itself, and not because it had worked as much as it may.
     pub is_done: bool,
+    /// Whether it was fitted again from about itself.
+    pub is_refined: bool,
 }
 
 impl<P: Progress> Trials<'_, P> {
@@ -76,15 +81,24 @@ impl<P: Progress> Trials<'_, P> {
         let points = Points::new(self.data.fit.tests, &wall)?;
         let searched = search(&points)?;
         let best = searched.singles.iter().chain(&searched.pairs).map(|c| c.evidence).fold(0.0, f64::max);
-        if best < WORTH_WINDOWS && gap.kin.is_empty() {
+        let windows_choose = self.windows_choose(gap, &searched);
+        if best < WORTH_WINDOWS && gap.kin.is_empty() && !windows_choose {
             return None;
         }
-        let mut refused = self.refused_over_points(&searched, &searched.singles);
-        let singles = self.singles_in_windows(gap, &searched);
-        let judge = |fitted: &[Fitted], simpler: Option<&FittedHypothesis>| {
-            self.closing(gap, &searched, fitted, simpler, asked)
+        let refused_over_points = |laws: &[Candidate]| match windows_choose {
+            true => Vec::new(),
+            false => self.refused_over_points(&searched, laws),
         };
-        let (mut closing, of_singles) = judge(&singles, None);
+        let mut refused = refused_over_points(&searched.singles);
+        let mut singles = self.singles_in_windows(gap, &searched);
+        let judge = |fitted: &mut Vec<Fitted>, simpler: Option<&FittedHypothesis>| {
+            let judged = self.closing(gap, &searched, fitted, simpler, asked);
+            match judged.0.is_empty() && self.is_best_refined(gap, fitted) {
+                true => self.closing(gap, &searched, fitted, simpler, asked),
+                false => judged,
+            }
+        };
+        let (mut closing, of_singles) = judge(&mut singles, None);
         refused.extend(of_singles);
         // A law may close the gap and miss windows for a second atom that shows in few of them.
         let is_open = !closing.iter().any(|law| asked.leaves_nothing(law));
@@ -92,13 +106,13 @@ impl<P: Progress> Trials<'_, P> {
         let single = searched.singles.first().map_or(0.0, |c| c.evidence);
         let says_more = searched.pairs.first().is_some_and(|pair| pair.evidence > single);
         let mut pairs = Vec::new();
-        if gap.scope >= Scope::TwoAtoms && is_open && says_more {
+        if gap.scope >= Scope::TwoAtoms && is_open && (says_more || windows_choose) {
             let simpler = tried.first().unwrap_or(gap.recalibrated).clone();
-            pairs = self.pairs_in_windows(gap, &searched);
-            let (of_two, of_pairs) = judge(&pairs, Some(&simpler));
+            pairs = self.pairs_in_windows(gap, &searched, &singles);
+            let (of_two, of_pairs) = judge(&mut pairs, Some(&simpler));
             closing.extend(of_two);
             refused.extend(of_pairs);
-            refused.extend(self.refused_over_points(&searched, &searched.pairs));
+            refused.extend(refused_over_points(&searched.pairs));
             tried.extend(pairs.iter().map(|fitted| fitted.law.clone()));
         }
         let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
@@ -141,24 +155,52 @@ impl<P: Progress> Trials<'_, P> {
         (closing, refused)
     }
 
+    /// Fits the best law whose numbers mean something again from about itself, where it leaves next to nothing of the gap: such a fit has
+    /// ended in another valley of some windows than the right one. Whether there was one, and not refined before.
+    fn is_best_refined(&self, gap: &OpenGap, fitted: &mut Vec<Fitted>) -> bool {
+        let means = |one: &Fitted| law_of(&one.law).is_some_and(|law| lies_inside(&law));
+        let Some(place) = fitted.iter().position(|one| one.is_done && means(one)) else { return false };
+        let best = &fitted[place];
+        if best.is_refined || !leaves_next_to_nothing(&best.law, gap.error) {
+            return false;
+        }
+        let law = self.refined(best.law.clone());
+        fitted[place] = Fitted { law, is_refined: true, ..best.clone() };
+        *fitted = self.in_order(std::mem::take(fitted));
+        true
+    }
+
     /// Laws of one atom, fitted to windows: those that were fitted before, and kin.
     fn singles_in_windows(&self, gap: &OpenGap, searched: &Searched) -> Vec<Fitted> {
+        const WHAT: &str = "laws of one atom";
         let Some(before) = gap.before else {
-            return self.laws_in_windows(gap, searched, gap.kin, &searched.singles, "laws of one atom");
+            let starts = match self.windows_choose(gap, searched) {
+                true => {
+                    self.starts_in_few(gap, searched, &[gap.kin, &searched.of_every_shape()].concat(), WHAT)
+                }
+                false => self.starts_by_look(gap, searched, gap.kin, &searched.singles, WHAT),
+            };
+            return self.laws_in_windows(gap, starts, WHAT);
         };
         let mut singles = self.with_states_since(gap, &before.singles);
         if !gap.kin.is_empty() {
-            singles.extend(self.laws_in_windows(gap, searched, gap.kin, &[], "laws of one atom"));
+            let starts = self.starts_by_look(gap, searched, gap.kin, &[], WHAT);
+            singles.extend(self.laws_in_windows(gap, starts, WHAT));
         }
         self.in_order(singles)
     }
 
     /// Laws of two atoms, fitted to windows: those that were fitted before.
-    fn pairs_in_windows(&self, gap: &OpenGap, searched: &Searched) -> Vec<Fitted> {
-        match gap.before.map(|before| &before.pairs[..]) {
-            Some(before @ [_, ..]) => self.in_order(self.with_states_since(gap, before)),
-            _ => self.laws_in_windows(gap, searched, &[], &searched.pairs, "laws of two atoms"),
+    fn pairs_in_windows(&self, gap: &OpenGap, searched: &Searched, singles: &[Fitted]) -> Vec<Fitted> {
+        const WHAT: &str = "laws of two atoms";
+        if let Some(before @ [_, ..]) = gap.before.map(|before| &before.pairs[..]) {
+            return self.in_order(self.with_states_since(gap, before));
         }
+        let starts = match self.windows_choose(gap, searched) {
+            true => self.starts_in_few(gap, searched, &searched.beside(best_law(singles).as_ref()), WHAT),
+            false => self.starts_by_look(gap, searched, &[], &searched.pairs, WHAT),
+        };
+        self.laws_in_windows(gap, starts, WHAT)
     }
 
     /// Laws that were fitted before. What follows best by now has states that they have not tried.
@@ -178,7 +220,7 @@ impl<P: Progress> Trials<'_, P> {
         &self,
         gap: &OpenGap,
         searched: &Searched,
-        Fitted { law: tried, is_done }: &Fitted,
+        Fitted { law: tried, is_done, .. }: &Fitted,
         simpler: Option<&FittedHypothesis>,
         asked: &impl AskedOfLaws,
     ) -> Vec<Guard> {
@@ -225,16 +267,15 @@ impl<P: Progress> Trials<'_, P> {
         all.filter(|(_, guards)| !guards.is_empty()).filter_map(refused).collect()
     }
 
-    /// Laws that are known to be near and the best of those found over points, fitted to windows; the first of these with
-    /// exact exponents too.
-    fn laws_in_windows(
+    /// Laws that are known to be near and the best of those found over points, as windows follow them from there: the best.
+    fn starts_by_look(
         &self,
         gap: &OpenGap,
         searched: &Searched,
         kin: &[Law],
         laws: &[Candidate],
         what: &str,
-    ) -> Vec<Fitted> {
+    ) -> Vec<Start> {
         let sound = |c: &&Candidate| {
             c.evidence > WORTH_WINDOWS
                 && lies_inside(&c.law)
@@ -251,6 +292,11 @@ impl<P: Progress> Trials<'_, P> {
         let mut starts = laws.par_iter().filter_map(look).collect::<Vec<_>>();
         starts.sort_by(|a, b| a.nats.total_cmp(&b.nats));
         starts.truncate(LAWS_FITTED);
+        starts
+    }
+
+    /// Laws fitted to windows from where they start; the first of these with exact exponents too.
+    fn laws_in_windows(&self, gap: &OpenGap, starts: Vec<Start>, what: &str) -> Vec<Fitted> {
         let free = self.fitted(gap, starts, what);
         let exact = self.exactly(&free);
         self.in_order([free, exact].concat())
@@ -267,11 +313,11 @@ impl<P: Progress> Trials<'_, P> {
             });
             self.progress.advance(1);
             match found {
-                Some(law) => Some(Fitted { law, is_done: true }),
+                Some(law) => Some(Fitted { law, is_done: true, is_refined: false }),
                 None => {
                     let fit = self.data.fit.states(&hypothesis, &values, &gap.nearest.states(), 0, false)?;
                     let law = judged(&self.data, hypothesis, fit, gap.nearest, false)?;
-                    Some(Fitted { law, is_done: false })
+                    Some(Fitted { law, is_done: false, is_refined: false })
                 }
             }
         };
@@ -304,13 +350,13 @@ impl<P: Progress> Trials<'_, P> {
             });
             self.progress.advance(1);
             // What the same law with free exponents is judged by stays.
-            Some(Fitted { law: found?, is_done: true })
+            Some(Fitted { law: found?, is_done: true, is_refined: false })
         };
         exact.par_iter().filter_map(fit).collect()
     }
 
     /// A law with the numbers that points give it and the wall.
-    fn of_points(&self, searched: &Searched, law: &Law) -> Option<(Hypothesis, Vec<f64>)> {
+    pub(super) fn of_points(&self, searched: &Searched, law: &Law) -> Option<(Hypothesis, Vec<f64>)> {
         let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
         let steps = searched.equations.wall_steps(law)?;
         let values = beside(&hypothesis, &steps).chain(law.values()).zip(&hypothesis.unknowns);
@@ -326,6 +372,12 @@ impl<P: Progress> Trials<'_, P> {
         let fit = self.within_budget(&law.name(), values.len(), look)?;
         Some(Start { nats: nats(&fit.windows), hypothesis, values })
     }
+}
+
+/// Whether a law leaves next to nothing of a gap.
+fn leaves_next_to_nothing(law: &FittedHypothesis, before: f64) -> bool {
+    let excess = |error: f64| error * error - 1.0;
+    joint_error(law).is_some_and(|left| excess(left) < NEXT_TO_NOTHING * excess(before))
 }
 
 /// The law of a hypothesis by its formula.

@@ -5,6 +5,7 @@
 //! | `points` | the missing force as equations, with what is uncertain of the wall |
 //! | `search` | all laws of one atom and of two, weighed by evidence over points |
 //! | `asked` | the gap that a law is to close, and what it must do |
+//! | `by_few` | laws chosen by few windows, where points are too noisy to choose |
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
 //! | `guards` | what refuses a law that fits |
 //! | `kin` | a name whose exponent, set free, does clearly better |
@@ -14,6 +15,7 @@
 //! | [`Stability`] | how sure the form of a law is |
 
 mod asked;
+mod by_few;
 mod by_windows;
 mod curve;
 mod curve_in_windows;

@@ -33,7 +33,7 @@ mod unfinished;
 pub use beds::{excess, in_order_of_likelihood, own_error, relieved, typical_error, widened};
 pub use between_impacts::BetweenImpacts;
 pub use effects::{FirstFits, WallFits};
-use few::Few;
+pub(super) use few::Few;
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
     against, all_windows, best_answer, closes, closes_held_out, does_something, follows_to_noise, is_noise,
@@ -86,7 +86,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// The same to other windows.
-    pub(super) fn within_budget_of<R>(
+    pub(in crate::diagnose) fn within_budget_of<R>(
         &self,
         data: &Data,
         name: &str,
