@@ -1,8 +1,8 @@
 //! Laws chosen by few windows, where points are too noisy to choose among them.
 //!
 //! A missing force is a second derivative: at 3e-4 rad its points may say nothing where windows, whose states follow the motion itself,
-//! say a thousand natural logarithms. Every shape then starts from what points give it, however little speaks for it, and is fitted
-//! coarsely to few windows; the best go on to all of them, which alone judge.
+//! say a thousand natural logarithms. The shapes that points put first then start from what points give them, however little speaks for
+//! that, and are fitted coarsely to few windows; the best go on to all of them, which alone judge.
 
 use super::asked::OpenGap;
 use super::by_windows::{Fitted, LOOK_STEPS, Start};
@@ -11,7 +11,7 @@ use super::guards::{holds_in_each_test, lies_inside};
 use super::search::Searched;
 use crate::Progress;
 use crate::diagnose::fit::nats;
-use crate::diagnose::formula::{Atom, Law, Meaning};
+use crate::diagnose::formula::{Atom, Law};
 use crate::diagnose::trials::{Data, Few, Trials, against};
 use crate::limits::{LAWS_FITTED_BY_FEW, LAWS_IN_WINDOWS, SILENT_POINTS, WORTH_WINDOWS};
 use rayon::prelude::*;
@@ -28,8 +28,8 @@ impl Searched<'_> {
         best < SILENT_POINTS * windows_nats
     }
 
-    /// Laws of one atom of every shape, whatever points say for it.
-    pub(super) fn of_every_shape(&self) -> Vec<Law> {
+    /// Laws of one atom as points put them first, whatever they say for them, with numbers that a fit may move.
+    pub(super) fn singles_to_move(&self) -> Vec<Law> {
         let holds = |law: &Law| holds_in_each_test(&self.equations, law);
         self.singles
             .iter()
@@ -40,8 +40,8 @@ impl Searched<'_> {
             .collect()
     }
 
-    /// Laws of two atoms: those of which points say most, and the best one of windows with every other shape at its place.
-    pub(super) fn beside(&self, best: Option<&Law>) -> Vec<Law> {
+    /// Laws of two atoms: those of which points say most, and the best one of windows with other shapes at its place.
+    pub(super) fn pairs_to_move(&self, best: Option<&Law>) -> Vec<Law> {
         let of_points = self.pairs.iter().map(|c| c.law).take(LAWS_IN_WINDOWS);
         let with = |best: &Law| {
             let first = best.first;
@@ -65,13 +65,10 @@ fn inside(law: Law) -> Law {
     })
 }
 
-/// The same of a power of displacement and velocity, where points read the sign of the velocity alone: as friction it has no exponent of
-/// velocity that a fit could move.
+/// The same of a law that points read as one of the velocity's sign: as friction it has no exponent of velocity that a fit could move.
 fn freed(law: Law) -> Option<Law> {
-    let is_sign = |atom: &Atom| atom.shape.powers(atom.numbers)[1].and_then(|power| power.number);
-    let number = is_sign(&law.first).filter(|i| law.first.numbers[*i] == 0.0)?;
-    debug_assert!(law.first.meaning(number) == Meaning::Exponent);
     let first = law.first;
+    let number = first.shape.powers(first.numbers)[1].filter(|power| power.value == 0.0)?.number?;
     let mut numbers = first.numbers;
     numbers[number] = OFF_FRICTION;
     Some(inside(Law::of(Atom { numbers, ..first })))
@@ -121,4 +118,84 @@ impl<P: Progress> Trials<'_, P> {
 /// The best law of those fitted to windows, in order, whose numbers mean something.
 pub(super) fn best_law(fitted: &[Fitted]) -> Option<Law> {
     fitted.iter().filter(|fitted| fitted.is_done).filter_map(|fitted| law_of(&fitted.law)).find(lies_inside)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::asked::Scope;
+    use super::super::points::Points;
+    use super::super::search::search;
+    use super::super::twin::{Twin, drag, points_of, points_with, tests_of, wall_with};
+    use super::*;
+    use crate::diagnose::formula::{Shape, Site};
+
+    /// Damping that grows with displacement.
+    const OPENING: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*abs(x)*v\"\n\
+                           [effects.parameters]\nc = { value = 3e4, unit = \"N/m*(s/m)\" }\n";
+
+    #[test]
+    fn analytic_few_windows_choose_the_law_where_points_say_too_little_of_it() {
+        let twin = Twin::new(&wall_with(OPENING), 3e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let gap = OpenGap {
+            recalibrated: &wall.recalibrated,
+            nearest: &wall.recalibrated,
+            error: 2.0,
+            scope: Scope::OneAtom,
+            kin: &[],
+            before: None,
+        };
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
+        let points = Points::new(trials.data.fit.tests, &h).expect("points");
+        let found = search(&points).expect("laws");
+        let by_points = found.singles[0].law.first;
+        assert_ne!(by_points.shape, Shape::Opening, "points choose rightly: {found:?}");
+        let said = against(&trials.data, &wall.recalibrated);
+        assert!(trials.windows_choose(&gap, &found), "{said} and {}", found.singles[0].evidence);
+        let starts = trials.starts_in_few(&gap, &found, &found.singles_to_move(), "laws");
+        let best = starts[0].hypothesis.laws(&starts[0].values)[0].first;
+        assert_eq!(best.shape, Shape::Opening, "{best:?}");
+        // Coarsely: exact exponents are told from a fit to all windows.
+        assert!(best.numbers.iter().all(|n| (n - 1.0).abs() < 0.4), "{best:?}");
+    }
+
+    #[test]
+    fn analytic_clear_points_choose_for_themselves() {
+        let points = points_with(&drag(2.0, 300.0), |_| 1.0);
+        let found = search(&points).expect("laws");
+        let said = found.singles[0].evidence;
+        assert!(!found.is_silent_beside(9.0 * said) && found.is_silent_beside(11.0 * said));
+        // Of a small gap nothing can be chosen by windows either.
+        let nothing = points_of(&tests_of(&wall_with(""), 3e-5));
+        let nothing = search(&nothing).expect("laws");
+        assert!(!nothing.is_silent_beside(90.0));
+    }
+
+    #[test]
+    fn analytic_numbers_start_where_a_fit_may_move_them_either_way() {
+        let law =
+            |shape: Shape, numbers: [f64; 2]| Law::of(Atom { shape, numbers, ..drag(0.0, 300.0).first });
+        // From 0.2 to 5 a tenth of the range is 0.48.
+        assert_eq!(inside(law(Shape::Drag, [5.0, 0.0])).first.numbers[0], 5.0 - 0.48);
+        assert_eq!(inside(law(Shape::Drag, [2.0, 0.0])).first.numbers[0], 2.0);
+        assert!(freed(law(Shape::Drag, [2.0, 0.0])).is_none());
+        let freed = freed(law(Shape::Opening, [1.5, 0.0])).expect("a law of the sign alone");
+        assert_eq!(freed.first.numbers, [1.5, 1.0]);
+        assert_eq!(freed.first.free().count(), 2);
+    }
+
+    #[test]
+    fn analytic_a_second_atom_stands_at_the_place_of_the_first() {
+        let points = points_of(&tests_of(&wall_with(OPENING), 3e-4));
+        let found = search(&points).expect("laws");
+        let best = drag(1.0, 300.0);
+        let alone = found.pairs_to_move(None).len();
+        let pairs = found.pairs_to_move(Some(&best));
+        assert!(pairs.len() > alone);
+        for pair in &pairs[alone..] {
+            let second = pair.second.expect("two atoms");
+            assert!(second.site == Site::Top && second.shape != best.first.shape, "{pair:?}");
+        }
+    }
 }

@@ -176,7 +176,7 @@ impl<P: Progress> Trials<'_, P> {
         let Some(before) = gap.before else {
             let starts = match self.windows_choose(gap, searched) {
                 true => {
-                    self.starts_in_few(gap, searched, &[gap.kin, &searched.of_every_shape()].concat(), WHAT)
+                    self.starts_in_few(gap, searched, &[gap.kin, &searched.singles_to_move()].concat(), WHAT)
                 }
                 false => self.starts_by_look(gap, searched, gap.kin, &searched.singles, WHAT),
             };
@@ -197,7 +197,9 @@ impl<P: Progress> Trials<'_, P> {
             return self.in_order(self.with_states_since(gap, before));
         }
         let starts = match self.windows_choose(gap, searched) {
-            true => self.starts_in_few(gap, searched, &searched.beside(best_law(singles).as_ref()), WHAT),
+            true => {
+                self.starts_in_few(gap, searched, &searched.pairs_to_move(best_law(singles).as_ref()), WHAT)
+            }
             false => self.starts_by_look(gap, searched, &[], &searched.pairs, WHAT),
         };
         self.laws_in_windows(gap, starts, WHAT)

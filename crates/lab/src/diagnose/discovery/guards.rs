@@ -129,6 +129,26 @@ mod tests {
     }
 
     #[test]
+    fn analytic_a_law_whose_tests_not_seen_say_enough_holds_however_much_more_it_gains_where_it_was_fitted() {
+        // Nearly a spring as the floor's own: fitted to other tests that one stands for it, far from what was known of it.
+        let law = Law::of(Atom { shape: Shape::Spring, numbers: [1.1, 0.0], ..drag(0.0, 3000.0).first });
+        let points = points_with(&law, |_| 1.0);
+        let found = search(&points).expect("laws");
+        let equations = &found.equations;
+        let rows = |own: &dyn Fn(usize) -> bool| {
+            (0..points.test.len()).filter(|row| own(points.test[*row])).collect::<Vec<_>>()
+        };
+        let seen = unseen_gain(equations, &law, &[], &rows(&|_| true)).expect("a gain");
+        let unseen = |test: usize| {
+            unseen_gain(equations, &law, &rows(&|other| other != test), &rows(&|own| own == test))
+        };
+        let unseen = (0..4).map(|test| unseen(test).expect("a gain")).collect::<Vec<_>>();
+        let sum = unseen.iter().sum::<f64>();
+        assert!(sum < LEFT_OUT_SHARE * seen && sum > WORTH_WINDOWS, "{unseen:?} of {seen}");
+        assert!(holds_in_each_test(equations, &law), "{unseen:?}");
+    }
+
+    #[test]
     fn rejects_a_force_that_feeds_the_wall() {
         let points = points_with(&drag(2.0, -300.0), |_| 1.0);
         let found = search(&points).expect("laws");
