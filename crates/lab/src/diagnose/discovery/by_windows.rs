@@ -17,8 +17,8 @@ use crate::diagnose::trials::{
     shared_states,
 };
 use crate::limits::{
-    EQUIVALENT, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, NEXT_TO_NOTHING, WORTH_A_NAME,
-    WORTH_WINDOWS,
+    EQUIVALENT, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, NEXT_TO_NOTHING, NOISE_AFTER,
+    WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_WINDOWS,
 };
 use nalgebra::DVector;
 use rayon::prelude::*;
@@ -110,6 +110,11 @@ impl<P: Progress> Trials<'_, P> {
             let simpler = tried.first().unwrap_or(gap.recalibrated).clone();
             pairs = self.pairs_in_windows(gap, &searched, &singles);
             let (of_two, of_pairs) = judge(&mut pairs, Some(&simpler));
+            if of_two.is_empty() {
+                let lacks = |one: &mut FittedHypothesis| self.lacks_an_atom(one, &pairs);
+                let lacking = closing.extract_if(.., lacks);
+                refused.extend(lacking.map(|one| Refused::in_windows(&one, vec![Guard::LacksAtom])));
+            }
             closing.extend(of_two);
             refused.extend(of_pairs);
             refused.extend(refused_over_points(&searched.pairs));
@@ -168,6 +173,17 @@ impl<P: Progress> Trials<'_, P> {
         fitted[place] = Fitted { law, is_refined: true, ..best.clone() };
         *fitted = self.in_order(std::mem::take(fitted));
         true
+    }
+
+    /// Whether a law of one atom that leaves more than noise lacks one: one of two, whose numbers mean something, says more in the tests
+    /// fitted and in those held out, as clearly as a second effect that leaves noise must.
+    fn lacks_an_atom(&self, one: &FittedHypothesis, pairs: &[Fitted]) -> bool {
+        let says_more = |Fitted { law: two, .. }: &Fitted| {
+            let [fitted, held_out] = [0, 1].map(|i| one.against(&self.data)[i] - two.against(&self.data)[i]);
+            held_out > WORTH_A_SECOND_HELD_OUT && fitted + held_out > WORTH_A_SECOND_SEEN
+        };
+        let means = |two: &Fitted| law_of(&two.law).is_some_and(|law| lies_inside(&law));
+        pairs.iter().any(|two| two.is_done && means(two) && says_more(two))
     }
 
     /// Laws of one atom, fitted to windows: those that were fitted before, and kin.
@@ -376,10 +392,11 @@ impl<P: Progress> Trials<'_, P> {
     }
 }
 
-/// Whether a law leaves next to nothing of a gap.
+/// Whether a law leaves next to nothing of a gap, or hardly more than noise.
 fn leaves_next_to_nothing(law: &FittedHypothesis, before: f64) -> bool {
     let excess = |error: f64| error * error - 1.0;
-    joint_error(law).is_some_and(|left| excess(left) < NEXT_TO_NOTHING * excess(before))
+    let is_little = |left: f64| left < NOISE_AFTER || excess(left) < NEXT_TO_NOTHING * excess(before);
+    joint_error(law).is_some_and(is_little)
 }
 
 /// The law of a hypothesis by its formula.
@@ -415,4 +432,51 @@ fn exact_law(tried: &FittedHypothesis) -> Option<Law> {
     let sd = |i: usize| tried.fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)].max(0.0).sqrt());
     let deviations = (h.nuisances..h.unknowns.len()).map(sd).collect::<Vec<_>>();
     nearest_exact(h.laws(&tried.fit.values).first()?, &deviations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::twin::{Twin, wall_with};
+    use super::*;
+    use crate::diagnose::formula::{Atom, Shape, Side};
+
+    const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
+                        [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
+    const SPRING: &str =
+        "[[effects]]\nkind = \"one_sided_spring\"\nside = \"negative\"\nstiffness_n_per_m = 5e3\n";
+
+    /// Whether a drag lacks an atom beside which a spring on one side stands, on a wall with effects.
+    fn drag_lacks_one(effects: &str) -> bool {
+        let twin = Twin::new(&wall_with(effects), 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let points =
+            Points::new(trials.data.fit.tests, &trials.hypothesis(&trials.experiment.nuisances, &[]));
+        let reach = points.expect("points").reach[Site::Top as usize];
+        let atom = |shape: Shape, n: f64, size: f64| Atom {
+            site: Site::Top,
+            shape,
+            numbers: [n, 0.0],
+            size,
+            reach,
+            is_exact: false,
+        };
+        let drag = Law::of(atom(Shape::Drag, 2.0, 4000.0 * reach[1] * reach[1]));
+        let spring = atom(Shape::OneSidedSpring(Side::Negative), 1.0, 5e3 * reach[0]);
+        let fitted = |law: Law| {
+            let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
+            let own = wall.recalibrated.fit.values.iter().copied();
+            let values = own.chain(law.values()).collect::<Vec<_>>();
+            refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit")
+        };
+        let two =
+            Fitted { law: fitted(Law { second: Some(spring), ..drag }), is_done: true, is_refined: false };
+        trials.lacks_an_atom(&fitted(drag), &[two])
+    }
+
+    #[test]
+    fn analytic_a_law_lacks_an_atom_where_one_of_two_says_more_in_tests_not_fitted_too() {
+        assert!(drag_lacks_one(&[DRAG, SPRING].concat()));
+        assert!(!drag_lacks_one(DRAG));
+    }
 }

@@ -27,7 +27,7 @@ mod refused;
 mod search;
 mod stability;
 #[cfg(test)]
-pub mod twin;
+mod twin;
 
 pub use asked::{AskedOfLaws, OpenGap, Scope};
 pub use by_windows::Discovered;

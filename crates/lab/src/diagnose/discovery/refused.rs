@@ -26,6 +26,8 @@ pub enum Guard {
     Size,
     /// Its second atom gains too little beside the first.
     SecondAtom,
+    /// It leaves more than noise, and one of two atoms says clearly more, if not enough for its second.
+    LacksAtom,
     /// A size of it would differ in large motion.
     Trend,
     /// What it leaves at the top bends with velocity.
@@ -40,7 +42,7 @@ pub enum Guard {
 
 impl Guard {
     /// Every guard, in the order of the flow.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Passivity,
         Self::Evidence,
         Self::InsideRange,
@@ -50,6 +52,7 @@ impl Guard {
         Self::HeldOut,
         Self::Size,
         Self::SecondAtom,
+        Self::LacksAtom,
         Self::Bend,
         Self::Trend,
         Self::Name,
@@ -67,6 +70,7 @@ impl Guard {
             Self::HeldOut => "held_out",
             Self::Size => "size",
             Self::SecondAtom => "second_atom",
+            Self::LacksAtom => "lacks_atom",
             Self::Trend => "trend",
             Self::Bend => "bend",
             Self::Work => "work",

@@ -90,12 +90,11 @@ impl<P: Progress> Gap<'_, P> {
     fn judge(self, singles: Vec<FittedHypothesis>) -> Found {
         let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.wall.recalibrated, best));
         if gain < WORTH_A_NAME {
-            let given = is_noise(&self.wall.before);
-            if given || is_noise(&self.wall.recalibrated) || closes(&self.wall.recalibrated, self.error) {
-                if let Some(law) = self.law_in_few_windows(&singles) {
-                    return self.placed_by(Some(law), None, singles);
-                }
-                return if given { self.nothing_missing(singles) } else { self.within_the_wall(singles) };
+            if is_noise(&self.wall.before) {
+                return self.nothing_missing(singles);
+            }
+            if is_noise(&self.wall.recalibrated) || closes(&self.wall.recalibrated, self.error) {
+                return self.within_the_wall(singles);
             }
         }
         self.with_effects(singles, gain)

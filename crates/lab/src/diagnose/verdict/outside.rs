@@ -70,17 +70,6 @@ impl<P: Progress> Gap<'_, P> {
         (is_none_of_it && is_told && self.leaves_nothing(best)).then_some(found)
     }
 
-    /// A law outside the catalogue that shows in few windows of a wall which leaves noise else, as a stop does that the largest swings reach:
-    /// one atom at the top that leaves noise in all.
-    pub(super) fn law_in_few_windows(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
-        if leaves_noise(&self.wall.recalibrated) {
-            return None;
-        }
-        let found = self.looked_for(singles, &[], Scope::OneAtom, None)?;
-        let best = found.equals.first()?;
-        (best.hypothesis.additions[0].place() == "top" && leaves_noise(best)).then_some(found)
-    }
-
     /// Whether what the wall as given lacks may be a force at the top, and nothing that joints do which give: it lies along the direction
     /// of the top, or has no direction and left so much that joints that give were asked for before any effect.
     fn may_act_at_top(&self) -> bool {
@@ -267,45 +256,5 @@ impl<P: Progress> Gap<'_, P> {
             [one] => Some(one),
             _ => None,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::diagnose::discovery::twin::{Twin, wall_with};
-    use crate::diagnose::trials::is_noise;
-
-    /// A spring of x⁵.
-    fn stiffening(k: f64) -> String {
-        format!(
-            "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-k*x**5\"\n\
-             [effects.parameters]\nk = {{ value = {k}, unit = \"N/m**5\" }}\n"
-        )
-    }
-
-    #[test]
-    fn analytic_a_law_that_only_the_largest_swings_feel_is_found_under_a_wall_that_leaves_noise() {
-        let twin = Twin::new(&wall_with(&stiffening(1e8)), 1e-5);
-        let trials = twin.trials();
-        let wall = trials.wall_fits(None).expect("windows");
-        assert!(is_noise(&wall.before) && !leaves_noise(&wall.recalibrated));
-        let error = joint_error(&wall.before).expect("windows");
-        let found = Gap::new(&trials, wall, error).law_in_few_windows(&[]).expect("a law");
-        let best = &found.equals[0];
-        let law = best.hypothesis.laws(&best.fit.values)[0];
-        assert_eq!(law.name(), "-k*x**5 at top");
-        let k = law.written()[0].parameters[0].value;
-        // It pushes 50 N where the floor's spring pushes two thousand.
-        assert!((k / 1e8 - 1.0).abs() < 0.1, "{k} N/m^5");
-    }
-
-    #[test]
-    fn analytic_where_nothing_is_hidden_no_law_is_looked_for_in_few_windows() {
-        let twin = Twin::new(&wall_with(""), 1e-5);
-        let trials = twin.trials();
-        let wall = trials.wall_fits(None).expect("windows");
-        let error = joint_error(&wall.before).expect("windows");
-        assert!(Gap::new(&trials, wall, error).law_in_few_windows(&[]).is_none());
     }
 }
