@@ -5,8 +5,8 @@
 //! that, and are fitted coarsely to few windows; the best go on to all of them, which alone judge.
 
 use super::asked::OpenGap;
-use super::by_windows::{Fitted, LOOK_STEPS, Start};
 use super::equals::law_of;
+use super::fitted::{Fitted, LOOK_STEPS, Start};
 use super::guards::{holds_in_each_test, lies_inside};
 use super::search::Searched;
 use crate::Progress;

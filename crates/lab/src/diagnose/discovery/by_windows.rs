@@ -3,25 +3,19 @@
 use super::asked::{AskedOfLaws, OpenGap, Scope};
 use super::by_few::best_law;
 use super::equals::{law_of, simplest_of_equals};
+use super::fitted::Fitted;
 use super::guards::{holds_in_each_test, lies_inside};
 use super::points::Points;
 use super::refused::{Guard, Refused};
 use super::search::{Candidate, Searched, search};
 use super::stability::Stability;
 use crate::Progress;
-use crate::diagnose::fit::nats;
-use crate::diagnose::formula::{Law, Site, nearest_exact};
-use crate::diagnose::hypothesis::{Addition, Hypothesis};
-use crate::diagnose::trials::{
-    Data, FittedHypothesis, Trials, against, does_something, follows_to_noise, joint_error, judged, refit,
-    shared_states,
-};
+use crate::diagnose::formula::{Law, Site};
+use crate::diagnose::trials::{FittedHypothesis, Trials, against, does_something, follows_to_noise};
 use crate::limits::{
-    EQUIVALENT, LAWS_FITTED, LAWS_IN_WINDOWS, LAWS_TOLD, NEAR_BEST, NEXT_TO_NOTHING, NOISE_AFTER,
-    WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_WINDOWS,
+    EQUIVALENT, LAWS_IN_WINDOWS, LAWS_TOLD, WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN,
+    WORTH_WINDOWS,
 };
-use nalgebra::DVector;
-use rayon::prelude::*;
 
 /// Laws outside the catalogue that were tried, and those that hold.
 #[derive(Debug, Clone)]
@@ -62,16 +56,6 @@ impl Discovered {
     pub fn is_open(&self) -> bool {
         self.equals.is_empty()
     }
-}
-
-/// A law fitted to windows.
-#[derive(Debug, Clone)]
-pub(super) struct Fitted {
-    pub law: FittedHypothesis,
-    /// Whether its fit ended by itself, and not because it had worked as much as it may.
-    pub is_done: bool,
-    /// Whether it was fitted again from about itself.
-    pub is_refined: bool,
 }
 
 impl<P: Progress> Trials<'_, P> {
@@ -160,21 +144,6 @@ impl<P: Progress> Trials<'_, P> {
         (closing, refused)
     }
 
-    /// Fits the best law whose numbers mean something again from about itself, where it leaves next to nothing of the gap: such a fit has
-    /// ended in another valley of some windows than the right one. Whether there was one, and not refined before.
-    fn is_best_refined(&self, gap: &OpenGap, fitted: &mut Vec<Fitted>) -> bool {
-        let means = |one: &Fitted| law_of(&one.law).is_some_and(|law| lies_inside(&law));
-        let Some(place) = fitted.iter().position(|one| one.is_done && means(one)) else { return false };
-        let best = &fitted[place];
-        if best.is_refined || !leaves_next_to_nothing(&best.law, gap.error) {
-            return false;
-        }
-        let law = self.refined(best.law.clone());
-        fitted[place] = Fitted { law, is_refined: true, ..best.clone() };
-        *fitted = self.in_order(std::mem::take(fitted));
-        true
-    }
-
     /// Whether a law of one atom that leaves more than noise lacks one: one of two, whose numbers mean something, says more in the tests
     /// fitted and in those held out, as clearly as a second effect that leaves noise must.
     fn lacks_an_atom(&self, one: &FittedHypothesis, pairs: &[Fitted]) -> bool {
@@ -219,15 +188,6 @@ impl<P: Progress> Trials<'_, P> {
             false => self.starts_by_look(gap, searched, &[], &searched.pairs, WHAT),
         };
         self.laws_in_windows(gap, starts, WHAT)
-    }
-
-    /// Laws that were fitted before. What follows best by now has states that they have not tried.
-    fn with_states_since(&self, gap: &OpenGap, fitted: &[Fitted]) -> Vec<Fitted> {
-        let sharing = |fitted: &Fitted| Fitted {
-            law: shared_states(&self.data, &fitted.law, &[gap.nearest]),
-            ..fitted.clone()
-        };
-        fitted.par_iter().map(sharing).collect()
     }
 
     /// What speaks against a law that was fitted to windows; nothing where it closes the gap with numbers that mean something.
@@ -284,154 +244,6 @@ impl<P: Progress> Trials<'_, P> {
         };
         all.filter(|(_, guards)| !guards.is_empty()).filter_map(refused).collect()
     }
-
-    /// Laws that are known to be near and the best of those found over points, as windows follow them from there: the best.
-    fn starts_by_look(
-        &self,
-        gap: &OpenGap,
-        searched: &Searched,
-        kin: &[Law],
-        laws: &[Candidate],
-        what: &str,
-    ) -> Vec<Start> {
-        let sound = |c: &&Candidate| {
-            c.evidence > WORTH_WINDOWS
-                && lies_inside(&c.law)
-                && holds_in_each_test(&searched.equations, &c.law)
-        };
-        let found = laws.iter().filter(sound).take(LAWS_IN_WINDOWS).map(|c| c.law);
-        let laws = kin.iter().copied().chain(found).collect::<Vec<_>>();
-        self.progress.begin(&format!("{what}, a first look"), laws.len());
-        let look = |law: &Law| {
-            let start = self.start_in_windows(gap, searched, law);
-            self.progress.advance(1);
-            start
-        };
-        let mut starts = laws.par_iter().filter_map(look).collect::<Vec<_>>();
-        starts.sort_by(|a, b| a.nats.total_cmp(&b.nats));
-        starts.truncate(LAWS_FITTED);
-        starts
-    }
-
-    /// Laws fitted to windows from where they start; the first of these with exact exponents too.
-    fn laws_in_windows(&self, gap: &OpenGap, starts: Vec<Start>, what: &str) -> Vec<Fitted> {
-        let free = self.fitted(gap, starts, what);
-        let exact = self.exactly(&free);
-        self.in_order([free, exact].concat())
-    }
-
-    /// Laws fitted from where they start; one whose fit ends before it is done stays as it started.
-    fn fitted(&self, gap: &OpenGap, starts: Vec<Start>, what: &str) -> Vec<Fitted> {
-        self.progress.begin(what, starts.len());
-        let fit = |start: Start| {
-            let Start { hypothesis, values, .. } = start;
-            let name = law_name(&hypothesis, &values);
-            let found = self.within_budget(&name, values.len(), |data| {
-                refit(data, hypothesis.clone(), gap.nearest, &values)
-            });
-            self.progress.advance(1);
-            match found {
-                Some(law) => Some(Fitted { law, is_done: true, is_refined: false }),
-                None => {
-                    let fit = self.data.fit.states(&hypothesis, &values, &gap.nearest.states(), 0, false)?;
-                    let law = judged(&self.data, hypothesis, fit, gap.nearest, false)?;
-                    Some(Fitted { law, is_done: false, is_refined: false })
-                }
-            }
-        };
-        self.in_order(starts.into_par_iter().filter_map(fit).collect())
-    }
-
-    /// Fitted laws in the order of what speaks against them.
-    fn in_order(&self, mut fitted: Vec<Fitted>) -> Vec<Fitted> {
-        let of = |fitted: &Fitted| against(&self.data, &fitted.law);
-        fitted.sort_by(|a, b| of(a).total_cmp(&of(b)));
-        self.ordered(fitted.iter().map(|fitted| fitted.law.clone()).collect());
-        fitted
-    }
-
-    /// The best of fitted laws once more, with exact exponents where theirs are near.
-    fn exactly(&self, free: &[Fitted]) -> Vec<Fitted> {
-        let Some(best) = free.first().map(|best| against(&self.data, &best.law)) else { return Vec::new() };
-        let near = free.iter().filter(|t| t.is_done && against(&self.data, &t.law) < best + NEAR_BEST);
-        let exact = near.filter_map(|t| Some((&t.law, exact_law(&t.law)?))).collect::<Vec<_>>();
-        self.progress.begin("laws with exact exponents", exact.len());
-        let fit = |(from, law): &(&FittedHypothesis, Law)| {
-            let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
-            let own = from.fit.values.iter().take(h.nuisances).copied();
-            let values = own.chain(law.values()).collect::<Vec<_>>();
-            let name = law_name(&h, &values);
-            // Near impacts that the noise decides a fit may end in another valley than the one it set out from.
-            let found = self.within_budget(&name, values.len(), |data| {
-                let found = refit(data, h, from, &values)?;
-                Some(shared_states(data, &found, &[from]))
-            });
-            self.progress.advance(1);
-            // What the same law with free exponents is judged by stays.
-            Some(Fitted { law: found?, is_done: true, is_refined: false })
-        };
-        exact.par_iter().filter_map(fit).collect()
-    }
-
-    /// A law with the numbers that points give it and the wall.
-    pub(super) fn of_points(&self, searched: &Searched, law: &Law) -> Option<(Hypothesis, Vec<f64>)> {
-        let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
-        let steps = searched.equations.wall_steps(law)?;
-        let values = beside(&hypothesis, &steps).chain(law.values()).zip(&hypothesis.unknowns);
-        let values = values.map(|(value, unknown)| unknown.within(value)).collect::<Vec<_>>();
-        Some((hypothesis, values))
-    }
-
-    /// The same, and how well windows follow it so, their states fitted.
-    fn start_in_windows(&self, gap: &OpenGap, searched: &Searched, law: &Law) -> Option<Start> {
-        let (hypothesis, values) = self.of_points(searched, law)?;
-        let look =
-            |data: &Data| data.fit.states_to_begin(&hypothesis, &values, &gap.nearest.states(), LOOK_STEPS);
-        let fit = self.within_budget(&law.name(), values.len(), look)?;
-        Some(Start { nats: nats(&fit.windows), hypothesis, values })
-    }
-}
-
-/// Whether a law leaves next to nothing of a gap, or hardly more than noise.
-fn leaves_next_to_nothing(law: &FittedHypothesis, before: f64) -> bool {
-    let excess = |error: f64| error * error - 1.0;
-    let is_little = |left: f64| left < NOISE_AFTER || excess(left) < NEXT_TO_NOTHING * excess(before);
-    joint_error(law).is_some_and(is_little)
-}
-
-/// The law of a hypothesis by its formula.
-fn law_name(h: &Hypothesis, values: &[f64]) -> String {
-    h.laws(values).iter().map(Law::name).collect::<Vec<_>>().join(" + ")
-}
-
-/// The wall's numbers after steps in standard deviations of what was known.
-pub(super) fn beside<'h>(
-    hypothesis: &'h Hypothesis,
-    steps: &'h DVector<f64>,
-) -> impl Iterator<Item = f64> + use<'h> {
-    let own = hypothesis.unknowns.iter().take(hypothesis.nuisances).zip(steps.iter());
-    own.map(|(unknown, step)| unknown.within(unknown.start + step * unknown.prior_sd.unwrap_or(0.0)))
-}
-
-/// Steps of the states of windows at a first look.
-pub(super) const LOOK_STEPS: usize = 2;
-
-/// A law at a first look.
-pub(super) struct Start {
-    /// The law beside the wall.
-    pub hypothesis: Hypothesis,
-    /// Its numbers.
-    pub values: Vec<f64>,
-    /// What windows say against it.
-    pub nats: f64,
-}
-
-/// The law of a fitted hypothesis with exact exponents, where all of them are near such.
-fn exact_law(tried: &FittedHypothesis) -> Option<Law> {
-    let h = &tried.hypothesis;
-    let sd = |i: usize| tried.fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)].max(0.0).sqrt());
-    let deviations = (h.nuisances..h.unknowns.len()).map(sd).collect::<Vec<_>>();
-    nearest_exact(h.laws(&tried.fit.values).first()?, &deviations)
 }
 
 #[cfg(test)]
@@ -439,6 +251,8 @@ mod tests {
     use super::super::twin::{Twin, wall_with};
     use super::*;
     use crate::diagnose::formula::{Atom, Shape, Side};
+    use crate::diagnose::hypothesis::Addition;
+    use crate::diagnose::trials::refit;
 
     const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
                         [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";

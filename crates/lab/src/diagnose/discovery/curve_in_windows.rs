@@ -1,8 +1,8 @@
 //! A force without a formula, fitted to windows with their impacts: an answer where these say that it is one.
 
 use super::asked::OpenGap;
-use super::by_windows::beside;
 use super::curve::curve_of;
+use super::fitted::beside;
 use super::search::Searched;
 use crate::Progress;
 use crate::diagnose::certainty::covariance;

@@ -1,8 +1,8 @@
 //! Laws of which an effect of the catalogue is the case of one exponent: a name must not stand where another exponent does
 //! clearly better.
 
-use super::by_windows::{LOOK_STEPS, Start, beside};
 use super::equals::difference;
+use super::fitted::{LOOK_STEPS, Start, beside};
 use super::points::Points;
 use super::search::Equations;
 use crate::Progress;

@@ -7,6 +7,7 @@
 //! | `asked` | the gap that a law is to close, and what it must do |
 //! | `by_few` | laws chosen by few windows, where points are too noisy to choose |
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
+//! | `fitted` | where laws start in windows, and their fits |
 //! | `guards` | what refuses a law that fits |
 //! | `kin` | a name whose exponent, set free, does clearly better |
 //! | [`Guard`] | the same by name, with the laws that each refused |
@@ -20,6 +21,7 @@ mod by_windows;
 mod curve;
 mod curve_in_windows;
 mod equals;
+mod fitted;
 mod guards;
 mod kin;
 mod points;
