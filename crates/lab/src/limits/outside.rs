@@ -73,10 +73,10 @@ limits! {
     ///
     /// Where nothing is hidden the best law costs more than it gains.
     WORTH_WINDOWS: f64 = 10.0, "ln of likelihood";
-    /// Evidence of the best law over points, as a share of what windows say against the wall, below which laws of every shape are fitted to
-    /// few windows.
+    /// Evidence of the best law over points, as a share of what windows say against the wall, below which few windows choose
+    /// among the laws that are refined.
     ///
-    /// Chosen: at 3e-4 rad points of five blind cases said -1 to 27 natural logarithms where windows said 1860 to 2570; where points chose
+    /// Chosen: at 3e-4 rad points of four blind cases said -1 to 27 natural logarithms where windows said 1860 to 2570; where points chose
     /// rightly at that noise they said 114 and 208 of 2610 and 1620.
     SILENT_POINTS: f64 = 0.1, "share";
     /// Laws of one atom that are looked at in windows as they are, and of two where no single one closes the gap.
@@ -103,7 +103,8 @@ limits! {
     ///
     /// A fit that needs more ends, is none of the answers, and is told under `unfinished`.
     FIT_WORK: f64 = 2e5, "1/s";
-    /// Share of the squared error above noise that the best law may leave to be fitted again from about itself where none holds.
+    /// Share of the squared error above noise that the best law may leave to be fitted again from about itself where none holds, if it leaves
+    /// more than `NOISE_AFTER`.
     ///
     /// Chosen: a saturating moment at the ground left 1e-3, 3 % off in its numbers.
     NEXT_TO_NOTHING: f64 = 0.02, "share";
