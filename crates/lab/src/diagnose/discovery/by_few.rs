@@ -7,7 +7,7 @@
 use super::asked::OpenGap;
 use super::equals::law_of;
 use super::fitted::{Fitted, LOOK_STEPS, Start};
-use super::guards::{holds_in_each_test, lies_inside};
+use super::guards::holds_in_each_test;
 use super::search::Searched;
 use crate::Progress;
 use crate::diagnose::fit::nats;
@@ -24,8 +24,7 @@ const OFF_FRICTION: f64 = 1.0;
 impl Searched<'_> {
     /// Whether points say so much less than windows that they cannot choose among laws.
     pub(super) fn is_silent_beside(&self, windows_nats: f64) -> bool {
-        let best = self.singles.iter().chain(&self.pairs).map(|c| c.evidence).fold(WORTH_WINDOWS, f64::max);
-        best < SILENT_POINTS * windows_nats
+        self.most_evidence().max(WORTH_WINDOWS) < SILENT_POINTS * windows_nats
     }
 
     /// Laws of one atom as points put them first, whatever they say for them, with numbers that a fit may move.
@@ -117,7 +116,7 @@ impl<P: Progress> Trials<'_, P> {
 
 /// The best law of those fitted to windows, in order, whose numbers mean something.
 pub(super) fn best_law(fitted: &[Fitted]) -> Option<Law> {
-    fitted.iter().filter(|fitted| fitted.is_done).filter_map(|fitted| law_of(&fitted.law)).find(lies_inside)
+    fitted.iter().find(|fitted| fitted.means_something()).and_then(|fitted| law_of(&fitted.law))
 }
 
 #[cfg(test)]

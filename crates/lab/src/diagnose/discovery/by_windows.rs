@@ -64,9 +64,8 @@ impl<P: Progress> Trials<'_, P> {
         let wall = self.hypothesis(&self.experiment.nuisances, &[]);
         let points = Points::new(self.data.fit.tests, &wall)?;
         let searched = search(&points)?;
-        let best = searched.singles.iter().chain(&searched.pairs).map(|c| c.evidence).fold(0.0, f64::max);
         let windows_choose = self.windows_choose(gap, &searched);
-        if best < WORTH_WINDOWS && gap.kin.is_empty() && !windows_choose {
+        if searched.most_evidence() < WORTH_WINDOWS && gap.kin.is_empty() && !windows_choose {
             return None;
         }
         let refused_over_points = |laws: &[Candidate]| match windows_choose {
@@ -77,7 +76,7 @@ impl<P: Progress> Trials<'_, P> {
         let mut singles = self.singles_in_windows(gap, &searched);
         let judge = |fitted: &mut Vec<Fitted>, simpler: Option<&FittedHypothesis>| {
             let judged = self.closing(gap, &searched, fitted, simpler, asked);
-            match judged.0.is_empty() && self.is_best_refined(gap, fitted) {
+            match judged.0.is_empty() && self.refine_best(gap, fitted) {
                 true => self.closing(gap, &searched, fitted, simpler, asked),
                 false => judged,
             }
@@ -151,8 +150,7 @@ impl<P: Progress> Trials<'_, P> {
             let [fitted, held_out] = [0, 1].map(|i| one.against(&self.data)[i] - two.against(&self.data)[i]);
             held_out > WORTH_A_SECOND_HELD_OUT && fitted + held_out > WORTH_A_SECOND_SEEN
         };
-        let means = |two: &Fitted| law_of(&two.law).is_some_and(|law| lies_inside(&law));
-        pairs.iter().any(|two| two.is_done && means(two) && says_more(two))
+        pairs.iter().any(|two| two.means_something() && says_more(two))
     }
 
     /// Laws of one atom, fitted to windows: those that were fitted before, and kin.

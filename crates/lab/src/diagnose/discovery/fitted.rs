@@ -9,9 +9,9 @@ use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Law, nearest_exact};
 use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
-    Data, FittedHypothesis, Trials, against, joint_error, judged, refit, shared_states,
+    Data, FittedHypothesis, Trials, against, all_but_closes, judged, refit, shared_states,
 };
-use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, NEAR_BEST, NEXT_TO_NOTHING, NOISE_AFTER, WORTH_WINDOWS};
+use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, NEAR_BEST, WORTH_WINDOWS};
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -23,6 +23,13 @@ pub(super) struct Fitted {
     pub is_done: bool,
     /// Whether it was fitted again from about itself.
     pub is_refined: bool,
+}
+
+impl Fitted {
+    /// Whether its fit came to an end, and that at numbers inside what was looked at.
+    pub fn means_something(&self) -> bool {
+        self.is_done && law_of(&self.law).is_some_and(|law| lies_inside(&law))
+    }
 }
 
 impl<P: Progress> Trials<'_, P> {
@@ -141,27 +148,17 @@ impl<P: Progress> Trials<'_, P> {
         fitted.par_iter().map(sharing).collect()
     }
 
-    /// Fits the best law whose numbers mean something again from about itself, where it leaves next to nothing of the gap: such a fit has
-    /// ended in another valley of some windows than the right one. Whether there was one, and not refined before.
-    pub(super) fn is_best_refined(&self, gap: &OpenGap, fitted: &mut Vec<Fitted>) -> bool {
-        let means = |one: &Fitted| law_of(&one.law).is_some_and(|law| lies_inside(&law));
-        let Some(place) = fitted.iter().position(|one| one.is_done && means(one)) else { return false };
-        let best = &fitted[place];
-        if best.is_refined || !leaves_next_to_nothing(&best.law, gap.error) {
-            return false;
-        }
-        let law = self.refined(best.law.clone());
-        fitted[place] = Fitted { law, is_refined: true, ..best.clone() };
+    /// Fits the best law whose numbers mean something again from about itself, where it all but closes the gap: such a fit has ended in
+    /// another valley of some windows than the right one. Whether there was one, and not refined before.
+    pub(super) fn refine_best(&self, gap: &OpenGap, fitted: &mut Vec<Fitted>) -> bool {
+        let near = |one: &Fitted| !one.is_refined && all_but_closes(&one.law, gap.error);
+        let best = fitted.iter_mut().find(|one| one.means_something());
+        let Some(best) = best.filter(|best| near(best)) else { return false };
+        best.law = self.refined(best.law.clone());
+        best.is_refined = true;
         *fitted = self.in_order(std::mem::take(fitted));
         true
     }
-}
-
-/// Whether a law leaves next to nothing of a gap, or hardly more than noise.
-fn leaves_next_to_nothing(law: &FittedHypothesis, before: f64) -> bool {
-    let excess = |error: f64| error * error - 1.0;
-    let is_little = |left: f64| left < NOISE_AFTER || excess(left) < NEXT_TO_NOTHING * excess(before);
-    joint_error(law).is_some_and(is_little)
 }
 
 /// The law of a hypothesis by its formula.
@@ -197,4 +194,59 @@ fn exact_law(tried: &FittedHypothesis) -> Option<Law> {
     let sd = |i: usize| tried.fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)].max(0.0).sqrt());
     let deviations = (h.nuisances..h.unknowns.len()).map(sd).collect::<Vec<_>>();
     nearest_exact(h.laws(&tried.fit.values).first()?, &deviations)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::asked::Scope;
+    use super::super::points::Points;
+    use super::super::twin::{Twin, wall_with};
+    use super::*;
+    use crate::diagnose::formula::{Atom, Shape, Site};
+    use crate::diagnose::trials::with_values;
+
+    const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
+                        [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
+
+    #[test]
+    fn analytic_a_law_that_all_but_closes_a_gap_is_fitted_again_once() {
+        let twin = Twin::new(&wall_with(DRAG), 1e-5);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
+        let reach = Points::new(trials.data.fit.tests, &h).expect("points").reach[Site::Top as usize];
+        let (true_n, true_size) = (2.0, 4000.0 * reach[1] * reach[1]);
+        let atom = |size: f64| Atom {
+            site: Site::Top,
+            shape: Shape::Drag,
+            numbers: [true_n, 0.0],
+            size,
+            reach,
+            is_exact: false,
+        };
+        // As a fit in a wrong valley leaves it.
+        let stuck = |off: f64| {
+            let law = Law::of(atom(off * true_size));
+            let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
+            let values = h.start().into_iter().take(h.nuisances).chain(law.values()).collect::<Vec<_>>();
+            let law = with_values(&trials.data, h, &wall.recalibrated, &values).expect("a wall");
+            vec![Fitted { law, is_done: true, is_refined: false }]
+        };
+        let gap = OpenGap {
+            recalibrated: &wall.recalibrated,
+            nearest: &wall.recalibrated,
+            error: crate::diagnose::trials::joint_error(&wall.before).expect("windows"),
+            scope: Scope::OneAtom,
+            kin: &[],
+            before: None,
+        };
+        let mut near = stuck(1.03);
+        let before = against(&trials.data, &near[0].law);
+        assert!(trials.refine_best(&gap, &mut near));
+        let after = against(&trials.data, &near[0].law);
+        let size = law_of(&near[0].law).expect("a law").first.size / true_size;
+        assert!((size - 1.0).abs() < 0.01 && after < before - 30.0, "{size}, {before} to {after}");
+        assert!(!trials.refine_best(&gap, &mut near), "once");
+        assert!(!trials.refine_best(&gap, &mut stuck(3.0)), "it leaves too much");
+    }
 }

@@ -230,6 +230,11 @@ pub struct Searched<'p> {
 }
 
 impl Searched<'_> {
+    /// Evidence of the best law.
+    pub fn most_evidence(&self) -> f64 {
+        self.singles.iter().chain(&self.pairs).map(|c| c.evidence).fold(0.0, f64::max)
+    }
+
     /// What the best law of two atoms says more than one that was found in windows, its sizes fitted to points; `None` where these
     /// may not be.
     pub fn second_says_more(&self, told: &Law) -> Option<f64> {

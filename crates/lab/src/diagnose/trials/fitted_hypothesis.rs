@@ -10,7 +10,7 @@ use crate::diagnose::hypothesis::Hypothesis;
 use crate::experiment::{TestData, Window};
 use crate::limits::{
     HELD_OUT_ERROR, LEAST_SIZE, LEFT_OF_GAP, MISSED_HELD_OUT_SD, MISSED_SHARE, MISSED_SHARE_SD,
-    NEARLY_CLOSES, NOISE, NOISE_AFTER, SIGNIFICANT_SD,
+    NEARLY_CLOSES, NEXT_TO_NOTHING, NOISE, NOISE_AFTER, SIGNIFICANT_SD,
 };
 use mrbd_kernel::model::EffectKind;
 
@@ -144,8 +144,19 @@ pub fn leave_noise([fit, held_out]: &[Vec<WindowFit>; 2]) -> bool {
 
 /// Whether what a hypothesis leaves of a gap that was `before` is so little that other starts may close it.
 pub fn nearly_closes(tried: &FittedHypothesis, before: f64) -> bool {
+    leaves_less(tried, before, NOISE, NEARLY_CLOSES)
+}
+
+/// Whether a hypothesis leaves hardly more than noise, or next to nothing of a gap that was `before`.
+pub fn all_but_closes(tried: &FittedHypothesis, before: f64) -> bool {
+    leaves_less(tried, before, NOISE_AFTER, NEXT_TO_NOTHING)
+}
+
+/// Whether what a hypothesis leaves of all windows is less than an error, or than a share of the squared error above noise of a gap that
+/// was `before`.
+fn leaves_less(tried: &FittedHypothesis, before: f64, error: f64, share: f64) -> bool {
     let Some(after) = joint_error(tried) else { return false };
-    after < NOISE || after * after - 1.0 < NEARLY_CLOSES * (before * before - 1.0)
+    after < error || after * after - 1.0 < share * (before * before - 1.0)
 }
 
 /// Kinds of a hypothesis' additions, sorted; `None` if one is no answer.

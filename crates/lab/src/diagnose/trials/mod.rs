@@ -36,8 +36,8 @@ pub use effects::{FirstFits, WallFits};
 pub(super) use few::Few;
 pub use fitted_hypothesis::{Data, FittedHypothesis};
 pub use fitted_hypothesis::{
-    against, all_windows, best_answer, closes, closes_held_out, does_something, follows_to_noise, is_noise,
-    joint_error, kinds, leave_noise, misses_windows, nearly_closes,
+    against, all_but_closes, all_windows, best_answer, closes, closes_held_out, does_something,
+    follows_to_noise, is_noise, joint_error, kinds, leave_noise, misses_windows, nearly_closes,
 };
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub use joint_laws::crushes;
