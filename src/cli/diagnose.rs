@@ -13,7 +13,7 @@ use super::{output, stop};
 use crate::error::Result;
 use crate::report::numbers_of;
 use crate::results::diagnosis::{OutputNames, write_results};
-use mrbd_lab::diagnose::answer::{FittedNumber, FoundEffect, OwnHypothesis, Summary};
+use mrbd_lab::diagnose::answer::{FittedNumber, FittedToAll, FoundEffect, OwnHypothesis, Summary};
 use mrbd_lab::diagnose::verdict::Remainder;
 use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
 
@@ -73,6 +73,7 @@ pub fn execute(args: &DiagnoseArgs) -> Result<()> {
 fn in_words(summary: &Summary) -> String {
     let mut lines = vec![format!("verdict: {}", summary.verdict.name())];
     lines.extend(summary.effects.iter().flat_map(effect_in_words));
+    lines.extend(summary.fitted_to_all.as_ref().map(fitted_to_all_in_words));
     lines.extend(summary.remainder.as_ref().map(remainder_in_words));
     if !summary.equivalent.is_empty() {
         lines.push(format!("  these tests cannot tell apart: {}", summary.equivalent.join(", ")));
@@ -107,6 +108,16 @@ fn own_in_words(own: &OwnHypothesis) -> String {
             format!("your {:?}: {closes}, windowed error {fit:.2}{held_out}; {numbers}", own.name)
         }
     }
+}
+
+/// With which other numbers the tests held out are followed.
+fn fitted_to_all_in_words(found: &FittedToAll) -> String {
+    let numbers = found.effects.iter().flat_map(numbers_of).collect::<Vec<_>>().join(", ");
+    format!(
+        "  these numbers miss the tests held out; fitted to all tests together, which those fitted mind by {:.1} natural \
+         logarithms of likelihood, it follows them too: {numbers}",
+        found.lost
+    )
 }
 
 /// What a name with a remainder takes away and leaves.

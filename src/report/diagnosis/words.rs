@@ -1,7 +1,7 @@
 //! Verdicts, numbers and names as people read them.
 
 use mrbd_lab::diagnose::Verdict;
-use mrbd_lab::diagnose::answer::{FittedNumber, FoundEffect, Summary};
+use mrbd_lab::diagnose::answer::{FittedNumber, FittedToAll, FoundEffect, Summary};
 use mrbd_lab::diagnose::discovery::{Stability, UnseenGain};
 use mrbd_lab::diagnose::verdict::{OtherLaw, Remainder};
 use mrbd_lab::limits::SMALL_SWING;
@@ -142,6 +142,18 @@ fn remainder(found: &Remainder) -> String {
         percent(found.taken_small_swings),
         percent(found.taken_large_swings),
         number(found.left_held_out)
+    )
+}
+
+/// With which other numbers a formula follows the tests held out.
+pub fn fitted_to_all(found: &FittedToAll) -> String {
+    let numbers = found.effects.iter().flat_map(numbers_of).collect::<Vec<_>>().join(", ");
+    let left = found.windowed_error.held_out.map_or_else(String::new, |error| {
+        format!(", which it then leaves at {} times the noise", number(error))
+    });
+    format!(
+        "With its numbers as they were fitted the law misses the tests held out, which magnify what the tests fitted leave open of them. Fitted to all tests together it follows those too{left}: {numbers}. The tests fitted mind by {:.1} natural logarithms of likelihood; a law that only imitates another loses more.",
+        found.lost,
     )
 }
 

@@ -47,6 +47,7 @@ impl Findings<'_> {
             curves: self.force_curves(),
             equivalent_formulas: self.equivalent_formulas(),
             stability: found.discovered.as_ref().and_then(|found| found.stability),
+            fitted_to_all: self.fitted_to_all(),
             refused: self.refused_laws(),
             unfinished: self.unfinished.clone(),
             equivalent: found.equivalent.clone(),

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::Findings;
-use super::summary::{ForceCurve, FoundEffect, FoundState};
+use super::conclusion::of_both;
+use super::summary::{FittedToAll, ForceCurve, FoundEffect, FoundState};
 use crate::diagnose::certainty::intervals;
 use crate::diagnose::force::Against;
 use crate::diagnose::formula::{Curve, Law, Part, Site, Written, WrittenState};
@@ -34,6 +35,21 @@ impl Findings<'_> {
         let discovered = self.found.discovered.as_ref();
         let others = discovered.map_or(&[][..], |found| found.equals.get(1..).unwrap_or_default());
         others.iter().map(|tried| self.formulas(tried)).collect()
+    }
+
+    /// The formula with other numbers, where those held out are followed only so.
+    pub(super) fn fitted_to_all(&self) -> Option<FittedToAll> {
+        let discovered = self.found.discovered.as_ref()?;
+        let has_formula = matches!(self.found.verdict, Verdict::Formula | Verdict::FormulaClass);
+        let moved = discovered.moved.as_ref().filter(|_| has_formula)?;
+        let first = discovered.equals.first()?;
+        let laws = moved.hypothesis.laws(&moved.fit.values);
+        let written = laws.iter().flat_map(Law::written);
+        Some(FittedToAll {
+            effects: written.map(|written| self.without_intervals(&written)).collect(),
+            windowed_error: of_both(moved.errors()),
+            lost: moved.in_tests_fitted() - first.in_tests_fitted(),
+        })
     }
 
     /// A force without a formula as the effect that simulates it.

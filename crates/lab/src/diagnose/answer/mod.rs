@@ -25,9 +25,9 @@ use mrbd_files::error::{InputError, Result};
 use rows::ForceBeforeAfter;
 pub use rows::Tables;
 pub use summary::{
-    Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, ForceCurve, ForceSize,
-    FoundEffect, FoundState, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, Stages, Summary,
-    TestErrors, WallFit, WindowCounts,
+    Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, FittedToAll, ForceCurve,
+    ForceSize, FoundEffect, FoundState, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, Stages,
+    Summary, TestErrors, WallFit, WindowCounts,
 };
 
 /// A diagnosis: the verdict with everything it rests on.

@@ -36,6 +36,9 @@ pub struct Summary {
     /// How sure the form of a formula is; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stability: Option<Stability>,
+    /// A formula fitted to all tests together, where those held out are followed only so; absent where its numbers need not move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fitted_to_all: Option<FittedToAll>,
     /// Laws outside the catalogue, and names, that were refused though they fit, with what refused each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<RefusedLaw>,
@@ -131,6 +134,17 @@ pub struct FitHeldOut<T> {
     pub fit: T,
     /// Tests held out.
     pub held_out: T,
+}
+
+/// A formula with numbers that the tests fitted leave open, as all tests together want them.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FittedToAll {
+    /// The formula so.
+    pub effects: Vec<FoundEffect>,
+    /// Its windowed errors, in standard deviations of the noise; the tests held out are fitted here.
+    pub windowed_error: FitHeldOut<Option<f64>>,
+    /// What the tests fitted lose by it, in natural logarithms of likelihood.
+    pub lost: f64,
 }
 
 /// An effect of the answer.

@@ -5,6 +5,7 @@ use super::by_few::best_law;
 use super::equals::{law_of, simplest_of_equals};
 use super::fitted::Fitted;
 use super::guards::{holds_in_each_test, lies_inside};
+use super::left_open::{least_in_tests_fitted, may_move};
 use super::points::Points;
 use super::refused::{Guard, Refused};
 use super::search::{Candidate, Searched, search};
@@ -22,6 +23,8 @@ use crate::limits::{
 pub struct Discovered {
     /// Laws that close the gap and that the tests cannot tell apart, the simplest first; none where no law holds.
     pub equals: Vec<FittedHypothesis>,
+    /// The first of them with other numbers that the tests fitted leave open, where only with such it follows those held out.
+    pub moved: Option<FittedHypothesis>,
     /// The best laws that were fitted to windows, in order.
     pub tried: Vec<FittedHypothesis>,
     /// Laws that were refused, and what refused them.
@@ -84,7 +87,7 @@ impl<P: Progress> Trials<'_, P> {
         let (mut closing, of_singles) = judge(&mut singles, None);
         refused.extend(of_singles);
         // A law may close the gap and miss windows for a second atom that shows in few of them.
-        let is_open = !closing.iter().any(|law| asked.leaves_nothing(law));
+        let is_open = !closing.iter().any(|one| asked.leaves_nothing(one.judged()));
         let mut tried = singles.iter().map(|fitted| fitted.law.clone()).collect::<Vec<_>>();
         let single = searched.singles.first().map_or(0.0, |c| c.evidence);
         let says_more = searched.pairs.first().is_some_and(|pair| pair.evidence > single);
@@ -94,16 +97,18 @@ impl<P: Progress> Trials<'_, P> {
             pairs = self.pairs_in_windows(gap, &searched, &singles);
             let (of_two, of_pairs) = judge(&mut pairs, Some(&simpler));
             if of_two.is_empty() {
-                let lacks = |one: &mut FittedHypothesis| self.lacks_an_atom(one, &pairs);
+                let lacks = |one: &mut Fitted| self.lacks_an_atom(one.judged(), &pairs);
                 let lacking = closing.extract_if(.., lacks);
-                refused.extend(lacking.map(|one| Refused::in_windows(&one, vec![Guard::LacksAtom])));
+                refused.extend(lacking.map(|one| Refused::in_windows(&one.law, vec![Guard::LacksAtom])));
             }
             closing.extend(of_two);
             refused.extend(of_pairs);
             refused.extend(refused_over_points(&searched.pairs));
             tried.extend(pairs.iter().map(|fitted| fitted.law.clone()));
         }
-        let equals = simplest_of_equals(&self.data, &points, self.ordered(closing));
+        let equals = simplest_of_equals(&self.data, &points, self.in_order(closing));
+        let moved = equals.first().and_then(|one| one.moved.clone());
+        let equals = equals.into_iter().map(|one| one.law).collect::<Vec<_>>();
         let mut tried = self.ordered(tried);
         let has_curve = gap.scope == Scope::Curves && equals.is_empty();
         let curve = if has_curve { self.curve(gap, &searched, tried.first()) } else { None };
@@ -113,6 +118,7 @@ impl<P: Progress> Trials<'_, P> {
         let second_says_more = laws.first().and_then(|told| searched.second_says_more(told));
         Some(Discovered {
             equals,
+            moved,
             tried,
             refused,
             curve,
@@ -129,15 +135,30 @@ impl<P: Progress> Trials<'_, P> {
         &self,
         gap: &OpenGap,
         searched: &Searched,
-        fitted: &[Fitted],
+        fitted: &mut [Fitted],
         simpler: Option<&FittedHypothesis>,
         asked: &impl AskedOfLaws,
-    ) -> (Vec<FittedHypothesis>, Vec<Refused>) {
+    ) -> (Vec<Fitted>, Vec<Refused>) {
         let (mut closing, mut refused) = (Vec::new(), Vec::new());
+        let least = least_in_tests_fitted(&self.data, fitted);
         for one in fitted {
-            match self.guards(gap, searched, one, simpler, asked) {
-                guards if guards.is_empty() => closing.push(one.law.clone()),
-                guards => refused.push(Refused::in_windows(&one.law, guards)),
+            let as_fitted = Fitted { moved: None, ..one.clone() };
+            let guards = self.guards(gap, searched, &as_fitted, simpler, asked);
+            if guards.is_empty() {
+                closing.push(as_fitted);
+                continue;
+            }
+            if may_move(&guards) {
+                self.move_in_what_is_open(one, least);
+            }
+            // Whether a second atom is worth it is told with the numbers as they were fitted.
+            let holds = |one: &Fitted| self.guards(gap, searched, one, None, asked).is_empty();
+            match may_move(&guards) && one.moved.is_some() && holds(one) {
+                true => closing.push(one.clone()),
+                false => {
+                    one.moved = None;
+                    refused.push(Refused::in_windows(&one.law, guards));
+                }
             }
         }
         (closing, refused)
@@ -196,15 +217,16 @@ impl<P: Progress> Trials<'_, P> {
         &self,
         gap: &OpenGap,
         searched: &Searched,
-        Fitted { law: tried, is_done, .. }: &Fitted,
+        one: &Fitted,
         simpler: Option<&FittedHypothesis>,
         asked: &impl AskedOfLaws,
     ) -> Vec<Guard> {
+        let tried = one.judged();
         let gain = against(&self.data, gap.recalibrated) - against(&self.data, tried);
         let laws = tried.hypothesis.laws(&tried.fit.values);
         let all = |holds: &dyn Fn(&Law) -> bool| laws.iter().all(holds);
         let speaks = [
-            (Guard::Work, !is_done),
+            (Guard::Work, !one.is_done),
             (Guard::Gap, !follows_to_noise(tried, gap.error)),
             (Guard::HeldOut, !asked.follows_held_out(tried)),
             (Guard::Size, !does_something(tried)),
@@ -281,8 +303,7 @@ mod tests {
             let values = own.chain(law.values()).collect::<Vec<_>>();
             refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit")
         };
-        let two =
-            Fitted { law: fitted(Law { second: Some(spring), ..drag }), is_done: true, is_refined: false };
+        let two = Fitted::new(fitted(Law { second: Some(spring), ..drag }));
         trials.lacks_an_atom(&fitted(drag), &[two])
     }
 

@@ -1,5 +1,6 @@
 //! Laws that the tests cannot tell apart, and which of them are one law by two names.
 
+use super::fitted::Fitted;
 use super::points::Points;
 use crate::diagnose::formula::{Law, Site};
 use crate::diagnose::trials::{Data, FittedHypothesis, against};
@@ -7,20 +8,17 @@ use crate::limits::{EQUIVALENT, SAME_FORCE};
 
 /// Of laws in order, best first, those that are as good as the best: the better of those that are alike but for exact
 /// exponents, the simplest of those that are one force over what was excited.
-pub fn simplest_of_equals(
-    data: &Data,
-    points: &Points,
-    closing: Vec<FittedHypothesis>,
-) -> Vec<FittedHypothesis> {
-    let Some(best) = closing.first().map(|best| against(data, best)) else { return Vec::new() };
-    let equals = closing.into_iter().filter(|t| against(data, t) < best + EQUIVALENT);
+pub(super) fn simplest_of_equals(data: &Data, points: &Points, closing: Vec<Fitted>) -> Vec<Fitted> {
+    let of = |one: &Fitted| against(data, one.judged());
+    let Some(best) = closing.first().map(of) else { return Vec::new() };
+    let equals = closing.into_iter().filter(|one| of(one) < best + EQUIVALENT);
     let mut equals = equals.fold(Vec::new(), |kept, one| with_shape(points, kept, one));
     // Stable: of as many numbers and the same place, the better comes first.
-    equals.sort_by_key(|t| (t.hypothesis.unknowns.len(), law_of(t).map(|law| law.first.site)));
-    let mut kept: Vec<FittedHypothesis> = Vec::new();
+    equals.sort_by_key(|t| (t.law.hypothesis.unknowns.len(), law_of(t.judged()).map(|law| law.first.site)));
+    let mut kept: Vec<Fitted> = Vec::new();
     for one in equals {
-        let known = |other: &FittedHypothesis| {
-            let pair = law_of(&one).zip(law_of(other));
+        let known = |other: &Fitted| {
+            let pair = law_of(one.judged()).zip(law_of(other.judged()));
             pair.is_some_and(|(a, b)| difference(points, &a, &b) < SAME_FORCE)
         };
         if !kept.iter().any(known) {
@@ -32,16 +30,13 @@ pub fn simplest_of_equals(
 
 /// Laws of different shapes, best first, with one more: of two alike but for exact exponents the better, or that with exact
 /// ones where both are one force. An exponent of 1.997 that tests cannot tell from 2 is 2.
-fn with_shape(
-    points: &Points,
-    mut kept: Vec<FittedHypothesis>,
-    one: FittedHypothesis,
-) -> Vec<FittedHypothesis> {
-    let Some(law) = law_of(&one) else { return kept };
-    match kept.iter_mut().find(|better| law_of(better).is_some_and(|better| better.is_like(&law))) {
+fn with_shape(points: &Points, mut kept: Vec<Fitted>, one: Fitted) -> Vec<Fitted> {
+    let of = |one: &Fitted| law_of(one.judged());
+    let Some(law) = of(&one) else { return kept };
+    match kept.iter_mut().find(|better| of(better).is_some_and(|better| better.is_like(&law))) {
         Some(better) => {
-            let is_one = law_of(better).is_some_and(|better| difference(points, &better, &law) < SAME_FORCE);
-            if is_one && one.hypothesis.unknowns.len() < better.hypothesis.unknowns.len() {
+            let is_one = of(better).is_some_and(|better| difference(points, &better, &law) < SAME_FORCE);
+            if is_one && one.law.hypothesis.unknowns.len() < better.law.hypothesis.unknowns.len() {
                 *better = one;
             }
         }

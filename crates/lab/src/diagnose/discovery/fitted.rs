@@ -23,9 +23,23 @@ pub(super) struct Fitted {
     pub is_done: bool,
     /// Whether it was fitted again from about itself.
     pub is_refined: bool,
+    /// The same with numbers that the tests fitted leave open, with which those held out are followed, where they are not without.
+    pub moved: Option<FittedHypothesis>,
+    /// Whether such numbers were looked for.
+    pub is_asked_to_move: bool,
 }
 
 impl Fitted {
+    /// As a fit came to it.
+    pub fn new(law: FittedHypothesis) -> Self {
+        Self { law, is_done: true, is_refined: false, moved: None, is_asked_to_move: false }
+    }
+
+    /// What it is judged by.
+    pub fn judged(&self) -> &FittedHypothesis {
+        self.moved.as_ref().unwrap_or(&self.law)
+    }
+
     /// Whether its fit came to an end, and that at numbers inside what was looked at.
     pub fn means_something(&self) -> bool {
         self.is_done && law_of(&self.law).is_some_and(|law| lies_inside(&law))
@@ -79,11 +93,11 @@ impl<P: Progress> Trials<'_, P> {
             });
             self.progress.advance(1);
             match found {
-                Some(law) => Some(Fitted { law, is_done: true, is_refined: false }),
+                Some(law) => Some(Fitted::new(law)),
                 None => {
                     let fit = self.data.fit.states(&hypothesis, &values, &gap.nearest.states(), 0, false)?;
                     let law = judged(&self.data, hypothesis, fit, gap.nearest, false)?;
-                    Some(Fitted { law, is_done: false, is_refined: false })
+                    Some(Fitted { is_done: false, ..Fitted::new(law) })
                 }
             }
         };
@@ -92,7 +106,7 @@ impl<P: Progress> Trials<'_, P> {
 
     /// Fitted laws in the order of what speaks against them.
     pub(super) fn in_order(&self, mut fitted: Vec<Fitted>) -> Vec<Fitted> {
-        let of = |fitted: &Fitted| against(&self.data, &fitted.law);
+        let of = |fitted: &Fitted| against(&self.data, fitted.judged());
         fitted.sort_by(|a, b| of(a).total_cmp(&of(b)));
         self.ordered(fitted.iter().map(|fitted| fitted.law.clone()).collect());
         fitted
@@ -116,7 +130,7 @@ impl<P: Progress> Trials<'_, P> {
             });
             self.progress.advance(1);
             // What the same law with free exponents is judged by stays.
-            Some(Fitted { law: found?, is_done: true, is_refined: false })
+            Some(Fitted::new(found?))
         };
         exact.par_iter().filter_map(fit).collect()
     }
@@ -154,8 +168,7 @@ impl<P: Progress> Trials<'_, P> {
         let near = |one: &Fitted| !one.is_refined && all_but_closes(&one.law, gap.error);
         let best = fitted.iter_mut().find(|one| one.means_something());
         let Some(best) = best.filter(|best| near(best)) else { return false };
-        best.law = self.refined(best.law.clone());
-        best.is_refined = true;
+        *best = Fitted { is_refined: true, ..Fitted::new(self.refined(best.law.clone())) };
         *fitted = self.in_order(std::mem::take(fitted));
         true
     }
@@ -230,7 +243,7 @@ mod tests {
             let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
             let values = h.start().into_iter().take(h.nuisances).chain(law.values()).collect::<Vec<_>>();
             let law = with_values(&trials.data, h, &wall.recalibrated, &values).expect("a wall");
-            vec![Fitted { law, is_done: true, is_refined: false }]
+            vec![Fitted::new(law)]
         };
         let gap = OpenGap {
             recalibrated: &wall.recalibrated,

@@ -9,6 +9,7 @@
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
 //! | `fitted` | where laws start in windows, and their fits |
 //! | `guards` | what refuses a law that fits |
+//! | `left_open` | numbers of a law that the tests fitted leave open, where those held out ask for others |
 //! | `kin` | a name whose exponent, set free, does clearly better |
 //! | [`Guard`] | the same by name, with the laws that each refused |
 //! | `curve`, `curve_in_windows` | a force without a formula |
@@ -24,6 +25,7 @@ mod equals;
 mod fitted;
 mod guards;
 mod kin;
+mod left_open;
 mod points;
 mod refused;
 mod search;

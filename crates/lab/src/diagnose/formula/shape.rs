@@ -126,7 +126,7 @@ const ONE_SIDED: &[ShapeNumber] = &[exponent(&[0.5, 1.0, 1.5, 2.0, 3.0, 4.0])];
 /// Thresholds lie inside what was excited: beyond the last there is too little to see.
 const THRESHOLDS: &[f64] = &[0.04, 0.08, 0.13, 0.2, 0.28, 0.36, 0.45, 0.54, 0.63, 0.72, 0.8, 0.87];
 const STOP: &[ShapeNumber] = &[threshold("g", THRESHOLDS), exponent(&[0.75, 1.0, 1.5, 2.0, 2.5])];
-const WIDTHS: &[f64] = &[0.03, 0.06, 0.1, 0.16, 0.25, 0.4, 0.63, 1.0, 1.6];
+const WIDTHS: &[f64] = &[0.03, 0.06, 0.1, 0.16, 0.25, 0.4, 0.63, 1.0, 1.6, 2.5];
 const SATURATION: &[ShapeNumber] = &[threshold("d", WIDTHS)];
 const CLIPPED: &[ShapeNumber] = &[threshold("d", THRESHOLDS)];
 const DRAG: &[ShapeNumber] =

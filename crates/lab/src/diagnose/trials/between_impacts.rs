@@ -40,6 +40,11 @@ impl BetweenImpacts {
         cut.are_enough(data).then_some(cut)
     }
 
+    /// Which of the windows held out the parts of these are, in their order.
+    pub fn places_held_out(&self) -> &[usize] {
+        &self.places[1]
+    }
+
     fn are_enough(&self, data: &Data) -> bool {
         let sides = [data.fit.windows, data.held_out.windows];
         let few = self.windows.iter().zip(sides).any(|(cut, all)| cut.len() < LEAST_MOVING.min(all.len()));

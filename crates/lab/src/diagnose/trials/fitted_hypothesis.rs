@@ -61,12 +61,17 @@ impl FittedHypothesis {
     /// What speaks against it, in natural logarithms of likelihood: the windows that were fitted, and those held out.
     /// The first include the prior and, for each added number, half the logarithm of the number of windows (Schwarz).
     pub fn against(&self, data: &Data) -> [f64; 2] {
-        [nats(&self.fit.windows) + self.prior() + self.price(data), nats(&self.held_out.windows)]
+        [self.in_tests_fitted() + self.price(data), nats(&self.held_out.windows)]
+    }
+
+    /// What speaks against it in the windows that were fitted, with the prior and without the price of added numbers.
+    pub fn in_tests_fitted(&self) -> f64 {
+        nats(&self.fit.windows) + self.prior()
     }
 
     /// The same in all windows, without the price of added numbers.
     pub fn unpriced(&self) -> f64 {
-        nats(&self.fit.windows) + self.prior() + nats(&self.held_out.windows)
+        self.in_tests_fitted() + nats(&self.held_out.windows)
     }
 
     /// What its added numbers cost: half the logarithm of the samples fitted for each (Schwarz).

@@ -11,6 +11,7 @@ use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::hypothesis::{Addition, FADES};
 use crate::diagnose::trials::{
     BetweenImpacts, Data, FittedHypothesis, Trials, against, best_answer, does_something, kinds, leave_noise,
+    opened_under,
 };
 use crate::limits::{
     EQUIVALENT, KEPT_AT_IMPACTS, LEFT_AT_IMPACTS, MISSED_BETWEEN_IMPACTS, NOT_TOLD_SD, SIGNIFICANT_SD,
@@ -75,11 +76,23 @@ pub fn leaves_only_impacts<P: Progress>(trials: &Trials<P>, tried: &FittedHypoth
     leaves_little_of_each(trials, tried) && left_between(trials, tried).is_some_and(as_noise)
 }
 
-/// Whether a law misses windows of the tests held out where no impact excuses it: the larger motion of these shows what it lacks.
+/// Whether a law misses windows of the tests held out where no impact excuses it: the larger motion of these shows what it lacks. Nor does
+/// a window count that it follows once a joint is open there by less than the noise.
 pub fn misses_held_out_between<P: Progress>(trials: &Trials<P>, law: &FittedHypothesis) -> bool {
-    left_between(trials, law).is_some_and(|[_, held_out]| {
-        held_out.iter().filter(|window| window.is_poor()).count() > MISSED_BETWEEN_IMPACTS
-    })
+    let missed = || {
+        let cut = BetweenImpacts::cut(&trials.data, law)?;
+        let [_, held_out] = cut.left(&trials.data, law)?;
+        let missed = held_out.iter().zip(cut.places_held_out()).filter(|(window, _)| window.is_poor());
+        Some(missed.map(|(_, place)| *place).collect::<Vec<_>>())
+    };
+    let Some(mut missed) = missed().filter(|missed| missed.len() > MISSED_BETWEEN_IMPACTS) else {
+        return false;
+    };
+    if let Some(([_, opened], _)) = opened_under(&trials.data, law) {
+        let windows = trials.data.held_out.windows;
+        missed.retain(|place| opened[*place].opened == windows[*place].opened);
+    }
+    missed.len() > MISSED_BETWEEN_IMPACTS
 }
 
 /// What a hypothesis leaves of windows up to its first impact.
