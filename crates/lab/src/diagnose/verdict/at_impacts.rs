@@ -13,6 +13,7 @@ use crate::diagnose::trials::{
     BetweenImpacts, Data, FittedHypothesis, Trials, against, best_answer, does_something, kinds, leave_noise,
     opened_under,
 };
+use crate::experiment::Window;
 use crate::limits::{
     EQUIVALENT, KEPT_AT_IMPACTS, LEFT_AT_IMPACTS, MISSED_BETWEEN_IMPACTS, NOT_TOLD_SD, SIGNIFICANT_SD,
     WORTH_A_NAME, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
@@ -85,14 +86,17 @@ pub fn misses_held_out_between<P: Progress>(trials: &Trials<P>, law: &FittedHypo
         let missed = held_out.iter().zip(cut.places_held_out()).filter(|(window, _)| window.is_poor());
         Some(missed.map(|(_, place)| *place).collect::<Vec<_>>())
     };
-    let Some(mut missed) = missed().filter(|missed| missed.len() > MISSED_BETWEEN_IMPACTS) else {
+    let Some(missed) = missed().filter(|missed| missed.len() > MISSED_BETWEEN_IMPACTS) else {
         return false;
     };
-    if let Some(([_, opened], _)) = opened_under(&trials.data, law) {
-        let windows = trials.data.held_out.windows;
-        missed.retain(|place| opened[*place].opened == windows[*place].opened);
-    }
-    missed.len() > MISSED_BETWEEN_IMPACTS
+    let windows = trials.data.held_out.windows;
+    let opened = opened_under(&trials.data, law).map(|([_, held_out], _)| held_out);
+    stay_missed(&missed, windows, opened.as_deref().unwrap_or(windows)) > MISSED_BETWEEN_IMPACTS
+}
+
+/// How many of the windows missed are not followed with a joint opened.
+fn stay_missed(missed: &[usize], windows: &[Window], opened: &[Window]) -> usize {
+    missed.iter().filter(|place| opened[**place].opened == windows[**place].opened).count()
 }
 
 /// What a hypothesis leaves of windows up to its first impact.
@@ -184,6 +188,7 @@ mod tests {
     use super::*;
     use crate::diagnose::fit::{Fit, Problem, WindowFit};
     use crate::diagnose::hypothesis::example::starter_with;
+    use crate::experiment::{Freedom, Purpose};
     use nalgebra::DMatrix;
 
     /// Factors of impacts, each known to a standard deviation, with an effect beside them or none.
@@ -236,6 +241,25 @@ mod tests {
         assert!(!is_near_other_impacts(&data, &as_well, &[&as_well, &less]));
         let far = of(&["impact_dissipation"], &[1.002; 6], 260.0);
         assert!(!is_near_other_impacts(&data, &as_well, &[&as_well, &far]));
+    }
+
+    #[test]
+    fn analytic_windows_followed_with_a_joint_opened_are_not_missed() {
+        let window = |opened: bool| Window {
+            test: 0,
+            purpose: Purpose::HoldOut,
+            samples: 0..40,
+            readings: 80,
+            freedom: if opened { Freedom::Both } else { Freedom::Monolithic },
+            opened,
+            measured: Vec::new(),
+            spread: Vec::new(),
+        };
+        let before = [false, false, true, false].map(window);
+        let after = [true, false, true, true].map(window);
+        // The first is followed once it is opened, the last was not missed, the third was open before.
+        assert_eq!(stay_missed(&[0, 1, 2], &before, &after), 2);
+        assert_eq!(stay_missed(&[0, 1, 2], &before, &before), 3);
     }
 
     #[test]
