@@ -183,7 +183,9 @@ fn lift_between(mut positive: (f64, f64), mut negative: (f64, f64), force_at: im
         }
         let share = positive.0 + (negative.0 - positive.0) * positive.1 / (positive.1 - negative.1);
         let beyond = if was_positive { BEYOND } else { -BEYOND };
-        let share = (share + beyond).clamp(positive.0, negative.0);
+        let aimed = (share + beyond).clamp(positive.0, negative.0);
+        // Forces of a motion that runs away have no size to aim by.
+        let share = if aimed.is_nan() { 0.5 * (positive.0 + negative.0) } else { aimed };
         let force = force_at(share);
         let is_positive = force >= 0.0;
         // A side that stays twice counts for half.
@@ -289,6 +291,16 @@ pub(super) fn left_to_kink(wall: &RockingWall, contact: Contact, kink: Kink, at:
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn regress_a_force_without_bounds_is_located_by_halves() {
+        let force = |share: f64| if share < 0.3 { f64::INFINITY } else { f64::NEG_INFINITY };
+        let found = lift_between((0.0, force(0.0)), (1.0, force(1.0)), force);
+        assert!((found - 0.3).abs() <= NEAR_ENOUGH, "{found}");
+        // Nor does one that is no number end in a bracket without ends.
+        let found = lift_between((0.0, 1.0), (1.0, -1.0), |_| f64::NAN);
+        assert!((0.0..=1.0).contains(&found), "{found}");
+    }
 
     #[test]
     fn analytic_a_force_on_a_line_vanishes_where_the_line_does() {
