@@ -152,7 +152,7 @@ pub fn fitted_to_all(found: &FittedToAll) -> String {
         format!(", which it then leaves at {} times the noise", number(error))
     });
     format!(
-        "With its numbers as they were fitted the law misses the tests held out, which magnify what the tests fitted leave open of them. Fitted to all tests together it follows those too{left}: {numbers}. The tests fitted mind by {:.1} natural logarithms of likelihood; a law that only imitates another loses more.",
+        "With its numbers as they were fitted the law misses the tests held out, which magnify what the tests fitted leave open of them. Fitted to all tests together it follows those too{left}: {numbers}. The tests fitted mind by {:.1} natural logarithms of likelihood; a law that only imitates another loses more, or goes on missing the tests held out.",
         found.lost,
     )
 }

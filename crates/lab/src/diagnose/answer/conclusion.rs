@@ -32,7 +32,7 @@ impl Findings<'_> {
     pub(super) fn summary(&self, physics: &[Physics; 2], force: &ForceBeforeAfter) -> Summary {
         let (data, found) = (self.data(), &self.found);
         let has_names = matches!(found.verdict, Verdict::Named | Verdict::Class);
-        let has_formula = matches!(found.verdict, Verdict::Formula | Verdict::FormulaClass);
+        let has_formula = found.verdict.is_formula();
         let own_place = || (has_names || has_formula).then(|| found.after.hypothesis.additions[0].place());
         let stages = [&found.before, &found.recalibrated, found.kept()];
         Summary {

@@ -40,8 +40,7 @@ impl Findings<'_> {
     /// The formula with other numbers, where those held out are followed only so.
     pub(super) fn fitted_to_all(&self) -> Option<FittedToAll> {
         let discovered = self.found.discovered.as_ref()?;
-        let has_formula = matches!(self.found.verdict, Verdict::Formula | Verdict::FormulaClass);
-        let moved = discovered.moved.as_ref().filter(|_| has_formula)?;
+        let moved = discovered.moved.as_ref().filter(|_| self.found.verdict.is_formula())?;
         let first = discovered.equals.first()?;
         let laws = moved.hypothesis.laws(&moved.fit.values);
         let written = laws.iter().flat_map(Law::written);

@@ -96,7 +96,7 @@ impl Summary {
 
     /// Whether the verdict gives a law outside the catalogue as a formula.
     pub fn has_formula(&self) -> bool {
-        matches!(self.verdict, Verdict::Formula | Verdict::FormulaClass)
+        self.verdict.is_formula()
     }
 
     /// Whether the updated wall is another than the wall as given.

@@ -80,12 +80,12 @@ mod tests {
     use super::*;
     use crate::diagnose::formula::{Atom, Law, Shape, Site};
     use crate::diagnose::hypothesis::Addition;
-    use crate::diagnose::trials::{closes_held_out, refit};
+    use crate::diagnose::trials::closes_held_out;
 
     const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
                         [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
 
-    /// A power law of velocity on a wall with a drag, fitted; `moved` off by so many standard deviations, and with numbers left open.
+    /// A law of velocity on a wall with a drag, fitted and moved off by so many standard deviations, and with numbers left open.
     fn tried(noise_rad: f64, shape: Shape, off_sd: f64) -> (FittedHypothesis, Option<FittedHypothesis>) {
         let twin = Twin::new(&wall_with(DRAG), noise_rad);
         let trials = twin.trials();
@@ -124,9 +124,9 @@ mod tests {
     fn analytic_a_right_law_follows_tests_held_out_with_numbers_that_those_fitted_leave_open() {
         let (found, moved) = tried(1e-4, Shape::Drag, 2.0);
         let moved = moved.expect("numbers that are left open");
-        // Two standard deviations along one direction are two logarithms, and noise in each of four numbers half a one.
+        // Two standard deviations along one direction are two logarithms, which come back, and noise in each of four numbers half a one.
         let lost = moved.in_tests_fitted() - found.in_tests_fitted();
-        assert!(lost < 4.0, "{lost}");
+        assert!(lost.abs() < 4.0, "{lost}");
         let [before, after] = [&found, &moved].map(|law| law.errors()[1]);
         assert!(closes_held_out(&moved) && after < before, "{before:?} to {after:?}");
     }

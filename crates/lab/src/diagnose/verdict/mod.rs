@@ -61,6 +61,11 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Whether it gives a law outside the catalogue as a formula.
+    pub fn is_formula(self) -> bool {
+        matches!(self, Self::Formula | Self::FormulaClass)
+    }
+
     /// Its name in `diagnosis.json`.
     pub fn name(self) -> &'static str {
         match self {
