@@ -13,7 +13,9 @@ use super::{output, stop};
 use crate::error::Result;
 use crate::report::numbers_of;
 use crate::results::diagnosis::{OutputNames, write_results};
-use mrbd_lab::diagnose::answer::{FittedNumber, FittedToAll, FoundEffect, OwnHypothesis, Summary};
+use mrbd_lab::diagnose::answer::{
+    FittedNumber, FittedToAll, FoundEffect, OwnHypothesis, SharedHeldOut, Summary,
+};
 use mrbd_lab::diagnose::verdict::Remainder;
 use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
 
@@ -74,6 +76,7 @@ fn in_words(summary: &Summary) -> String {
     let mut lines = vec![format!("verdict: {}", summary.verdict.name())];
     lines.extend(summary.effects.iter().flat_map(effect_in_words));
     lines.extend(summary.fitted_to_all.as_ref().map(fitted_to_all_in_words));
+    lines.extend(summary.shared_held_out.map(shared_held_out_in_words));
     lines.extend(summary.remainder.as_ref().map(remainder_in_words));
     if !summary.equivalent.is_empty() {
         lines.push(format!("  these tests cannot tell apart: {}", summary.equivalent.join(", ")));
@@ -117,6 +120,14 @@ fn fitted_to_all_in_words(found: &FittedToAll) -> String {
         "  these numbers miss the tests held out; fitted to all tests together, which those fitted mind by {:.1} natural \
          logarithms of likelihood, it follows them too: {numbers}",
         found.lost
+    )
+}
+
+/// Which windows of the tests held out were fitted too.
+fn shared_held_out_in_words(SharedHeldOut { fitted, judging }: SharedHeldOut) -> String {
+    format!(
+        "  the tests fitted do not show all of it: {fitted} windows of the tests held out were fitted too, and the {judging} \
+         between them judge"
     )
 }
 

@@ -3,7 +3,7 @@
 use super::super::chart::{Axis, Colour, Dot, Format, Graph, Layer, Mark, PALETTE};
 use super::super::page::{Figure, Link, Section};
 use super::force::{AGAINST, Law, Points};
-use super::words::{fitted_to_all, stability};
+use super::words::{fitted_to_all, shared_held_out, stability};
 use super::{AFTER, BEFORE, key};
 use crate::error::Result;
 use mrbd_lab::diagnose::answer::{ExplainedBy, Summary};
@@ -30,6 +30,7 @@ pub fn shape_section(points: &Points, summary: &Summary) -> Result<Section> {
     }
     section.text.push(explained(summary));
     section.text.extend(summary.fitted_to_all.iter().map(fitted_to_all));
+    section.text.extend(summary.shared_held_out.map(shared_held_out));
     section.text.extend(summary.stability.iter().map(stability));
     let names = points.law_names();
     let mut legend = vec![key("measured, wall as given", BEFORE, Mark::Circle)];

@@ -1,7 +1,7 @@
 //! Verdicts, numbers and names as people read them.
 
 use mrbd_lab::diagnose::Verdict;
-use mrbd_lab::diagnose::answer::{FittedNumber, FittedToAll, FoundEffect, Summary};
+use mrbd_lab::diagnose::answer::{FittedNumber, FittedToAll, FoundEffect, SharedHeldOut, Summary};
 use mrbd_lab::diagnose::discovery::{Stability, UnseenGain};
 use mrbd_lab::diagnose::verdict::{OtherLaw, Remainder};
 use mrbd_lab::limits::SMALL_SWING;
@@ -154,6 +154,14 @@ pub fn fitted_to_all(found: &FittedToAll) -> String {
     format!(
         "With its numbers as they were fitted the law misses the tests held out, which magnify what the tests fitted leave open of them. Fitted to all tests together it follows those too{left}: {numbers}. The tests fitted mind by {:.1} natural logarithms of likelihood; a law that only imitates another loses more, or goes on missing the tests held out.",
         found.lost,
+    )
+}
+
+/// Which windows of the tests held out a formula was fitted to.
+pub fn shared_held_out(found: SharedHeldOut) -> String {
+    format!(
+        "The tests fitted do not show all of the law: the best that follows these misses the larger motion of the tests held out. So every other window of the latter was fitted too, {} in all; the {} between them, other swings of the same tests, judge. A test of its own at that amplitude would tell more.",
+        found.fitted, found.judging,
     )
 }
 

@@ -27,6 +27,7 @@ pub mod force;
 pub mod formula;
 pub mod hypothesis;
 pub mod next_tests;
+mod shared;
 pub mod trials;
 pub mod verdict;
 
@@ -39,12 +40,13 @@ use answer::Findings;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::Pair;
+use shared::{as_fitted, keeps_what_was_fitted, shared_windows};
 use trials::{
     Data, FirstFits, FittedHypothesis, Trials, Unfinished, WallFits, gain_misread, misses_windows,
     opened_as_given, opened_enough, opened_windows, reads_better, set_gain, typical_error,
 };
 pub use verdict::Verdict;
-use verdict::{Found, beside_beds, judge, leaves_noise, on_beds};
+use verdict::{Found, beside_beds, judge, judge_laws, leaves_noise, on_beds};
 
 /// The windows that count, and the answer in them.
 type Answered = ([Vec<Window>; 2], Found);
@@ -67,10 +69,13 @@ pub fn diagnose(experiment: &Experiment, progress: &impl Progress) -> Result<Dia
 pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Result<Findings<'e>> {
     let mut flow =
         Flow { experiment, progress, tests: experiment.tests.clone(), unfinished: Unfinished::default() };
-    let (windows, found) = flow.answered()?;
+    let answered = flow.answered()?;
+    let shared = flow.with_shared_windows(&answered)?;
+    let shares = shared.is_some();
+    let (windows, found) = shared.unwrap_or(answered);
     let own = flow.trials(&windows).own_hypotheses(&found.before);
     let unfinished = flow.unfinished.all();
-    Ok(Findings { experiment, tests: flow.tests, windows, found, own, unfinished })
+    Ok(Findings { experiment, tests: flow.tests, windows, shares, found, own, unfinished })
 }
 
 /// An experiment, with its tests as they are read so far.
@@ -103,6 +108,20 @@ impl<P: Progress> Flow<'_, P> {
         }
         let found = judge(&self.trials(&windows), first_fits);
         Ok((windows, found))
+    }
+
+    /// A law outside the catalogue, and its windows, where tests held out show what those fitted do not: every other window of them is
+    /// fitted too.
+    fn with_shared_windows(&mut self, (windows, found): &Answered) -> Result<Option<Answered>> {
+        let Some(shared) = shared_windows(windows, found) else { return Ok(None) };
+        // Points of tests of which windows are fitted are looked at too.
+        let looked_at = as_fitted(&self.tests);
+        let given = std::mem::replace(&mut self.tests, looked_at);
+        let first_fits = self.first_fits_in(&shared, Some(&found.recalibrated.fit.values));
+        let told = first_fits.map(|first_fits| judge_laws(&self.trials(&shared), first_fits));
+        self.tests = given;
+        let told = told?.filter(|told| keeps_what_was_fitted(found, told, windows));
+        Ok(told.map(|told| (shared, told)))
     }
 
     /// The windows and the answer where joints that give are it, or part of it.

@@ -128,6 +128,10 @@ limits! {
     /// No impact that the noise decides lies there; in one the contact may change by less than the noise. Chosen: thirteen right laws of
     /// development sets missed 1 of 469, laws that lacked an atom 2 of 16 to 6 of 33, and a right pair with a size of half the true one 2 of 21.
     MISSED_BETWEEN_IMPACTS: usize = 1, "";
+    /// Fewest windows held out of which every other one is fitted too, where a law follows the tests fitted and not these.
+    ///
+    /// Chosen: half of them judge.
+    LEAST_SHARED: usize = 16, "";
     /// Largest difference of two forces over what was excited below which they are one law, over the largest force.
     SAME_FORCE: f64 = 0.02, "share";
     /// Difference of two forces over what was excited from which a name with its exponent set free is another law, over the

@@ -48,6 +48,7 @@ impl Findings<'_> {
             equivalent_formulas: self.equivalent_formulas(),
             stability: found.discovered.as_ref().and_then(|found| found.stability),
             fitted_to_all: self.fitted_to_all(),
+            shared_held_out: self.shared_held_out(),
             refused: self.refused_laws(),
             unfinished: self.unfinished.clone(),
             equivalent: found.equivalent.clone(),

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 
 use super::Findings;
 use super::conclusion::of_both;
-use super::summary::{FittedToAll, ForceCurve, FoundEffect, FoundState};
+use super::summary::{FittedToAll, ForceCurve, FoundEffect, FoundState, SharedHeldOut};
 use crate::diagnose::certainty::intervals;
 use crate::diagnose::force::Against;
 use crate::diagnose::formula::{Curve, Law, Part, Site, Written, WrittenState};
 use crate::diagnose::trials::FittedHypothesis;
 use crate::diagnose::verdict::Verdict;
+use crate::experiment::{Purpose, Window};
 use mrbd_formula::{CarriedState, Formula};
 
 /// Kind of such an effect in wall files.
@@ -49,6 +50,14 @@ impl Findings<'_> {
             windowed_error: of_both(moved.errors()),
             lost: moved.in_tests_fitted() - first.in_tests_fitted(),
         })
+    }
+
+    /// The windows of tests held out that were fitted too, and those that judge.
+    pub(super) fn shared_held_out(&self) -> Option<SharedHeldOut> {
+        let [fitted, held_out] = &self.windows;
+        let given = |window: &&Window| self.tests[window.test].purpose == Purpose::HoldOut;
+        let fitted = fitted.iter().filter(given).count();
+        self.shares.then_some(SharedHeldOut { fitted, judging: held_out.len() })
     }
 
     /// A force without a formula as the effect that simulates it.

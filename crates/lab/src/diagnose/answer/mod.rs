@@ -26,8 +26,8 @@ use rows::ForceBeforeAfter;
 pub use rows::Tables;
 pub use summary::{
     Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, FittedToAll, ForceCurve,
-    ForceSize, FoundEffect, FoundState, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, Stages,
-    Summary, TestErrors, WallFit, WindowCounts,
+    ForceSize, FoundEffect, FoundState, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, SharedHeldOut,
+    Stages, Summary, TestErrors, WallFit, WindowCounts,
 };
 
 /// A diagnosis: the verdict with everything it rests on.
@@ -79,6 +79,8 @@ pub struct Findings<'e> {
     pub tests: Vec<TestData>,
     /// Windows to fit and held out.
     pub windows: [Vec<Window>; 2],
+    /// Whether every other window of the tests held out is among those to fit.
+    pub shares: bool,
     /// The answer, and every hypothesis that was fitted.
     pub found: Found,
     /// Laws of the user's own, in the order of the experiment.

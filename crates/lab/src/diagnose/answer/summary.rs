@@ -39,6 +39,10 @@ pub struct Summary {
     /// A formula fitted to all tests together, where those held out are followed only so; absent where its numbers need not move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fitted_to_all: Option<FittedToAll>,
+    /// Windows of the tests held out that were fitted too, because the tests fitted do not show all of the formula, and those that judge it;
+    /// absent where no window held out was fitted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shared_held_out: Option<SharedHeldOut>,
     /// Laws outside the catalogue, and names, that were refused though they fit, with what refused each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<RefusedLaw>,
@@ -134,6 +138,15 @@ pub struct FitHeldOut<T> {
     pub fit: T,
     /// Tests held out.
     pub held_out: T,
+}
+
+/// How many windows of the tests held out were fitted too, and how many judge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SharedHeldOut {
+    /// Fitted.
+    pub fitted: usize,
+    /// Held out still.
+    pub judging: usize,
 }
 
 /// A formula with numbers that the tests fitted leave open, as all tests together want them.

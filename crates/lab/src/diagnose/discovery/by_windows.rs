@@ -44,6 +44,23 @@ pub struct Discovered {
 }
 
 impl Discovered {
+    /// Laws that were tried, none of which holds.
+    #[cfg(test)]
+    pub fn in_vain(tried: Vec<FittedHypothesis>) -> Self {
+        Self {
+            equals: Vec::new(),
+            moved: None,
+            tried,
+            refused: Vec::new(),
+            curve: None,
+            stability: None,
+            excited: [[[0.0; 2]; 2]; 3],
+            singles: Vec::new(),
+            pairs: Vec::new(),
+            second_says_more: None,
+        }
+    }
+
     /// What was excited at a site: least and largest displacement and velocity.
     pub fn at(&self, site: Site) -> [[f64; 2]; 2] {
         self.excited[site as usize]

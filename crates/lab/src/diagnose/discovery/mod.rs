@@ -31,7 +31,7 @@ mod refused;
 mod search;
 mod stability;
 #[cfg(test)]
-mod twin;
+pub(in crate::diagnose) mod twin;
 
 pub use asked::{AskedOfLaws, OpenGap, Scope};
 pub use by_windows::Discovered;

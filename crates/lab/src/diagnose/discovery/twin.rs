@@ -72,6 +72,16 @@ impl Twin {
         Self { experiment, windows: [fit, held_out], unfinished: Unfinished::default() }
     }
 
+    /// What is diagnosed.
+    pub fn experiment(&self) -> &Experiment {
+        &self.experiment
+    }
+
+    /// Windows to fit and held out.
+    pub fn windows(&self) -> &[Vec<Window>; 2] {
+        &self.windows
+    }
+
     /// Where hypotheses of it are tried.
     pub fn trials(&self) -> Trials<'_, ()> {
         let Self { experiment, windows, unfinished } = self;

@@ -68,6 +68,19 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
     }
 }
 
+/// A law outside the catalogue and nothing else; `None` where none holds, or an effect does by name.
+pub fn judge_laws<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Option<Found> {
+    let FirstFits { before, recalibrated, singles } = first_fits;
+    let error = joint_error(&before)?;
+    let gap = Gap::new(trials, WallFits { before, recalibrated }, error);
+    if gap.named(&singles, &gap.wall.recalibrated).is_some() {
+        return None;
+    }
+    let told = gap.told_early(&singles)?;
+    let found = gap.placed_by(Some(told), None, singles);
+    found.verdict.is_formula().then_some(found)
+}
+
 /// A gap between model and measurement, or none.
 pub(super) struct Gap<'t, P> {
     pub(super) trials: &'t Trials<'t, P>,

@@ -1,0 +1,128 @@
+//! Windows of tests held out that are fitted too, where the tests fitted do not show all of a law.
+//!
+//! A stop that only the larger motion reaches is told by no test of small motion. A law that follows the tests fitted to their noise and
+//! fails in those held out may lack such an atom. Every other window of the tests held out is fitted then too, and those between them
+//! judge: each is a swing of its own, with noise of its own, in motion as large.
+
+use super::fit::nats;
+use super::trials::{FittedHypothesis, closes_held_out, leave_noise};
+use super::verdict::{Found, Verdict};
+use crate::experiment::{TestData, Window};
+use crate::experiment_file::Purpose;
+use crate::limits::{EQUIVALENT, LEAST_SHARED};
+
+/// Windows to fit and held out, every other one of those held out fitted too; `None` where nothing asks for it, or too few are held out.
+pub(super) fn shared_windows(windows: &[Vec<Window>; 2], found: &Found) -> Option<[Vec<Window>; 2]> {
+    let [fitted, held_out] = windows;
+    if held_out.len() < LEAST_SHARED || !lacks_what_is_held_out(found) {
+        return None;
+    }
+    let mut shared = [fitted.clone(), Vec::new()];
+    for (k, window) in held_out.iter().enumerate() {
+        let side = k % 2;
+        let purpose = [Purpose::Fit, Purpose::HoldOut][side];
+        shared[side].push(Window { purpose, ..window.clone() });
+    }
+    Some(shared)
+}
+
+/// Whether no answer is found, and a law that was tried follows the tests fitted to their noise and not those held out.
+fn lacks_what_is_held_out(found: &Found) -> bool {
+    let is_open = matches!(found.verdict, Verdict::PlaceOnly | Verdict::Unknown | Verdict::Curve);
+    let laws = found.discovered.iter().flat_map(|discovered| &discovered.tried);
+    is_open && laws.into_iter().any(|law| follows_fitted(law) && !closes_held_out(law))
+}
+
+fn follows_fitted(law: &FittedHypothesis) -> bool {
+    leave_noise(&[law.fit.windows.clone(), Vec::new()])
+}
+
+/// The tests as points are taken of them: those held out too, of which windows are fitted.
+pub(super) fn as_fitted(tests: &[TestData]) -> Vec<TestData> {
+    tests.iter().map(|test| TestData { purpose: Purpose::Fit, ..test.clone() }).collect()
+}
+
+/// Whether a law found so is one for the tests that were to be fitted: these say no less of it than of the best law fitted to them alone.
+pub(super) fn keeps_what_was_fitted(before: &Found, after: &Found, windows: &[Vec<Window>; 2]) -> bool {
+    let count = windows[0].len();
+    let best = |found: &Found| {
+        let laws = found.discovered.iter().flat_map(|discovered| &discovered.tried);
+        laws.map(|law| nats(&law.fit.windows)).fold(f64::INFINITY, f64::min)
+    };
+    nats(&after.after.fit.windows[..count]) < best(before) + EQUIVALENT
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::discovery::Discovered;
+    use super::super::discovery::twin::{Twin, wall_with};
+    use super::*;
+
+    /// What a law leaves, in every window fitted and in every window held out, of a wall for which nothing was told; squared error over
+    /// squared noise.
+    fn found(twin: &Twin, [fitted, held_out]: [f64; 2]) -> Found {
+        let mut law = twin.trials().wall_fits(None).expect("windows").recalibrated;
+        for (side, reduced) in [(&mut law.fit, fitted), (&mut law.held_out, held_out)] {
+            side.windows.iter_mut().for_each(|window| window.squares = reduced * window.freedom);
+        }
+        Found {
+            verdict: Verdict::PlaceOnly,
+            before: law.clone(),
+            recalibrated: law.clone(),
+            after: law.clone(),
+            equivalent: Vec::new(),
+            place: Some("top"),
+            remainder: None,
+            other_law: None,
+            discovered: Some(Discovered::in_vain(vec![law])),
+            tried: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn analytic_every_other_window_held_out_is_fitted_where_a_law_misses_these_alone() {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let given = twin.windows();
+        let [fitted, judging] = shared_windows(given, &found(&twin, [1.0, 9.0])).expect("some to share");
+        let places =
+            |windows: &[Window]| windows.iter().map(|w| (w.test, w.samples.start)).collect::<Vec<_>>();
+        let held_out = places(&given[1]);
+        assert_eq!(places(&fitted[..given[0].len()]), places(&given[0]));
+        let every_other = |from: usize| held_out.iter().skip(from).step_by(2).copied().collect::<Vec<_>>();
+        assert_eq!(places(&fitted[given[0].len()..]), every_other(0));
+        assert_eq!(places(&judging), every_other(1));
+        assert!(fitted.iter().all(|w| w.purpose == Purpose::Fit));
+        assert!(judging.iter().all(|w| w.purpose == Purpose::HoldOut));
+        assert!(as_fitted(&twin.experiment().tests).iter().all(|test| test.purpose == Purpose::Fit));
+    }
+
+    #[test]
+    fn analytic_none_is_shared_where_something_is_told_or_nothing_asks_for_it() {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let given = twin.windows();
+        let missing = || found(&twin, [1.0, 9.0]);
+        for told in
+            [Verdict::Named, Verdict::Formula, Verdict::FormulaClass, Verdict::Recalibrated, Verdict::None]
+        {
+            assert!(shared_windows(given, &Found { verdict: told, ..missing() }).is_none());
+        }
+        assert!(shared_windows(given, &found(&twin, [1.0, 1.0])).is_none(), "follows those held out");
+        assert!(shared_windows(given, &found(&twin, [9.0, 9.0])).is_none(), "misses those fitted");
+        assert!(shared_windows(given, &Found { discovered: None, ..missing() }).is_none(), "no law");
+        let few = [given[0].clone(), given[1][..LEAST_SHARED - 1].to_vec()];
+        assert!(shared_windows(&few, &missing()).is_none());
+    }
+
+    #[test]
+    fn analytic_a_law_found_so_must_be_one_for_the_tests_fitted() {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let before = found(&twin, [1.0, 9.0]);
+        // Of so many windows each by a share of its squares: more logarithms together than laws that are equals differ by, or fewer.
+        let freedom = before.after.fit.windows.iter().map(|window| window.freedom).sum::<f64>();
+        let keeps = |lost: f64| {
+            let after = found(&twin, [1.0 + 2.0 * lost / freedom, 1.0]);
+            keeps_what_was_fitted(&before, &after, twin.windows())
+        };
+        assert!(keeps(0.0) && keeps(0.9 * EQUIVALENT) && !keeps(1.2 * EQUIVALENT));
+    }
+}
