@@ -103,11 +103,12 @@ impl<P: Progress> Gap<'_, P> {
     fn judge(self, singles: Vec<FittedHypothesis>) -> Found {
         let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.wall.recalibrated, best));
         if gain < WORTH_A_NAME {
-            if is_noise(&self.wall.before) {
-                return self.nothing_missing(singles);
-            }
-            if is_noise(&self.wall.recalibrated) || closes(&self.wall.recalibrated, self.error) {
-                return self.within_the_wall(singles);
+            let is_given = is_noise(&self.wall.before);
+            if is_given || is_noise(&self.wall.recalibrated) || closes(&self.wall.recalibrated, self.error) {
+                if let Some(law) = self.law_that_shows(&singles) {
+                    return self.placed_by(Some(law), None, singles);
+                }
+                return if is_given { self.nothing_missing(singles) } else { self.within_the_wall(singles) };
             }
         }
         self.with_effects(singles, gain)

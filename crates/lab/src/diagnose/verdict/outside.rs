@@ -11,7 +11,7 @@ use crate::diagnose::force::{ForcePoint, acts_at_top, force_points, lie_along_to
 use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{FittedHypothesis, against, closes, closes_held_out, joint_error};
-use crate::limits::{BEDS_GAP, EQUIVALENT, TREND_SHARE_ON_BEDS, WORTH_A_NAME};
+use crate::limits::{BEDS_GAP, EQUIVALENT, TREND_SHARE_ON_BEDS, WORTH_A_LAW_IN_NOISE, WORTH_A_NAME};
 use mrbd_kernel::model::Role;
 
 /// The place of a missing force with the curve that it is, where one holds.
@@ -68,6 +68,16 @@ impl<P: Progress> Gap<'_, P> {
             _ => found.is_all_of_one_atom(),
         };
         (is_none_of_it && is_told && self.leaves_nothing(best)).then_some(found)
+    }
+
+    /// A law of one atom outside the catalogue that shows where the wall follows the tests without it: all windows together leave noise,
+    /// and few of them show a law that no effect of the catalogue imitates.
+    pub(super) fn law_that_shows(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
+        let found = self.looked_for(singles, &[], Scope::OneAtom, None)?;
+        let best = found.equals.first()?;
+        let shows = self.gain(&self.wall.recalibrated, best) > WORTH_A_LAW_IN_NOISE;
+        let is_none_of_it = !best.hypothesis.laws(&best.fit.values).iter().any(is_of_catalogue);
+        (shows && is_none_of_it && self.leaves_nothing(best)).then_some(found)
     }
 
     /// Whether what the wall as given lacks may be a force at the top, and nothing that joints do which give: it lies along the direction
@@ -256,5 +266,39 @@ impl<P: Progress> Gap<'_, P> {
             [one] => Some(one),
             _ => None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::discovery::twin::{Twin, wall_with};
+    use crate::diagnose::trials::is_noise;
+
+    /// A stop on one side, of a stiffness in N/m.
+    fn stop(k: f64, gap_m: f64) -> String {
+        format!(
+            "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"k*max(-x-g,0)\"\n[effects.parameters]\n\
+             k = {{ value = {k:?}, unit = \"N/m\" }}\ng = {{ value = {gap_m:?}, unit = \"m\" }}\n"
+        )
+    }
+
+    /// Whether the wall with its own numbers fitted follows the tests to their noise, and the law that shows all the same.
+    fn shown(effects: &str, noise_rad: f64) -> (bool, Option<String>) {
+        let twin = Twin::new(&wall_with(effects), noise_rad);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let (error, follows) = (joint_error(&wall.before).expect("windows"), is_noise(&wall.recalibrated));
+        let found = Gap::new(&trials, wall, error).law_that_shows(&[]);
+        (follows, found.map(|found| found.equals[0].hypothesis.name()))
+    }
+
+    #[test]
+    fn analytic_a_stop_that_few_windows_show_is_told_though_all_together_leave_noise() {
+        let (follows, law) = shown(&stop(2e4, 0.02), 5e-5);
+        assert!(follows && law.as_deref() == Some("k*max(-x-g,0) at top"), "{follows} {law:?}");
+        // Reached by less, and at twice the noise, it does not show.
+        assert_eq!(shown(&stop(2e4, 0.03), 1e-4), (true, None));
+        assert_eq!(shown("", 5e-5), (true, None), "nothing is hidden");
     }
 }
