@@ -70,7 +70,7 @@ pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Res
     let mut flow =
         Flow { experiment, progress, tests: experiment.tests.clone(), unfinished: Unfinished::default() };
     let answered = flow.answered()?;
-    let shared = flow.with_shared_windows(&answered)?;
+    let shared = flow.with_shared_windows(&answered);
     let shares = shared.is_some();
     let (windows, found) = shared.unwrap_or(answered);
     let own = flow.trials(&windows).own_hypotheses(&found.before);
@@ -111,17 +111,17 @@ impl<P: Progress> Flow<'_, P> {
     }
 
     /// A law outside the catalogue, and its windows, where tests held out show what those fitted do not: every other window of them is
-    /// fitted too.
-    fn with_shared_windows(&mut self, (windows, found): &Answered) -> Result<Option<Answered>> {
-        let Some(shared) = shared_windows(windows, found) else { return Ok(None) };
+    /// fitted too. `None` where nothing asks for it, and where no wall without effects can be fitted so or no law holds: the answer
+    /// stands then.
+    fn with_shared_windows(&mut self, (windows, found): &Answered) -> Option<Answered> {
+        let shared = shared_windows(windows, found)?;
         // Points of tests of which windows are fitted are looked at too.
         let looked_at = as_fitted(&self.tests);
         let given = std::mem::replace(&mut self.tests, looked_at);
-        let first_fits = self.first_fits_in(&shared, Some(&found.recalibrated.fit.values));
-        let told = first_fits.map(|first_fits| judge_laws(&self.trials(&shared), first_fits));
+        let first_fits = self.first_fits_in(&shared, Some(&found.recalibrated.fit.values)).ok();
+        let told = first_fits.and_then(|first_fits| judge_laws(&self.trials(&shared), first_fits));
         self.tests = given;
-        let told = told?.filter(|told| keeps_what_was_fitted(found, told, windows));
-        Ok(told.map(|told| (shared, told)))
+        told.filter(|told| keeps_what_was_fitted(found, told, windows)).map(|told| (shared, told))
     }
 
     /// The windows and the answer where joints that give are it, or part of it.
