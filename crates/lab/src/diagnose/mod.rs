@@ -70,12 +70,10 @@ pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Res
     let mut flow =
         Flow { experiment, progress, tests: experiment.tests.clone(), unfinished: Unfinished::default() };
     let answered = flow.answered()?;
-    let shared = flow.with_shared_windows(&answered);
-    let shares = shared.is_some();
-    let (windows, found) = shared.unwrap_or(answered);
+    let (windows, found) = flow.with_shared_windows(&answered).unwrap_or(answered);
     let own = flow.trials(&windows).own_hypotheses(&found.before);
     let unfinished = flow.unfinished.all();
-    Ok(Findings { experiment, tests: flow.tests, windows, shares, found, own, unfinished })
+    Ok(Findings { experiment, tests: flow.tests, windows, found, own, unfinished })
 }
 
 /// An experiment, with its tests as they are read so far.

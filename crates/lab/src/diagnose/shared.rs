@@ -54,6 +54,7 @@ pub(super) fn keeps_what_was_fitted(before: &Found, after: &Found, windows: &[Ve
 
 #[cfg(test)]
 mod tests {
+    use super::super::answer::{Findings, SharedHeldOut};
     use super::super::discovery::Discovered;
     use super::super::discovery::twin::{Twin, wall_with};
     use super::*;
@@ -94,6 +95,18 @@ mod tests {
         assert!(fitted.iter().all(|w| w.purpose == Purpose::Fit));
         assert!(judging.iter().all(|w| w.purpose == Purpose::HoldOut));
         assert!(as_fitted(&twin.experiment().tests).iter().all(|test| test.purpose == Purpose::Fit));
+        let told = |windows: [Vec<Window>; 2]| {
+            let (experiment, found) = (twin.experiment(), found(&twin, [1.0, 1.0]));
+            let (own, unfinished) = (Vec::new(), std::collections::BTreeMap::new());
+            Findings { experiment, tests: experiment.tests.clone(), windows, found, own, unfinished }
+                .shared_held_out()
+        };
+        let half = held_out.len() / 2;
+        assert_eq!(told(given.clone()), None);
+        assert_eq!(
+            told([fitted, judging]),
+            Some(SharedHeldOut { fitted: held_out.len() - half, judging: half })
+        );
     }
 
     #[test]

@@ -52,12 +52,12 @@ impl Findings<'_> {
         })
     }
 
-    /// The windows of tests held out that were fitted too, and those that judge.
-    pub(super) fn shared_held_out(&self) -> Option<SharedHeldOut> {
+    /// The windows of tests held out that were fitted too, and those that judge; `None` where none was fitted.
+    pub(in crate::diagnose) fn shared_held_out(&self) -> Option<SharedHeldOut> {
         let [fitted, held_out] = &self.windows;
         let given = |window: &&Window| self.tests[window.test].purpose == Purpose::HoldOut;
         let fitted = fitted.iter().filter(given).count();
-        self.shares.then_some(SharedHeldOut { fitted, judging: held_out.len() })
+        (fitted > 0).then_some(SharedHeldOut { fitted, judging: held_out.len() })
     }
 
     /// A force without a formula as the effect that simulates it.

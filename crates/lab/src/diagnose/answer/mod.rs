@@ -77,10 +77,8 @@ pub struct Findings<'e> {
     pub experiment: &'e Experiment,
     /// Its tests, read without the gains that were found.
     pub tests: Vec<TestData>,
-    /// Windows to fit and held out.
+    /// Windows to fit and held out; some of tests held out may be among the former.
     pub windows: [Vec<Window>; 2],
-    /// Whether every other window of the tests held out is among those to fit.
-    pub shares: bool,
     /// The answer, and every hypothesis that was fitted.
     pub found: Found,
     /// Laws of the user's own, in the order of the experiment.

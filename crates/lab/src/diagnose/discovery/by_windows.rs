@@ -5,6 +5,7 @@ use super::by_few::best_law;
 use super::equals::{law_of, simplest_of_equals};
 use super::fitted::Fitted;
 use super::guards::{holds_in_each_test, lies_inside};
+use super::kin::is_of_catalogue;
 use super::left_open::{least_in_tests_fitted, may_move};
 use super::points::Points;
 use super::refused::{Guard, Refused};
@@ -70,6 +71,11 @@ impl Discovered {
     pub fn is_all_of_one_atom(&self) -> bool {
         let of_one = |law: &FittedHypothesis| law_of(law).is_some_and(|law| law.second.is_none());
         self.equals.first().is_some_and(of_one) && self.second_says_more.is_some_and(|more| more < EQUIVALENT)
+    }
+
+    /// Whether none of the laws that hold is made of powers of the catalogue alone.
+    pub fn is_outside_catalogue(&self) -> bool {
+        !self.equals.iter().filter_map(law_of).any(|law| is_of_catalogue(&law))
     }
 
     /// Whether nothing holds.

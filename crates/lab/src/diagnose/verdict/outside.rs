@@ -6,7 +6,7 @@ use super::judge::{Answer, Gap};
 use super::worth_naming::{leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
 use crate::Progress;
-use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refused, Scope, is_of_catalogue};
+use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refused, Scope};
 use crate::diagnose::force::{ForcePoint, acts_at_top, force_points, lie_along_top};
 use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Addition;
@@ -60,14 +60,12 @@ impl<P: Progress> Gap<'_, P> {
             of_one
         };
         let found = self.early.get_or_init(|| found).clone();
-        let laws = found.equals.iter().flat_map(|t| t.hypothesis.laws(&t.fit.values));
-        let is_none_of_it = !laws.into_iter().any(|law| is_of_catalogue(&law));
         let best = found.equals.first()?;
         let is_told = match best.hypothesis.additions[0].place() {
             "top" => may_act_at_top,
             _ => found.is_all_of_one_atom(),
         };
-        (is_none_of_it && is_told && self.leaves_nothing(best)).then_some(found)
+        (found.is_outside_catalogue() && is_told && self.leaves_nothing(best)).then_some(found)
     }
 
     /// A law of one atom outside the catalogue that shows where the wall follows the tests without it: all windows together leave noise,
@@ -76,8 +74,7 @@ impl<P: Progress> Gap<'_, P> {
         let found = self.looked_for(singles, &[], Scope::OneAtom, None)?;
         let best = found.equals.first()?;
         let shows = self.gain(&self.wall.recalibrated, best) > WORTH_A_LAW_IN_NOISE;
-        let is_none_of_it = !best.hypothesis.laws(&best.fit.values).iter().any(is_of_catalogue);
-        (shows && is_none_of_it && self.leaves_nothing(best)).then_some(found)
+        (shows && found.is_outside_catalogue() && self.leaves_nothing(best)).then_some(found)
     }
 
     /// Whether what the wall as given lacks may be a force at the top, and nothing that joints do which give: it lies along the direction
