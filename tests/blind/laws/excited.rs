@@ -13,7 +13,7 @@ const POINTS: usize = 300;
 const MOVES: f64 = 0.02;
 
 /// Displacements, velocities, the law's force or moment at its place and the largest displacement so far, of tests to fit and
-/// held out; null without a law.
+/// held out, and of each atom its share of the force in those to fit; null without a law.
 pub fn excited(case: &Case, tests: &[Test]) -> Value {
     let law = |hidden: &Hidden| if let Hidden::Law(atom) = hidden { Some(*atom) } else { None };
     let atoms = case.hidden.iter().filter_map(law).collect::<Vec<_>>();
@@ -24,16 +24,29 @@ pub fn excited(case: &Case, tests: &[Test]) -> Value {
         let (fit, held_out) = tests.split_at(case.fit_tests);
         return json!({ "fit": all(fit), "held_out": all(held_out) });
     }
-    let points = |tests: &[Test]| {
+    let moving = |tests: &[Test]| {
         let all = tests.iter().flat_map(|test| motion(case, test, first.site)).collect::<Vec<_>>();
         let most = all.iter().fold(0.0, |most: f64, [q, ..]| most.max(q.abs()));
-        let moving = all.into_iter().filter(|[q, ..]| q.abs() > MOVES * most).collect::<Vec<_>>();
+        all.into_iter().filter(|[q, ..]| q.abs() > MOVES * most).collect::<Vec<_>>()
+    };
+    let points = |moving: &[[f64; 3]]| {
         let every = moving.len().div_ceil(POINTS).max(1);
         let force = |motion: &[f64; 3]| atoms.iter().map(|atom| atom.force(*motion)).sum::<f64>();
         moving.iter().step_by(every).map(|m| json!([m[0], m[1], force(m), m[2]])).collect::<Vec<_>>()
     };
     let (fit, held_out) = tests.split_at(case.fit_tests);
-    json!({ "fit": points(fit), "held_out": points(held_out) })
+    let fit = moving(fit);
+    json!({ "fit": points(&fit), "held_out": points(&moving(held_out)), "shares": shares(&atoms, &fit) })
+}
+
+/// Of each atom the root mean square of its force over that of them all.
+fn shares(atoms: &[Atom], motion: &[[f64; 3]]) -> Vec<f64> {
+    let squares = |atoms: &[Atom]| {
+        let force = |m: &[f64; 3]| atoms.iter().map(|atom| atom.force(*m)).sum::<f64>();
+        motion.iter().map(|m| force(m).powi(2)).sum::<f64>()
+    };
+    let all = squares(atoms);
+    atoms.iter().map(|atom| (squares(std::slice::from_ref(atom)) / all).sqrt()).collect()
 }
 
 /// The points of a test with a law that carries a state along.

@@ -35,6 +35,9 @@ pub struct LawRow {
     pub hidden_place: String,
     /// Whether an exponent is none of halves.
     pub off_grid: bool,
+    /// Of each atom its share of the force in the tests to fit; none of cases that were made before this was told.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shares: Vec<f64>,
     /// The verdict; `failed` where there is none.
     pub verdict: String,
     /// What was found: formulas with their places, or effects by their names.
@@ -108,6 +111,7 @@ impl LawRow {
             hidden: list(answer, "/effects").iter().map(hidden).collect(),
             hidden_place: text(answer, "/effects/0/place"),
             off_grid: list(answer, "/effects").iter().any(is_off_grid),
+            shares: list(answer, "/excited/shares").iter().filter_map(Value::as_f64).collect(),
             verdict: diagnosis.map_or("failed", |d| d.verdict.name()).into(),
             found: effects.iter().map(found).collect(),
             place: diagnosis.and_then(|d| d.place.clone()).unwrap_or_default(),
@@ -137,6 +141,11 @@ impl LawRow {
     /// Whether the hidden law shows at all; a diagnosis that failed is held against the program.
     pub fn visible(&self) -> bool {
         self.against_recalibrated.is_none_or(|nats| nats > VISIBLE_NATS)
+    }
+
+    /// Whether every atom makes a part of the force, where tests were fitted, without which that would be another.
+    pub fn all_act(&self) -> bool {
+        !self.shares.is_empty() && self.shares.iter().all(|share| *share > RIGHT_FUNCTION)
     }
 
     /// Whether the force is the true one.

@@ -48,6 +48,15 @@ pub fn table(rows: &[LawRow]) -> String {
     let two = group(&["two atoms"]);
     add("two atoms: both right", "≥ 60 %", told(&two, LawRow::right));
     add("– the force within 10 %", "≥ 80 %", told(&two, LawRow::function_right));
+    let both = two.iter().copied().filter(|row| row.all_act()).collect::<Vec<_>>();
+    if two.iter().any(|row| !row.shares.is_empty()) {
+        add(
+            "– of those of which each makes 10 % of the force in the tests fitted: both right",
+            "",
+            told(&both, LawRow::right),
+        );
+        add("– – the force within 10 %", "", told(&both, LawRow::function_right));
+    }
     let joint = group(&["joint"]);
     add("a law at a joint: the formula, alone or in a class", "≥ 70 %", told(&joint, LawRow::right));
     let memory = group(&["memory"]);
