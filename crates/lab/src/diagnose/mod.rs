@@ -92,12 +92,12 @@ impl<P: Progress> Flow<'_, P> {
             return Ok(answer);
         }
         let mut first_fits = self.trials(&windows).first_fits(wall);
-        if let Some(before) = self.read_again(&first_fits)? {
-            let (new_windows, new) = self.try_first_fits()?;
-            if reads_better(&first_fits.singles, &new.singles) {
-                (windows, first_fits) = (new_windows, new);
-            } else {
-                set_gain(&mut self.tests, before);
+        if let Some(before) = self.read_again(&first_fits) {
+            match self.try_first_fits() {
+                Ok((anew, fits)) if reads_better(&first_fits.singles, &fits.singles) => {
+                    (windows, first_fits) = (anew, fits);
+                }
+                _ => _ = set_gain(&mut self.tests, before),
             }
         }
         if let Some(new_windows) = opened_windows(&Data::new(&self.tests, &windows), &first_fits) {
@@ -145,15 +145,19 @@ impl<P: Progress> Flow<'_, P> {
     }
 
     /// Reads the tests without the gain of a sensor, where the best single effect is one, and again without what is left of it once it is
-    /// fitted to the windows that this makes; the gain that they were read with before, where they are read anew.
-    fn read_again(&mut self, first_fits: &FirstFits) -> Result<Option<Pair>> {
-        let Some(mut best) = first_fits.singles.first().cloned() else { return Ok(None) };
+    /// fitted to the windows that this makes; the gain that they were read with before, where they are read anew. A gain that leaves no
+    /// window to fit is none of a sensor: another effect looks like it.
+    fn read_again(&mut self, first_fits: &FirstFits) -> Option<Pair> {
+        let mut best = first_fits.singles.first()?.clone();
         let mut before = None;
         for _ in 0..READ_AGAIN {
             let Some(gain) = gain_misread(&self.tests, &best) else { break };
             let last = set_gain(&mut self.tests, gain);
+            let Ok((windows, wall)) = self.wall() else {
+                set_gain(&mut self.tests, last);
+                break;
+            };
             before = before.or(Some(last));
-            let (windows, wall) = self.wall()?;
             let alone = [best.hypothesis.additions.clone()];
             let starts = [&wall.before, &wall.recalibrated];
             let nuisances = &self.experiment.nuisances;
@@ -161,7 +165,7 @@ impl<P: Progress> Flow<'_, P> {
             let Some(next) = fitted.into_iter().next() else { break };
             best = next;
         }
-        Ok(before)
+        before
     }
 
     /// The windows with both bodies free where a wall on beds follows them so, if it nearly follows the tests and these are enough. What

@@ -119,13 +119,14 @@ impl<P: Progress> Trials<'_, P> {
             let simpler = tried.first().unwrap_or(gap.recalibrated).clone();
             pairs = self.pairs_in_windows(gap, &searched, &singles);
             let (of_two, of_pairs) = judge(&mut pairs, Some(&simpler));
+            let (of_two, worth_less) = self.or_an_atom_alone(gap, &searched, of_two, asked);
             if of_two.is_empty() {
                 let lacks = |one: &mut Fitted| self.lacks_an_atom(one.judged(), &pairs);
                 let lacking = closing.extract_if(.., lacks);
                 refused.extend(lacking.map(|one| Refused::in_windows(&one.law, vec![Guard::LacksAtom])));
             }
             closing.extend(of_two);
-            refused.extend(of_pairs);
+            refused.extend(of_pairs.into_iter().chain(worth_less));
             refused.extend(refused_over_points(&searched.pairs));
             tried.extend(pairs.iter().map(|fitted| fitted.law.clone()));
         }
@@ -154,7 +155,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Of laws fitted to windows those that nothing speaks against, and the others with what does.
-    fn closing(
+    pub(super) fn closing(
         &self,
         gap: &OpenGap,
         searched: &Searched,

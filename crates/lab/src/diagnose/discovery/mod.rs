@@ -8,6 +8,7 @@
 //! | `by_few` | laws chosen by few windows, where points are too noisy to choose |
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
 //! | `fitted` | where laws start in windows, and their fits |
+//! | `alone` | a law of two atoms beside each of them alone |
 //! | `guards` | what refuses a law that fits |
 //! | `left_open` | numbers of a law that the tests fitted leave open, where those held out ask for others |
 //! | `kin` | a name whose exponent, set free, does clearly better |
@@ -16,6 +17,7 @@
 //! | `equals` | laws that the tests cannot tell apart |
 //! | [`Stability`] | how sure the form of a law is |
 
+mod alone;
 mod asked;
 mod by_few;
 mod by_windows;

@@ -142,6 +142,10 @@ impl<P: Progress> Gap<'_, P> {
                 });
             }
         }
+        let gives_way = |name: &Answer, early: &Option<Discovered>| {
+            early.as_ref().is_some_and(|law| self.leaves_noise_beside(law, &name.after))
+        };
+        let one = one.filter(|one| !gives_way(one, &early));
         // Where every effect misses many windows and one atom leaves noise, two effects of the catalogue would be two atoms: points, which
         // weigh all of these, would say more of them.
         if one.is_none() && early.as_ref().is_some_and(Discovered::is_all_of_one_atom) {
@@ -165,6 +169,7 @@ impl<P: Progress> Gap<'_, P> {
             return found;
         }
         let (answer, tried) = self.with_pairs(one, singles);
+        let answer = answer.filter(|answer| !gives_way(answer, &early));
         // Beside a second effect factors on impacts may be found that follow to the noise, and say no more than that impacts are
         // those of another formulation. What leaves more has no name by what it leaves between them.
         let tried = self.trials.ordered(tried);

@@ -123,6 +123,14 @@ impl<P: Progress> Gap<'_, P> {
         self.placed_by(discovered, Some(other_law), tried)
     }
 
+    /// Whether the first law leaves noise where a name leaves more, and is worth as much beside it as a second effect must be: the name, if
+    /// only between impacts, imitates it.
+    pub(super) fn leaves_noise_beside(&self, discovered: &Discovered, named: &FittedHypothesis) -> bool {
+        let is_better =
+            |law: &FittedHypothesis| leaves_noise(law) && worth_two(&self.trials.data, named, law);
+        !leaves_noise(named) && discovered.equals.first().is_some_and(is_better)
+    }
+
     /// A law outside the catalogue that leaves noise where a name leaves more, and is worth as much beside it as a second
     /// effect must be: the name only imitates it.
     pub(super) fn better_formula(
