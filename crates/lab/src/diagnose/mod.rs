@@ -221,3 +221,37 @@ impl<P: Progress> Flow<'_, P> {
         Trials { experiment, data: Data::new(tests, windows), progress, unfinished }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use discovery::twin::{Twin, wall_with};
+    use hypothesis::candidates;
+    use trials::with_values;
+
+    #[test]
+    fn analytic_a_gain_that_leaves_no_window_to_fit_is_none_of_a_sensor() {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let experiment = twin.experiment();
+        let (tests, unfinished) = (experiment.tests.clone(), Unfinished::default());
+        let mut flow = Flow { experiment, progress: &(), tests, unfinished };
+        let (windows, wall) = flow.wall().expect("windows");
+        let first_fits = |gain: f64| {
+            let trials = flow.trials(&windows);
+            let named = |a: &hypothesis::Addition| a.name() == "sensor_gain.both";
+            let addition = candidates(experiment.wall.parameters()).into_iter().find(named);
+            let h = trials.hypothesis(&[], &[addition.expect("of the catalogue")]);
+            let best = with_values(&trials.data, h, &wall.before, &[gain]).expect("a wall");
+            FirstFits {
+                before: wall.before.clone(),
+                recalibrated: wall.recalibrated.clone(),
+                singles: vec![best],
+            }
+        };
+        // Noise a hundred times as large, once it is taken out, hides every pattern.
+        let [hides_all, small] = [0.01, 1.02].map(first_fits);
+        assert_eq!(flow.read_again(&hides_all), None);
+        assert!(flow.tests.iter().all(|test| test.read_gain == [1.0; 2]), "as they were read");
+        assert_eq!(flow.read_again(&small), Some([1.0; 2]), "read anew");
+    }
+}

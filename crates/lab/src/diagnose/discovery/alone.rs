@@ -47,3 +47,84 @@ impl<P: Progress> Trials<'_, P> {
         self.in_order(atoms.into_par_iter().filter_map(fit).collect())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::asked::Scope;
+    use super::super::points::Points;
+    use super::super::search::search;
+    use super::super::twin::{Twin, wall_with};
+    use super::*;
+    use crate::diagnose::formula::{Shape, Side, Site};
+    use crate::diagnose::trials::{Data, against, joint_error};
+    use crate::limits::WORTH_A_NAME;
+
+    const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
+                        [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
+    const SPRING: &str =
+        "[[effects]]\nkind = \"one_sided_spring\"\nside = \"negative\"\nstiffness_n_per_m = 5e3\n";
+
+    /// A second atom must gain what a name must.
+    struct Asked<'d>(Data<'d>);
+
+    impl AskedOfLaws for Asked<'_> {
+        fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
+            against(&self.0, one) - against(&self.0, two) > WORTH_A_NAME
+        }
+
+        fn follows_held_out(&self, _: &FittedHypothesis) -> bool {
+            true
+        }
+
+        fn leaves_nothing(&self, _: &FittedHypothesis) -> bool {
+            true
+        }
+
+        fn other_law(&self, _: &FittedHypothesis) -> Vec<Guard> {
+            Vec::new()
+        }
+    }
+
+    /// How many atoms are left of a drag with a spring on one side, on a wall with effects, and what refused other laws.
+    fn atoms_left(effects: &str) -> (usize, Vec<Guard>) {
+        let twin = Twin::new(&wall_with(effects), 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let without = trials.hypothesis(&trials.experiment.nuisances, &[]);
+        let points = Points::new(trials.data.fit.tests, &without).expect("points");
+        let reach = points.reach[Site::Top as usize];
+        let atom = |shape: Shape, n: f64, size: f64| Atom {
+            site: Site::Top,
+            shape,
+            numbers: [n, 0.0],
+            size,
+            reach,
+            is_exact: false,
+        };
+        let drag = atom(Shape::Drag, 2.0, 4000.0 * reach[1] * reach[1]);
+        let spring = atom(Shape::OneSidedSpring(Side::Negative), 1.0, 5e3 * reach[0]);
+        let law = Law { second: Some(spring), ..Law::of(drag) };
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
+        let values = wall.recalibrated.fit.values.iter().copied().chain(law.values()).collect::<Vec<_>>();
+        let two = Fitted::new(refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit"));
+        let gap = OpenGap {
+            recalibrated: &wall.recalibrated,
+            nearest: &wall.recalibrated,
+            error: joint_error(&wall.before).expect("windows"),
+            scope: Scope::TwoAtoms,
+            kin: &[],
+            before: None,
+        };
+        let searched = search(&points).expect("equations");
+        let (held, refused) = trials.or_an_atom_alone(&gap, &searched, vec![two], &Asked(trials.data));
+        let [one] = &held[..] else { panic!("{} laws are left", held.len()) };
+        let atoms = law_of(&one.law).expect("a law").atoms().count();
+        (atoms, refused.into_iter().flat_map(|refused| refused.guards).collect())
+    }
+
+    #[test]
+    fn analytic_a_pair_beside_which_one_atom_does_as_well_gives_way_to_it() {
+        assert_eq!(atoms_left(DRAG), (1, vec![Guard::SecondAtom]));
+        assert_eq!(atoms_left(&[DRAG, SPRING].concat()), (2, Vec::new()));
+    }
+}
