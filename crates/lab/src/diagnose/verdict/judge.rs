@@ -128,12 +128,18 @@ impl<P: Progress> Gap<'_, P> {
         let singles = if early.is_some() { singles } else { self.trials.far_again(&self.wall, singles) };
         let singles = self.trials.with_imitations(singles, self.error);
         if self.only_other_impacts(&singles) {
-            return self.other_impacts(singles);
+            return match self.law_beyond_impacts(&singles) {
+                Some(law) => self.placed_by(Some(law), None, singles),
+                None => self.other_impacts(singles),
+            };
         }
         let one = self.named(&singles, &self.wall.recalibrated);
         if one.is_none() && place(&self.trials.data, &self.wall.recalibrated, &singles).is_none() {
             let before = only_impacts(self.trials, &self.wall.before, &singles);
             if before || only_impacts(self.trials, &self.wall.recalibrated, &singles) {
+                if let Some(law) = self.law_beyond_impacts(&singles) {
+                    return self.placed_by(Some(law), None, singles);
+                }
                 // A stiff bed shows at impacts, too.
                 let on_beds = on_beds_last(self.trials, &self.wall, &singles, &[]);
                 return on_beds.unwrap_or_else(|| match before {

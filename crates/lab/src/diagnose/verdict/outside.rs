@@ -77,6 +77,19 @@ impl<P: Progress> Gap<'_, P> {
         (shows && found.is_outside_catalogue() && self.leaves_nothing(best)).then_some(found)
     }
 
+    /// A law of one atom outside the catalogue where effects say no more than that impacts are those of another formulation: it gains over
+    /// the wall, and over every effect, what a law in noise must.
+    pub(super) fn law_beyond_impacts(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
+        let found = match self.early.get() {
+            Some(found) => found.clone(),
+            None => self.looked_for(singles, &[], Scope::OneAtom, None)?,
+        };
+        let best = found.equals.first()?;
+        let mut without = singles.iter().chain([&self.wall.recalibrated]);
+        let shows = without.all(|other| self.gain(other, best) > WORTH_A_LAW_IN_NOISE);
+        (shows && found.is_outside_catalogue()).then_some(found)
+    }
+
     /// Whether what the wall as given lacks may be a force at the top, and nothing that joints do which give: it lies along the direction
     /// of the top, or has no direction and left so much that joints that give were asked for before any effect.
     fn may_act_at_top(&self) -> bool {
@@ -305,5 +318,22 @@ mod tests {
         // Reached by less, and at twice the noise, it does not show.
         assert_eq!(shown(&stop(2e4, 0.03), 1e-4), (true, None));
         assert_eq!(shown("", 5e-5), (true, None), "nothing is hidden");
+    }
+
+    #[test]
+    fn analytic_a_law_that_gains_over_every_effect_is_told_where_impacts_could_be_all_that_is_left() {
+        let beyond = |effects: &str| {
+            let twin = Twin::new(&wall_with(effects), 1e-5);
+            let trials = twin.trials();
+            let wall = trials.wall_fits(None).expect("windows");
+            let error = joint_error(&wall.before).expect("windows");
+            let gap = Gap::new(&trials, wall, error);
+            let found = gap.law_beyond_impacts(&[])?;
+            let law = found.equals[0].clone();
+            assert!(gap.law_beyond_impacts(std::slice::from_ref(&law)).is_none(), "an effect does as well");
+            Some(law.hypothesis.name())
+        };
+        assert_eq!(beyond(&stop(2e4, 0.02)).as_deref(), Some("k*max(-x-g,0) at top"));
+        assert_eq!(beyond(""), None, "nothing is hidden");
     }
 }
