@@ -81,9 +81,9 @@ fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
 }
 
 /// Recorded sets of laws, in the order in which they were answered.
-const SETS_OF_LAWS: [&str; 15] = [
+const SETS_OF_LAWS: [&str; 16] = [
     "laws1", "laws2", "laws3", "laws4", "laws6", "laws7", "laws8", "laws9", "laws10", "laws11", "laws13",
-    "laws14", "laws15", "laws16", "laws17",
+    "laws14", "laws15", "laws16", "laws17", "laws18",
 ];
 
 #[test]
@@ -123,6 +123,21 @@ fn regress_the_documentation_has_the_tables_of_the_recorded_laws() {
             );
         }
     }
+}
+
+/// How many of these, the last, the documentation tells together.
+const TOLD_TOGETHER: usize = 3;
+
+#[test]
+fn regress_the_documentation_has_the_table_of_the_last_recorded_laws_together() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/diagnosis-blind-laws.md");
+    let text = std::fs::read_to_string(path).expect("the documentation");
+    let last = SETS_OF_LAWS[SETS_OF_LAWS.len() - TOLD_TOGETHER..].iter();
+    let table = laws::targets::table(&last.flat_map(|set| recorded_laws(set)).collect::<Vec<_>>());
+    assert!(
+        text.contains(&table),
+        "docs/diagnosis-blind-laws.md lacks the table of the last sets:\n\n{table}"
+    );
 }
 
 /// Sets of twins by which calibrations were judged, in order: `make blind-calibrations SET=twins4` goes on from there.

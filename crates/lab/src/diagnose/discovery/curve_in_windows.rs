@@ -43,20 +43,23 @@ impl<P: Progress> Trials<'_, P> {
             let gain = against(gap.nearest).min(best) - against(found);
             gain >= WORTH_A_NAME && shrinks(&self.data, wall, gap.recalibrated, found)
         });
-        found.map(|found| told(&self.data, found))
+        found.and_then(|found| told(&self.data, found))
     }
 }
 
-/// A fitted curve with its forces and their standard deviations.
-fn told(data: &Data, found: FittedHypothesis) -> FittedHypothesis {
+/// A fitted curve with its forces and their standard deviations; `None` where one of these cannot be told: a force that may be anything
+/// at a knot is no answer.
+fn told(data: &Data, found: FittedHypothesis) -> Option<FittedHypothesis> {
     let h = &found.hypothesis;
-    let covariance = covariance(data, &found);
-    let sd = |i: usize| covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].sqrt());
-    let sd_n = (h.nuisances..h.unknowns.len()).map(sd).collect::<Vec<_>>();
+    let covariance = covariance(data, &found)?;
+    let sd_n = (h.nuisances..h.unknowns.len()).map(|i| covariance[(i, i)].sqrt()).collect::<Vec<_>>();
+    if !sd_n.iter().all(|sd| sd.is_finite()) {
+        return None;
+    }
     let curve = h.curve.map(|curve| curve.with_forces(&found.fit.values[h.nuisances..], Some(&sd_n)));
     let mut told = found;
     told.hypothesis.curve = curve;
-    told
+    Some(told)
 }
 
 /// Which windows held out stay where a curve is told: beyond its last knot nothing is known.
@@ -143,5 +146,8 @@ mod tests {
         // Most of the gap is gone; pieces of a line leave more than noise at the kinks.
         let after = joint_error(&found).expect("windows");
         assert!(after < 0.3 * before, "{before} to {after}");
+        // Without windows nothing tells how far a force may be off.
+        let nothing = [Vec::new(), Vec::new()];
+        assert!(told(&Data::new(&trials.experiment.tests, &nothing), found).is_none());
     }
 }
