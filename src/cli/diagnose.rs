@@ -90,7 +90,10 @@ fn in_words(summary: &Summary) -> String {
     });
     lines.extend(summary.hypotheses.iter().map(own_in_words));
     lines.extend(summary.unfinished.iter().map(|(law, fits)| {
-        format!("not fitted to the end, and no answer for that: {law} ({fits} fits needed more work than one may have)")
+        let fits = if *fits == 1 { "a fit".to_owned() } else { format!("{fits} fits") };
+        format!(
+            "not fitted to the end, and no answer for that: {law} ({fits} needed more work than one may have)"
+        )
     }));
     lines.join("\n")
 }

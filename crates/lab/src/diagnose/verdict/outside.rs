@@ -77,8 +77,8 @@ impl<P: Progress> Gap<'_, P> {
         (shows && found.is_outside_catalogue() && self.leaves_nothing(best)).then_some(found)
     }
 
-    /// A law of one atom outside the catalogue where effects say no more than that impacts are those of another formulation: it gains over
-    /// the wall, and over every effect, what a law in noise must.
+    /// A law outside the catalogue where effects say no more than that impacts are those of another formulation: it gains over the wall, and
+    /// over every effect, what a law in noise must. Of one atom, where none was looked for before.
     pub(super) fn law_beyond_impacts(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
         let found = match self.early.get() {
             Some(found) => found.clone(),
@@ -331,6 +331,11 @@ mod tests {
             let found = gap.law_beyond_impacts(&[])?;
             let law = found.equals[0].clone();
             assert!(gap.law_beyond_impacts(std::slice::from_ref(&law)).is_none(), "an effect does as well");
+            assert!(
+                gap.leaves_noise_beside(&found, &gap.wall.recalibrated),
+                "a name that leaves more gives way"
+            );
+            assert!(!gap.leaves_noise_beside(&found, &law), "one that leaves as little stays");
             Some(law.hypothesis.name())
         };
         assert_eq!(beyond(&stop(2e4, 0.02)).as_deref(), Some("k*max(-x-g,0) at top"));
