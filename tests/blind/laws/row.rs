@@ -35,7 +35,7 @@ pub struct LawRow {
     pub hidden_place: String,
     /// Whether an exponent is none of halves.
     pub off_grid: bool,
-    /// Of each atom its share of the force in the tests to fit; none of cases that were made before this was told.
+    /// Of each atom its share of the force in the tests to fit; none of cases made before this was told, but for pairs made again.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shares: Vec<f64>,
     /// The verdict; `failed` where there is none.

@@ -93,12 +93,13 @@ impl<P: Progress> Flow<'_, P> {
         }
         let mut first_fits = self.trials(&windows).first_fits(wall);
         if let Some(before) = self.read_again(&first_fits) {
-            match self.try_first_fits() {
-                Ok((anew, fits)) if reads_better(&first_fits.singles, &fits.singles) => {
-                    (windows, first_fits) = (anew, fits);
-                }
-                _ => _ = set_gain(&mut self.tests, before),
+            // No window to fit, or effects that follow no better: the reading before stands.
+            let better = |anew: &FirstFits| reads_better(&first_fits.singles, &anew.singles);
+            let anew = self.try_first_fits().ok().filter(|(_, fits)| better(fits));
+            if anew.is_none() {
+                set_gain(&mut self.tests, before);
             }
+            (windows, first_fits) = anew.unwrap_or((windows, first_fits));
         }
         if let Some(new_windows) = opened_windows(&Data::new(&self.tests, &windows), &first_fits) {
             first_fits = self.first_fits_in(&new_windows, Some(&first_fits.recalibrated.fit.values))?;

@@ -7,13 +7,12 @@ use super::refused::{Guard, Refused};
 use super::search::Searched;
 use crate::Progress;
 use crate::diagnose::formula::{Atom, Law};
-use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{FittedHypothesis, Trials, refit};
 use rayon::prelude::*;
 
 impl<P: Progress> Trials<'_, P> {
-    /// Of laws of two atoms that hold, the best first, those that are worth it beside an atom of the best alone, that atom in the place of
-    /// the others if it holds, and the others as refused.
+    /// Of laws of two atoms that hold, the best first, those that are worth it beside an atom of the best alone, if that holds; that atom
+    /// where none is. The others are refused.
     pub(super) fn or_an_atom_alone(
         &self,
         gap: &OpenGap,
@@ -37,9 +36,7 @@ impl<P: Progress> Trials<'_, P> {
     fn atoms_alone(&self, both: &FittedHypothesis) -> Vec<Fitted> {
         let fit = |atom: Atom| {
             let law = Law::of(atom);
-            let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(law)]);
-            let own = both.fit.values.iter().take(h.nuisances).copied();
-            let values = own.chain(law.values()).collect::<Vec<_>>();
+            let (h, values) = self.law_beside(both, &law);
             let found = self.within_budget(&law.name(), values.len(), |data| refit(data, h, both, &values));
             found.map(Fitted::new)
         };
@@ -53,16 +50,10 @@ mod tests {
     use super::super::asked::Scope;
     use super::super::points::Points;
     use super::super::search::search;
-    use super::super::twin::{Twin, wall_with};
+    use super::super::twin::{DRAG, SPRING, Twin, drag_and_spring, wall_with};
     use super::*;
-    use crate::diagnose::formula::{Shape, Side, Site};
     use crate::diagnose::trials::{Data, against, joint_error};
     use crate::limits::WORTH_A_NAME;
-
-    const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
-                        [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
-    const SPRING: &str =
-        "[[effects]]\nkind = \"one_sided_spring\"\nside = \"negative\"\nstiffness_n_per_m = 5e3\n";
 
     /// A second atom must gain what a name must.
     struct Asked<'d>(Data<'d>);
@@ -92,20 +83,7 @@ mod tests {
         let wall = trials.wall_fits(None).expect("windows");
         let without = trials.hypothesis(&trials.experiment.nuisances, &[]);
         let points = Points::new(trials.data.fit.tests, &without).expect("points");
-        let reach = points.reach[Site::Top as usize];
-        let atom = |shape: Shape, n: f64, size: f64| Atom {
-            site: Site::Top,
-            shape,
-            numbers: [n, 0.0],
-            size,
-            reach,
-            is_exact: false,
-        };
-        let drag = atom(Shape::Drag, 2.0, 4000.0 * reach[1] * reach[1]);
-        let spring = atom(Shape::OneSidedSpring(Side::Negative), 1.0, 5e3 * reach[0]);
-        let law = Law { second: Some(spring), ..Law::of(drag) };
-        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
-        let values = wall.recalibrated.fit.values.iter().copied().chain(law.values()).collect::<Vec<_>>();
+        let (h, values) = trials.law_beside(&wall.recalibrated, &drag_and_spring(&points));
         let two = Fitted::new(refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit"));
         let gap = OpenGap {
             recalibrated: &wall.recalibrated,

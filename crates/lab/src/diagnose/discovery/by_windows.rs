@@ -292,16 +292,10 @@ impl<P: Progress> Trials<'_, P> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::twin::{Twin, wall_with};
+    use super::super::twin::{DRAG, SPRING, Twin, drag_and_spring, wall_with};
     use super::*;
-    use crate::diagnose::formula::{Atom, Shape, Side};
     use crate::diagnose::hypothesis::Addition;
     use crate::diagnose::trials::refit;
-
-    const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
-                        [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
-    const SPRING: &str =
-        "[[effects]]\nkind = \"one_sided_spring\"\nside = \"negative\"\nstiffness_n_per_m = 5e3\n";
 
     /// Whether a drag lacks an atom beside which a spring on one side stands, on a wall with effects.
     fn drag_lacks_one(effects: &str) -> bool {
@@ -310,25 +304,15 @@ mod tests {
         let wall = trials.wall_fits(None).expect("windows");
         let points =
             Points::new(trials.data.fit.tests, &trials.hypothesis(&trials.experiment.nuisances, &[]));
-        let reach = points.expect("points").reach[Site::Top as usize];
-        let atom = |shape: Shape, n: f64, size: f64| Atom {
-            site: Site::Top,
-            shape,
-            numbers: [n, 0.0],
-            size,
-            reach,
-            is_exact: false,
-        };
-        let drag = Law::of(atom(Shape::Drag, 2.0, 4000.0 * reach[1] * reach[1]));
-        let spring = atom(Shape::OneSidedSpring(Side::Negative), 1.0, 5e3 * reach[0]);
+        let both = drag_and_spring(&points.expect("points"));
         let fitted = |law: Law| {
             let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
             let own = wall.recalibrated.fit.values.iter().copied();
             let values = own.chain(law.values()).collect::<Vec<_>>();
             refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit")
         };
-        let two = Fitted::new(fitted(Law { second: Some(spring), ..drag }));
-        trials.lacks_an_atom(&fitted(drag), &[two])
+        let two = Fitted::new(fitted(both));
+        trials.lacks_an_atom(&fitted(Law { second: None, ..both }), &[two])
     }
 
     #[test]

@@ -119,9 +119,7 @@ impl<P: Progress> Trials<'_, P> {
         let exact = near.filter_map(|t| Some((&t.law, exact_law(&t.law)?))).collect::<Vec<_>>();
         self.progress.begin("laws with exact exponents", exact.len());
         let fit = |(from, law): &(&FittedHypothesis, Law)| {
-            let h = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
-            let own = from.fit.values.iter().take(h.nuisances).copied();
-            let values = own.chain(law.values()).collect::<Vec<_>>();
+            let (h, values) = self.law_beside(from, law);
             let name = law_name(&h, &values);
             // Near impacts that the noise decides a fit may end in another valley than the one it set out from.
             let found = self.within_budget(&name, values.len(), |data| {
@@ -133,6 +131,14 @@ impl<P: Progress> Trials<'_, P> {
             Some(Fitted::new(found?))
         };
         exact.par_iter().filter_map(fit).collect()
+    }
+
+    /// A law with its own numbers, and the wall's as another fit has them.
+    pub(super) fn law_beside(&self, fitted: &FittedHypothesis, law: &Law) -> (Hypothesis, Vec<f64>) {
+        let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
+        let own = fitted.fit.values.iter().take(hypothesis.nuisances).copied();
+        let values = own.chain(law.values()).collect();
+        (hypothesis, values)
     }
 
     /// A law with the numbers that points give it and the wall.
@@ -213,13 +219,10 @@ fn exact_law(tried: &FittedHypothesis) -> Option<Law> {
 mod tests {
     use super::super::asked::Scope;
     use super::super::points::Points;
-    use super::super::twin::{Twin, wall_with};
+    use super::super::twin::{DRAG, Twin, wall_with};
     use super::*;
     use crate::diagnose::formula::{Atom, Shape, Site};
     use crate::diagnose::trials::with_values;
-
-    const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
-                        [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
 
     #[test]
     fn analytic_a_law_that_all_but_closes_a_gap_is_fitted_again_once() {

@@ -76,14 +76,11 @@ fn apart(mut law: FittedHypothesis, fitted: usize) -> FittedHypothesis {
 #[cfg(test)]
 mod tests {
     use super::super::points::Points;
-    use super::super::twin::{Twin, wall_with};
+    use super::super::twin::{DRAG, Twin, wall_with};
     use super::*;
     use crate::diagnose::formula::{Atom, Law, Shape, Site};
     use crate::diagnose::hypothesis::Addition;
     use crate::diagnose::trials::closes_held_out;
-
-    const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
-                        [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
 
     /// A law of velocity on a wall with a drag, fitted and moved off by so many standard deviations, and with numbers left open.
     fn tried(noise_rad: f64, shape: Shape, off_sd: f64) -> (FittedHypothesis, Option<FittedHypothesis>) {

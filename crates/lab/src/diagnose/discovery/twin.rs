@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::points::Points;
 use crate::diagnose::experiment::Experiment;
-use crate::diagnose::formula::{Atom, Law, Shape, Site};
+use crate::diagnose::formula::{Atom, Law, Shape, Side, Site};
 use crate::diagnose::hypothesis::{Hypothesis, Nuisance, Scales, wall_number};
 use crate::diagnose::trials::{Data, Trials, Unfinished};
 use crate::experiment::{Manner, Purpose, Sampled, TestData, Window, rest_offset_rad, windows};
@@ -20,6 +20,13 @@ const STARTER: &str = include_str!("../../../../../src/cli/starter/wall.toml");
 const STEP_S: f64 = 1.0 / 256.0;
 const SHAKEN_S: f64 = 10.0;
 const TAIL_S: f64 = 4.0;
+
+/// A drag at the top that no catalogue has.
+pub const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
+                        [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
+/// A spring on one side.
+pub const SPRING: &str =
+    "[[effects]]\nkind = \"one_sided_spring\"\nside = \"negative\"\nstiffness_n_per_m = 5e3\n";
 
 /// The starter's wall with effects, as TOML.
 pub fn wall_with(effects: &str) -> Wall {
@@ -148,6 +155,21 @@ pub fn drag(n: f64, size: f64) -> Law {
         reach: REACH,
         is_exact: false,
     })
+}
+
+/// [`DRAG`] and [`SPRING`] as a law of two atoms, in shares of what tests excited at the top.
+pub fn drag_and_spring(points: &Points) -> Law {
+    let reach = points.reach[Site::Top as usize];
+    let atom = |shape: Shape, n: f64, size: f64| Atom {
+        site: Site::Top,
+        shape,
+        numbers: [n, 0.0],
+        size,
+        reach,
+        is_exact: false,
+    };
+    let spring = atom(Shape::OneSidedSpring(Side::Negative), 1.0, 5e3 * reach[0]);
+    Law { second: Some(spring), ..Law::of(atom(Shape::Drag, 2.0, 4000.0 * reach[1] * reach[1])) }
 }
 
 /// Largest displacement and velocity of the top that a law is told in shares of: about those of the tests.

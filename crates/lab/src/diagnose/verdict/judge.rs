@@ -149,7 +149,8 @@ impl<P: Progress> Gap<'_, P> {
             }
         }
         let gives_way = |name: &Answer, early: &Option<Discovered>| {
-            early.as_ref().is_some_and(|law| self.leaves_noise_beside(law, &name.after))
+            let law = early.as_ref().and_then(|early| early.equals.first());
+            law.is_some_and(|law| self.outdoes(law, &name.after))
         };
         let one = one.filter(|one| !gives_way(one, &early));
         // Where every effect misses many windows and one atom leaves noise, two effects of the catalogue would be two atoms: points, which

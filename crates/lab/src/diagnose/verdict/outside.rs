@@ -136,16 +136,13 @@ impl<P: Progress> Gap<'_, P> {
         self.placed_by(discovered, Some(other_law), tried)
     }
 
-    /// Whether the first law leaves noise where a name leaves more, and is worth as much beside it as a second effect must be: the name, if
-    /// only between impacts, imitates it.
-    pub(super) fn leaves_noise_beside(&self, discovered: &Discovered, named: &FittedHypothesis) -> bool {
-        let is_better =
-            |law: &FittedHypothesis| leaves_noise(law) && worth_two(&self.trials.data, named, law);
-        !leaves_noise(named) && discovered.equals.first().is_some_and(is_better)
+    /// Whether a law outside the catalogue leaves noise where a name leaves more, and is worth as much beside it as a second effect must be:
+    /// the name only imitates it.
+    pub(super) fn outdoes(&self, law: &FittedHypothesis, named: &FittedHypothesis) -> bool {
+        !leaves_noise(named) && leaves_noise(law) && worth_two(&self.trials.data, named, law)
     }
 
-    /// A law outside the catalogue that leaves noise where a name leaves more, and is worth as much beside it as a second
-    /// effect must be: the name only imitates it.
+    /// A law outside the catalogue that outdoes a name.
     pub(super) fn better_formula(
         &self,
         named: &FittedHypothesis,
@@ -156,8 +153,7 @@ impl<P: Progress> Gap<'_, P> {
         }
         let discovered = self.discovered(tried, &[])?;
         let formula = self.formula(&discovered)?;
-        let better = leaves_noise(&formula.after) && worth_two(&self.trials.data, named, &formula.after);
-        better.then_some((discovered, formula))
+        self.outdoes(&formula.after, named).then_some((discovered, formula))
     }
 
     /// Joints that give named with an effect and a remainder, unless a size of theirs is quite another in large motion: they stand for
@@ -331,11 +327,8 @@ mod tests {
             let found = gap.law_beyond_impacts(&[])?;
             let law = found.equals[0].clone();
             assert!(gap.law_beyond_impacts(std::slice::from_ref(&law)).is_none(), "an effect does as well");
-            assert!(
-                gap.leaves_noise_beside(&found, &gap.wall.recalibrated),
-                "a name that leaves more gives way"
-            );
-            assert!(!gap.leaves_noise_beside(&found, &law), "one that leaves as little stays");
+            assert!(gap.outdoes(&law, &gap.wall.recalibrated), "a name that leaves more gives way");
+            assert!(!gap.outdoes(&law, &law), "one that leaves as little stays");
             Some(law.hypothesis.name())
         };
         assert_eq!(beyond(&stop(2e4, 0.02)).as_deref(), Some("k*max(-x-g,0) at top"));

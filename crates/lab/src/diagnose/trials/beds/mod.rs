@@ -61,7 +61,7 @@ pub fn widened(tests: &[TestData], factor: f64) -> Vec<TestData> {
     tests.iter().map(wider).collect()
 }
 
-/// How many times as much a fit of beds to all windows may work as another fit. In seven cases such fits took up to 2.7; beside a spring that
+/// How many times as much a fit of beds to all windows may work as another fit. In five cases with beds such fits took up to 2.7; beside a spring that
 /// yields one was ended at 11 after two minutes, and else went on for nine.
 const WORK_IN_ALL_WINDOWS: usize = 8;
 /// Times that a fit of beds is begun again under the loss that it has come to.
