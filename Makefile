@@ -114,7 +114,7 @@ else
 endif
 
 bench: ## time and work of one run, beside its arithmetic
-	cargo bench --locked
+	cargo bench --locked --package mrbd
 
 # Cases of a set and its name: tune on one, freeze, report on another. Those recorded are counted and not diagnosed again.
 FIRST ?= 0

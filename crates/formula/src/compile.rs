@@ -23,7 +23,7 @@ pub(crate) fn compile(
     let terms = compiler.terms(expression)?;
     let rate = |rate: &Expression| Ok(RateTape { tape: compiler.whole(rate)?, terms: compiler.terms(rate)? });
     let rates = rates.iter().map(rate).collect::<Result<Vec<_>, FormulaError>>()?;
-    Ok(Program { tape, switches: compiler.switches, terms, rates })
+    Ok(Program { stack: tape.stack(), tape, switches: compiler.switches, terms, rates })
 }
 
 struct Compiler<'a> {

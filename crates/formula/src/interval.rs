@@ -1,6 +1,7 @@
 //! Intervals: what a formula may be over a whole range of states, rounded outwards.
 
 use crate::number::Number;
+use crate::power::power;
 
 /// All numbers from `low` to `high`; NaN in one of them where the result need not be a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,7 +107,7 @@ impl Number for Interval {
         if self.low.is_nan() || self.low < 0.0 || from_zero {
             return Self::NOTHING_KNOWN;
         }
-        let corner = |base: f64, exponent: f64| libm::pow(base, exponent);
+        let corner = |base: f64, exponent: f64| power(base, exponent);
         let corners = [
             corner(self.low, exponent.low),
             corner(self.low, exponent.high),

@@ -10,6 +10,7 @@
 //! | `parse` | text | an [`Expression`], or where it is none |
 //! | `dimension` | an expression, the units of its parameters | the dimension of each subexpression |
 //! | `compile`, `program` | an expression, the values of its parameters | a tape that is run, and its switches |
+//! | `lanes`, `power` | a tape, states of several walls | the values of all of them at once |
 //! | `carried` | the rates of carried states | intervals that the states never leave |
 //! | `range` | an expression, a range of states | whether it is finite everywhere there |
 //! | `jump` | a program, a range of states | where the force jumps, and whether that can be followed |
@@ -37,8 +38,10 @@ mod expression;
 mod formula;
 mod interval;
 mod jump;
+mod lanes;
 mod number;
 mod parse;
+mod power;
 mod program;
 mod range;
 mod sloped;
@@ -52,6 +55,7 @@ pub use error::FormulaError;
 pub use expression::{Expression, Function, Operator};
 pub use formula::{Formula, Parameter, Place};
 pub use jump::Jump;
+pub use lanes::{LANES, LaneBranches};
 pub use program::{MOST_STATES, MOST_SWITCHES, Program, State, VARIABLES, state};
 pub use range::Range;
 pub use switch::{Branch, Branches, Switch, SwitchAt};

@@ -1,5 +1,7 @@
 //! Numbers that a formula is evaluated with: values, values with their rate of change, intervals.
 
+use crate::power::power;
+
 /// A number and what a formula does to it.
 pub trait Number: Copy {
     /// A constant.
@@ -48,19 +50,25 @@ pub trait Number: Copy {
 
 /// A whole power as a product: the bits do not depend on the machine.
 pub fn whole_power<N: Number>(base: N, exponent: i32) -> N {
-    let mut left = exponent.unsigned_abs();
-    let (mut square, mut power) = (base, None::<N>);
+    let power = product_of_equals(base, exponent.unsigned_abs(), N::mul).unwrap_or_else(|| N::constant(1.0));
+    if exponent < 0 { N::constant(1.0).div(power) } else { power }
+}
+
+/// The product of so many equal factors by squaring; `None` of none.
+#[inline(always)]
+pub fn product_of_equals<T: Copy>(factor: T, count: u32, mul: impl Fn(T, T) -> T) -> Option<T> {
+    let mut left = count;
+    let (mut square, mut product) = (factor, None::<T>);
     while left > 0 {
         if left & 1 == 1 {
-            power = Some(power.map_or(square, |power| power.mul(square)));
+            product = Some(product.map_or(square, |product| mul(product, square)));
         }
         left >>= 1;
         if left > 0 {
-            square = square.mul(square);
+            square = mul(square, square);
         }
     }
-    let power = power.unwrap_or_else(|| N::constant(1.0));
-    if exponent < 0 { N::constant(1.0).div(power) } else { power }
+    product
 }
 
 /// A number, where it is not too large for one.
@@ -94,7 +102,7 @@ impl Number for f64 {
         whole_power(self, exponent)
     }
     fn pow(self, exponent: Self) -> Self {
-        finite(libm::pow(self, exponent))
+        finite(power(self, exponent))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
@@ -177,8 +185,8 @@ impl Number for Moving {
         self.through(whole_power(self.value, exponent), slope)
     }
     fn pow(self, exponent: Self) -> Self {
-        let value = libm::pow(self.value, exponent.value);
-        let by_base = self.through(value, exponent.value * libm::pow(self.value, exponent.value - 1.0));
+        let value = power(self.value, exponent.value);
+        let by_base = self.through(value, exponent.value * power(self.value, exponent.value - 1.0));
         // Zero to any power above zero stays zero.
         let slope = if value == 0.0 { 0.0 } else { value * libm::log(self.value) };
         let by_exponent = exponent.through(value, slope);

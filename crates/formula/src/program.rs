@@ -61,6 +61,8 @@ pub struct Tape(pub(crate) Vec<Step>);
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
     pub(crate) tape: Tape,
+    /// How many numbers wait at once on the stack of the tape.
+    pub(crate) stack: usize,
     pub(crate) switches: Vec<Switch>,
     /// The terms of its sum, for what only some of them have.
     pub(crate) terms: Vec<Tape>,
@@ -155,7 +157,7 @@ impl Tape {
 }
 
 impl Step {
-    fn takes_two(&self) -> bool {
+    pub(crate) fn takes_two(&self) -> bool {
         matches!(
             self,
             Step::Add
@@ -169,7 +171,7 @@ impl Step {
         )
     }
 
-    fn of_one<N: Number>(&self, a: N, branches: &Branches) -> N {
+    pub(crate) fn of_one<N: Number>(&self, a: N, branches: &Branches) -> N {
         match self {
             Step::Negative => a.neg(),
             Step::WholePower(exponent) => a.powi(*exponent),
@@ -191,7 +193,7 @@ impl Step {
         }
     }
 
-    fn of_two<N: Number>(&self, a: N, b: N, branches: &Branches) -> N {
+    pub(crate) fn of_two<N: Number>(&self, a: N, b: N, branches: &Branches) -> N {
         match self {
             Step::Add => a.add(b),
             Step::Subtract => a.sub(b),

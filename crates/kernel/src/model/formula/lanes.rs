@@ -1,8 +1,12 @@
-//! The formulas of walls side by side: each lane asks its own, one after another, between what lanes do at once.
+//! The formulas of walls side by side: at once where all have the same, as windows of one hypothesis do; else each lane asks its own,
+//! one after another, between what lanes do at once. Both give the same bits.
+
+use std::sync::Arc;
 
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
-use super::laws::{FormulaLaws, NO_MOMENTS};
+use super::super::contact::Joint;
+use super::laws::{FormulaLaw, FormulaLaws, NO_MOMENTS};
 use crate::lanes::{LANES, lanes};
 
 type F<S> = f64x4<S>;
@@ -17,6 +21,21 @@ pub(in crate::model) struct FormulaLanes<S: Simd> {
     written: mask64x4<S>,
     any: bool,
     at_joints: bool,
+    /// The first lane that has any, where all that have any have the same.
+    alike: Option<usize>,
+}
+
+/// The first wall that has formulas, where all that have any have the same: these differ by branches and by what they remember.
+#[inline(always)]
+fn alike(of: &FormulaRow) -> Option<usize> {
+    let first = of.iter().position(|laws| !laws.is_empty())?;
+    let same = |laws: &FormulaLaws| {
+        let pairs = || laws.laws.iter().zip(&of[first].laws);
+        laws.is_empty()
+            || laws.laws.len() == of[first].laws.len()
+                && pairs().all(|(one, other)| Arc::ptr_eq(&one.program, &other.program))
+    };
+    of.iter().all(same).then_some(first)
 }
 
 impl<S: Simd> FormulaLanes<S> {
@@ -24,7 +43,7 @@ impl<S: Simd> FormulaLanes<S> {
     pub fn new(simd: S, of: FormulaRow) -> Self {
         let written = lanes(simd, |i| f64::from(u8::from(!of[i].is_empty()))).simd_eq(1.0);
         let at_joints = of.iter().any(FormulaLaws::act_at_joints);
-        Self { any: written.any_true(), of, written, at_joints }
+        Self { any: written.any_true(), alike: alike(&of), of, written, at_joints }
     }
 
     pub fn into_row(self) -> FormulaRow {
@@ -37,8 +56,7 @@ impl<S: Simd> FormulaLanes<S> {
         if !self.any {
             return force_n;
         }
-        let written_n = self.top_forces_n(x_c_m.into(), v_c_m_s.into());
-        self.written.select(force_n + lanes(force_n.simd, |i| written_n[i]), force_n)
+        self.written.select(force_n + self.top_forces_n(x_c_m, v_c_m_s), force_n)
     }
 
     /// Moments on θ_1 and θ_2 and those of formulas, N m.
@@ -53,28 +71,77 @@ impl<S: Simd> FormulaLanes<S> {
             return moments_n_m;
         }
         let written_n_m = match self.at_joints {
-            true => self.joint_moments_n_m(theta().map(Into::into), omega.map(Into::into)),
-            false => [NO_MOMENTS; LANES],
+            true => self.joint_moments_n_m(theta(), omega),
+            false => NO_MOMENTS.map(|none| F::splat(omega[0].simd, none)),
         };
-        let with = |j: usize| {
-            let sum = moments_n_m[j] + lanes(omega[j].simd, |i| written_n_m[i][j]);
-            self.written.select(sum, moments_n_m[j])
-        };
+        let with = |j: usize| self.written.select(moments_n_m[j] + written_n_m[j], moments_n_m[j]);
         [with(0), with(1)]
     }
 
     #[inline(never)]
-    fn top_forces_n(&self, x_c_m: [f64; LANES], v_c_m_s: [f64; LANES]) -> [f64; LANES] {
-        std::array::from_fn(|i| match self.of[i].is_empty() {
-            true => 0.0,
-            false => self.of[i].top_force_n(x_c_m[i], v_c_m_s[i]),
-        })
+    fn top_forces_n(&self, x_c_m: F<S>, v_c_m_s: F<S>) -> F<S> {
+        let simd = x_c_m.simd;
+        let Some(first) = self.alike else {
+            let (x_c_m, v_c_m_s) = (<[f64; LANES]>::from(x_c_m), <[f64; LANES]>::from(v_c_m_s));
+            return lanes(simd, |i| match self.of[i].is_empty() {
+                true => 0.0,
+                false => self.of[i].top_force_n(x_c_m[i], v_c_m_s[i]),
+            });
+        };
+        simd.vectorize(
+            #[inline(always)]
+            || self.sum_of_alike(first, None, x_c_m, v_c_m_s),
+        )
     }
 
+    /// [`FormulaLaws::joint_moments_n_m`] of every lane.
     #[inline(never)]
-    fn joint_moments_n_m(&self, theta: [[f64; LANES]; 2], omega: [[f64; LANES]; 2]) -> [[f64; 2]; LANES] {
-        let both = |of: &[[f64; LANES]; 2], i: usize| [of[0][i], of[1][i]];
-        std::array::from_fn(|i| self.of[i].joint_moments_n_m(|| both(&theta, i), both(&omega, i)))
+    fn joint_moments_n_m(&self, theta: [F<S>; 2], omega: [F<S>; 2]) -> [F<S>; 2] {
+        let simd = omega[0].simd;
+        let Some(first) = self.alike else {
+            let of = |pair: [F<S>; 2]| pair.map(<[f64; LANES]>::from);
+            let (theta, omega) = (of(theta), of(omega));
+            let both = |of: &[[f64; LANES]; 2], i: usize| [of[0][i], of[1][i]];
+            let moments: [[f64; 2]; LANES] =
+                std::array::from_fn(|i| self.of[i].joint_moments_n_m(|| both(&theta, i), both(&omega, i)));
+            return [0, 1].map(|j| lanes(simd, |i| moments[i][j]));
+        };
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let (phi, rate) = (theta[1] - theta[0], omega[1] - omega[0]);
+                let ground = self.sum_of_alike(first, Some(Joint::Ground), theta[0], omega[0]);
+                let crack = self.sum_of_alike(first, Some(Joint::Crack), phi, rate);
+                [ground - crack, crack]
+            },
+        )
+    }
+
+    /// The sum of the formulas that act at a place, N or N m, where all lanes have those of the `first`: in the order of one wall's.
+    #[inline(always)]
+    fn sum_of_alike(&self, first: usize, joint: Option<Joint>, q: F<S>, rate: F<S>) -> F<S> {
+        let simd = q.simd;
+        let (q, rate) = (self.or_that_of(first, q), self.or_that_of(first, rate));
+        // As a sum of numbers begins.
+        let mut sum = F::splat(simd, -0.0);
+        for (k, law) in self.of[first].laws.iter().enumerate() {
+            if law.joint == joint {
+                sum += FormulaLaw::values(self.laws_at(k, law), q, rate);
+            }
+        }
+        sum
+    }
+
+    /// Numbers of the lanes, that of the `first` in lanes without a wall.
+    #[inline(always)]
+    fn or_that_of(&self, first: usize, of: F<S>) -> F<S> {
+        self.written.select(of, F::splat(of.simd, <[f64; LANES]>::from(of)[first]))
+    }
+
+    /// The formula of a number in every lane; that of another wall where a lane has none.
+    #[inline(always)]
+    fn laws_at<'l>(&'l self, k: usize, other: &'l FormulaLaw) -> [&'l FormulaLaw; LANES] {
+        self.of.each_ref().map(|own| own.laws.get(k).unwrap_or(other))
     }
 }
 

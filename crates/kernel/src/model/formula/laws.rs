@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
+use fearless_simd::{Simd, f64x4};
 use mrbd_formula::{Branch, Branches, Formula, MOST_STATES, Place, Program, State};
 
 use super::super::contact::Joint;
 use super::super::geometry::Pair;
 use super::super::regime::Side;
 use super::carried::Carried;
+use crate::lanes::{LANES, lanes};
 
 /// The joint of a place, where it is at one.
 pub(super) fn joint_of(place: Place) -> Option<Joint> {
@@ -118,10 +120,32 @@ impl FormulaLaw {
     /// Force or moment on the wall, N or N m.
     #[inline]
     fn value(&self, q: f64, rate: f64) -> f64 {
-        if rate.abs() < self.straight_below {
+        if self.goes_straight(rate) {
             return self.straight(q, rate);
         }
         self.program.value(self.state(q, rate), &self.branches)
+    }
+
+    /// The same of one formula in the branches of the walls of a row.
+    #[inline(always)]
+    pub(super) fn values<S: Simd>(laws: [&Self; LANES], q: f64x4<S>, rate: f64x4<S>) -> f64x4<S> {
+        let (simd, qs, rates) = (q.simd, <[f64; LANES]>::from(q), <[f64; LANES]>::from(rate));
+        let states: [State; LANES] = std::array::from_fn(|i| laws[i].state(qs[i], rates[i]));
+        let state = std::array::from_fn(|j| lanes(simd, |i| states[i][j]));
+        let found = laws[0].program.values(state, laws.map(|law| &law.branches));
+        if !laws.iter().zip(rates).any(|(law, rate)| law.goes_straight(rate)) {
+            return found;
+        }
+        let found = <[f64; LANES]>::from(found);
+        lanes(simd, |i| {
+            if laws[i].goes_straight(rates[i]) { laws[i].straight(qs[i], rates[i]) } else { found[i] }
+        })
+    }
+
+    /// Whether it is at a rate so low that it goes straight to what it is at rest.
+    #[inline(always)]
+    fn goes_straight(&self, rate: f64) -> bool {
+        rate.abs() < self.straight_below
     }
 
     /// The same between rest and the rate from which it is as written.

@@ -45,7 +45,7 @@ impl<P: Progress> Trials<'_, P> {
     fn freed(&self, named: &FittedHypothesis, power: &Power, points: &Points) -> Option<Vec<Law>> {
         let law = Law::of(power.atom(points.reach[power.site as usize]));
         let equations = Equations::even(points);
-        let of_name = exponents(law).map(|other| (as_large(other, &law, points), None));
+        let of_name = exponents(law).filter_map(|other| Some((as_large(other, &law, points)?, None)));
         let of_points = exponents(law).filter_map(|other| equations.fitted(&other)).filter_map(|found| {
             let steps = equations.wall_steps(&found.law)?;
             Some((found.law, Some(steps)))
@@ -112,14 +112,16 @@ fn nearest_on_either_side(own: f64, found: Vec<(f64, Start)>) -> Vec<Start> {
     [less, more].into_iter().filter_map(best).collect()
 }
 
-/// A law of one atom, of the size that brings its force nearest to that of another over what was excited.
-fn as_large(law: Law, other: &Law, points: &Points) -> Law {
+/// A law of one atom, of the size that brings its force nearest to that of another over what was excited. `None` where nothing of either
+/// was, or no size does.
+fn as_large(law: Law, other: &Law, points: &Points) -> Option<Law> {
     let unit = Atom { size: 1.0, ..law.first };
     let [own, others] = [Law::of(unit), Law::of(other.first)].map(|law| points.forces(&law, unit.site));
     let sum = |[own, with]: [f64; 2], [one, other]: [f64; 2]| [own + one * one, with + one * other];
     let both = own.into_iter().zip(others).map(|(own, other)| [own, other]);
     let [own, with] = both.fold([0.0; 2], sum);
-    Law::of(Atom { size: with / own, ..unit })
+    let size = with / own;
+    size.is_normal().then(|| Law::of(Atom { size, ..unit }))
 }
 
 /// Exponents of the catalogue nearer than this are its own.
@@ -153,7 +155,7 @@ fn with_openings(free: Law, points: &Points) -> Vec<Law> {
     let opening = |numbers: [f64; 2]| {
         as_large(Law::of(Atom { shape: Shape::Opening, numbers, ..free.first }), &free, points)
     };
-    let openings = OPENINGS.into_iter().filter(|_| free.first.shape == Shape::Drag).map(opening);
+    let openings = OPENINGS.into_iter().filter(|_| free.first.shape == Shape::Drag).filter_map(opening);
     std::iter::once(free).chain(openings).collect()
 }
 
@@ -290,6 +292,9 @@ mod tests {
             // The nearest force of that shape: what it leaves is square to it.
             assert!((with / own - 1.0).abs() < 1e-9 && one.first.size > 0.0, "{one:?}");
         }
+        // Nor has a damper of a joint that does not turn: its force is none of a size.
+        let still = Law::of(Atom { reach: [f64::MIN_POSITIVE; 2], size: 0.0, ..law.first });
+        assert_eq!(with_openings(still, &points), [still]);
         // A spring has none.
         let spring = Law::of(Atom { shape: Shape::Spring, ..law.first });
         assert_eq!(with_openings(spring, &points), [spring]);
