@@ -28,37 +28,48 @@ enum Law {
 }
 
 /// What acts on the walls, and how many are drawn of them.
-const KINDS: [(&str, Law, u64); 9] = [
+const KINDS: [(&str, Law, u64); 10] = [
     ("sharp edges", Law::Nothing, DRAWS[0]),
     ("damper at the top", Law::Effect("viscous_damping", &[3000.0]), DRAWS[0]),
     ("damper in the crack", Law::Effect("joint_damping.crack", &[200.0]), DRAWS[0]),
     ("cubic spring", Law::Effect("cubic_stiffness", &[1e7]), DRAWS[0]),
     ("friction at the top", Law::Effect("coulomb_friction", &[800.0]), DRAWS[0]),
     ("formula at the top", Law::Formula(Place::Top, "-c*v", ("c", 3000.0, "N*s/m")), DRAWS[0]),
+    (
+        "power at the top",
+        Law::Formula(Place::Top, "-c*sign(v)*abs(v)**1.3", ("c", 3000.0, "N*(s/m)**1.3")),
+        DRAWS[0],
+    ),
     ("formula in the crack", Law::Formula(Place::Crack, "-c*w", ("c", 200.0, "N*m*s")), DRAWS[0]),
     ("bed under the wall", Law::Effect("compliant_joint.ground", &[2e9, 4e-4]), DRAWS[1]),
     ("beds in both joints", Law::Effect("compliant_joint.both", &[2e9, 4e-4]), DRAWS[1]),
 ];
 
 impl Law {
-    fn on(&self, wall: &Wall) -> Result<Wall, Box<dyn Error>> {
-        let mut parameters: WallParameters = wall.parameters().clone();
-        match self {
-            Law::Nothing => {}
-            Law::Effect(name, values) => parameters.effects.push(Effect::with_parameters(name, values)?),
+    /// Every wall with it: a formula is read once, as of a wall file.
+    fn on(&self, walls: &[Wall]) -> Result<Vec<Wall>, Box<dyn Error>> {
+        let (effect, formula) = match self {
+            Law::Nothing => (None, None),
+            Law::Effect(name, values) => (Some(Effect::with_parameters(name, values)?), None),
             Law::Formula(place, text, (name, value, unit)) => {
                 let own = [Parameter::new(name, *value, unit)];
-                parameters.formulas.push(Formula::parse(text, *place, &own)?);
+                (None, Some(Formula::parse(text, *place, &own)?))
             }
-        }
-        Ok(Wall::new(parameters)?)
+        };
+        let with = |wall: &Wall| {
+            let mut parameters: WallParameters = wall.parameters().clone();
+            parameters.effects.extend(effect);
+            parameters.formulas.extend(formula.clone());
+            Ok(Wall::new(parameters)?)
+        };
+        walls.iter().map(with).collect()
     }
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
     let shakings: Vec<Shaking> = walls::records().iter().take(2).map(walls::shaking).collect();
     for (kind, law, draws) in KINDS {
-        let walls = walls::facades(draws).iter().map(|wall| law.on(wall)).collect::<Result<Vec<_>, _>>()?;
+        let walls = law.on(&walls::facades(draws))?;
         tell(kind, "beside", || beside(&walls, &shakings))?;
         tell(kind, "alone", || alone(&walls, &shakings))?;
     }

@@ -157,6 +157,7 @@ impl Tape {
 }
 
 impl Step {
+    #[inline]
     pub(crate) fn takes_two(&self) -> bool {
         matches!(
             self,

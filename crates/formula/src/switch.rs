@@ -31,6 +31,7 @@ impl Branch {
     }
 
     /// -1, 0 or 1; 0 where it is free.
+    #[inline]
     pub fn sign(self) -> f64 {
         match self {
             Branch::Negative => -1.0,
@@ -40,6 +41,7 @@ impl Branch {
     }
 
     /// The branch as a switch that turns the other way sees it.
+    #[inline]
     fn flipped(self, flipped: bool) -> Self {
         match (self, flipped) {
             (Branch::Negative, true) => Branch::Positive,
@@ -75,10 +77,12 @@ impl Branches {
     }
 
     /// Whether any branch is frozen.
+    #[inline]
     pub(crate) fn is_frozen(&self) -> bool {
         self.frozen
     }
 
+    #[inline]
     pub(crate) fn seen_by(&self, switch: Option<SwitchUse>) -> Branch {
         switch.map_or(Branch::Free, |switch| self.of[switch.index].flipped(switch.flipped))
     }
