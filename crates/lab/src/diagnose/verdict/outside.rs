@@ -3,7 +3,7 @@
 use super::at_impacts::{leaves_only_impacts, misses_held_out_between, worth_two_between};
 use super::found::Found;
 use super::judge::{Answer, Gap};
-use super::worth_naming::{leaves_noise, place, worth_two};
+use super::worth_naming::{held_out_ask_for, leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
 use crate::Progress;
 use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refused, Scope};
@@ -27,6 +27,7 @@ impl<P: Progress> AskedOfLaws for Gap<'_, P> {
     fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
         // Windows that another formulation of a contact misses speak against both laws, and say nothing of the second atom.
         worth_two(&self.trials.data, one, two)
+            || held_out_ask_for(&self.trials.data, one, two)
             || leaves_only_impacts(self.trials, two) && worth_two_between(self.trials, one, two)
     }
 
@@ -40,7 +41,9 @@ impl<P: Progress> AskedOfLaws for Gap<'_, P> {
     }
 
     fn other_law(&self, law: &FittedHypothesis) -> Vec<Guard> {
-        OtherLaw::beside(&self.trials.data, law).guards()
+        let guards = OtherLaw::beside(&self.trials.data, law).guards();
+        // Points are means over stretches: of a root of a joint's velocity they leave a curve at the top where windows leave nothing.
+        if guards == [Guard::Bend] && self.leaves_nothing(law) { Vec::new() } else { guards }
     }
 }
 
@@ -82,7 +85,7 @@ impl<P: Progress> Gap<'_, P> {
     pub(super) fn law_beyond_impacts(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
         let found = match self.early.get() {
             Some(found) => found.clone(),
-            None => self.looked_for(singles, &[], Scope::OneAtom, None)?,
+            None => self.looked_for(singles, &[], Scope::TwoAtoms, None)?,
         };
         let best = found.equals.first()?;
         let mut without = singles.iter().chain([&self.wall.recalibrated]);

@@ -102,6 +102,13 @@ pub fn worth_two(data: &Data, one: &FittedHypothesis, two: &FittedHypothesis) ->
     gain.iter().sum::<f64>() > least && (seen || !shows_held_out(data, one, two))
 }
 
+/// Whether the tests held out alone ask for what a second law adds to a first: with it they are followed to their noise, and by as much
+/// better as an addition must gain of which they know nothing. The tests fitted must not mind.
+pub fn held_out_ask_for(data: &Data, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
+    let [fitted, held_out]: [f64; 2] = std::array::from_fn(|i| one.against(data)[i] - two.against(data)[i]);
+    fitted > 0.0 && held_out > WORTH_A_SECOND_TO_NOISE && are_as_noise(&two.held_out.windows)
+}
+
 /// Whether what a hypothesis leaves is what noise would.
 pub fn leaves_noise(tried: &FittedHypothesis) -> bool {
     are_as_noise(&all_windows(tried))
@@ -235,6 +242,23 @@ mod tests {
         assert!(!fitted(149.0, 0.0), "a gain of 149, to noise");
         assert!(!fitted(302.0, 66.0) && !fitted(365.0, 66.0), "gains of 236 and 299, with 66 left");
         assert!(fitted(367.0, 66.0), "a gain of 301, with 66 left");
+    }
+
+    #[test]
+    fn analytic_tests_held_out_may_ask_for_a_second_law_by_themselves() {
+        let ask = |of_one: [f64; 2], of_two: [f64; 2]| {
+            let [one, two] = [(&["carriage_mass"][..], of_one), (&["carriage_mass", "record_gain"], of_two)]
+                .map(|(names, nats)| tried(names, nats));
+            (held_out_ask_for(&DATA, &one, &two), worth_two(&DATA, &one, &two))
+        };
+        assert_eq!(
+            ask([167.0, 160.0], [102.0, 0.0]),
+            (true, false),
+            "all that is left is in the tests fitted"
+        );
+        assert!(!ask([167.0, 140.0], [102.0, 0.0]).0, "140 held out");
+        assert!(!ask([101.0, 160.0], [102.0, 0.0]).0, "the tests fitted mind");
+        assert!(!ask([167.0, 360.0], [102.0, 70.0]).0, "more than noise is left held out");
     }
 
     #[test]
