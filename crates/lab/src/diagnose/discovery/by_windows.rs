@@ -208,7 +208,8 @@ impl<P: Progress> Trials<'_, P> {
                 }
                 false => self.starts_by_look(gap, searched, gap.kin, &searched.singles, WHAT),
             };
-            return self.laws_in_windows(gap, starts, WHAT);
+            let singles = self.laws_in_windows(gap, starts, WHAT);
+            return self.with_other_place(gap, searched.equations.points(), singles);
         };
         let mut singles = self.with_states_since(gap, &before.singles);
         if !gap.kin.is_empty() {

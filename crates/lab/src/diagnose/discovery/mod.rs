@@ -7,6 +7,7 @@
 //! | `asked` | the gap that a law is to close, and what it must do |
 //! | `by_few` | laws chosen by few windows, where points are too noisy to choose |
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
+//! | `elsewhere` | the best of one atom of the top at the ground, or the other way |
 //! | `fitted` | where laws start in windows, and their fits |
 //! | `alone` | a law of two atoms beside each of them alone |
 //! | `guards` | what refuses a law that fits |
@@ -23,6 +24,7 @@ mod by_few;
 mod by_windows;
 mod curve;
 mod curve_in_windows;
+mod elsewhere;
 mod equals;
 mod fitted;
 mod guards;

@@ -1,0 +1,110 @@
+//! The best law of one atom of the top at the ground, or of the ground at the top.
+//!
+//! A wall that swings as a whole shows a force at the top and a moment at the ground alike. Where points say little, these or few windows
+//! may have let one of the two go: a damper that grows with displacement was told at the ground, twice, that acts at the top and was never
+//! fitted to windows there.
+
+use super::asked::OpenGap;
+use super::equals::law_of;
+use super::fitted::{Fitted, Start};
+use super::points::Points;
+use crate::Progress;
+use crate::diagnose::fit::nats;
+use crate::diagnose::formula::{Atom, Law, Site};
+use crate::diagnose::trials::{Trials, all_but_closes};
+
+impl<P: Progress> Trials<'_, P> {
+    /// Laws of one atom that were fitted to windows, and the best of them at the other place if it was not fitted there and all but closes
+    /// the gap.
+    pub(super) fn with_other_place(
+        &self,
+        gap: &OpenGap,
+        points: &Points,
+        singles: Vec<Fitted>,
+    ) -> Vec<Fitted> {
+        let near = |one: &&Fitted| one.means_something() && all_but_closes(&one.law, gap.error);
+        let Some(best) = singles.iter().find(near) else { return singles };
+        let Some(law) = law_of(&best.law) else { return singles };
+        let known = singles.iter().filter_map(|one| law_of(&one.law)).collect::<Vec<_>>();
+        let is_new = |there: &Law| !known.iter().any(|own| is_of_kind(&own.first, &there.first));
+        let start = |there: Law| {
+            let (hypothesis, values) = self.law_beside(&best.law, &there);
+            Start { hypothesis, values, nats: nats(&best.law.fit.windows) }
+        };
+        let starts = elsewhere(&law, points).filter(is_new).map(start).into_iter().collect();
+        let others = self.laws_in_windows(gap, starts, "the best law at its other place");
+        self.in_order([singles, others].concat())
+    }
+}
+
+/// Whether two atoms are one shape at one place with as many numbers to move: one of the velocity's sign has no exponent of it.
+fn is_of_kind(one: &Atom, other: &Atom) -> bool {
+    let kind = |atom: &Atom| (atom.site, atom.shape, Atom { is_exact: false, ..*atom }.free().count());
+    kind(one) == kind(other)
+}
+
+/// A law of one atom of the top at the ground, or the other way, in the same shares of what each reaches: it does the same work there.
+/// `None` of a law of the crack, whose rotation is another.
+fn elsewhere(law: &Law, points: &Points) -> Option<Law> {
+    let first = law.first;
+    let site = match first.site {
+        Site::Top => Site::Ground,
+        Site::Ground => Site::Top,
+        Site::Crack => return None,
+    };
+    let reach = points.reach[site as usize];
+    let size = first.size * first.reach[0] / reach[0];
+    size.is_normal().then(|| Law::of(Atom { site, reach, size, is_exact: false, ..first }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::asked::Scope;
+    use super::super::twin::{Twin, wall_with};
+    use super::*;
+    use crate::diagnose::formula::Shape;
+    use crate::diagnose::hypothesis::Addition;
+    use crate::diagnose::trials::{against, joint_error, refit};
+
+    /// Damping that grows with displacement.
+    const OPENING: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*abs(x)*v\"\n\
+                           [effects.parameters]\nc = { value = 3e4, unit = \"N/m*(s/m)\" }\n";
+
+    #[test]
+    fn analytic_a_law_of_the_top_that_is_fitted_at_the_ground_alone_is_found_at_the_top() {
+        let twin = Twin::new(&wall_with(OPENING), 3e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
+        let points = Points::new(trials.data.fit.tests, &h).expect("points");
+        let of = |site: Site, moment: f64| Atom {
+            site,
+            shape: Shape::Opening,
+            numbers: [1.0, 1.0],
+            size: moment / points.reach[site as usize][0],
+            reach: points.reach[site as usize],
+            is_exact: false,
+        };
+        let top = points.reach[Site::Top as usize];
+        let ground = Law::of(of(Site::Ground, 3e4 * top[0].powi(2) * top[1]));
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(ground)]);
+        let own = wall.recalibrated.fit.values.iter().copied();
+        let values = own.chain(ground.values()).collect::<Vec<_>>();
+        let fitted = refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit");
+        let gap = OpenGap {
+            recalibrated: &wall.recalibrated,
+            nearest: &wall.recalibrated,
+            error: joint_error(&wall.before).expect("windows"),
+            scope: Scope::OneAtom,
+            kin: &[],
+            before: None,
+        };
+        let all = trials.with_other_place(&gap, &points, vec![Fitted::new(fitted.clone())]);
+        let best = law_of(&all[0].law).expect("a law").first;
+        assert_eq!((best.site, best.shape), (Site::Top, Shape::Opening), "{best:?}");
+        assert!(against(&trials.data, &all[0].law) < against(&trials.data, &fitted));
+        // Those that are known already are not fitted again.
+        let again = trials.with_other_place(&gap, &points, all.clone());
+        assert_eq!(again.len(), all.len());
+    }
+}
