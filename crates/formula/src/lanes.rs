@@ -149,9 +149,10 @@ fn whole_powers<S: Simd>(a: F<S>, exponent: i32) -> F<S> {
 
 #[cfg(test)]
 mod tests {
-    use fearless_simd::{Level, dispatch};
+    use fearless_simd::dispatch;
 
     use super::*;
+    use crate::power::tests::levels;
     use crate::{Formula, Parameter, Place};
 
     /// Every step of a tape, at states of either side of every switch and on them, in branches that are free, those of
@@ -194,13 +195,15 @@ mod tests {
             let all = branches.collect::<Vec<_>>();
             for four in all.windows(LANES) {
                 let alone: [f64; LANES] = std::array::from_fn(|i| program.value(at(four[i].0), &four[i].1));
-                let found: [f64; LANES] = dispatch!(Level::new(), simd => {
-                    let state = std::array::from_fn(|j| lanes(simd, |i| at(four[i].0)[j]));
-                    program.values(state, std::array::from_fn(|i| &four[i].1)).into()
-                });
-                for (found, alone) in found.iter().zip(alone) {
-                    let same = found.to_bits() == alone.to_bits() || found.is_nan() && alone.is_nan();
-                    assert!(same, "{text} at {four:?}: {found} and {alone}");
+                for level in levels() {
+                    let found: [f64; LANES] = dispatch!(level, simd => {
+                        let state = std::array::from_fn(|j| lanes(simd, |i| at(four[i].0)[j]));
+                        program.values(state, std::array::from_fn(|i| &four[i].1)).into()
+                    });
+                    for (found, alone) in found.iter().zip(alone) {
+                        let same = found.to_bits() == alone.to_bits() || found.is_nan() && alone.is_nan();
+                        assert!(same, "{text} at {four:?} by {level:?}: {found} and {alone}");
+                    }
                 }
             }
         }

@@ -124,13 +124,9 @@ mod tests {
     use super::super::asked::Scope;
     use super::super::points::Points;
     use super::super::search::search;
-    use super::super::twin::{Twin, drag, points_of, points_with, tests_of, wall_with};
+    use super::super::twin::{OPENING, Twin, drag, points_of, points_with, tests_of, wall_with};
     use super::*;
     use crate::diagnose::formula::{Shape, Site};
-
-    /// Damping that grows with displacement.
-    const OPENING: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*abs(x)*v\"\n\
-                           [effects.parameters]\nc = { value = 3e4, unit = \"N/m*(s/m)\" }\n";
 
     #[test]
     fn analytic_few_windows_choose_the_law_where_points_say_too_little_of_it() {

@@ -60,15 +60,11 @@ fn elsewhere(law: &Law, points: &Points) -> Option<Law> {
 #[cfg(test)]
 mod tests {
     use super::super::asked::Scope;
-    use super::super::twin::{Twin, wall_with};
+    use super::super::twin::{OPENING, Twin, wall_with};
     use super::*;
     use crate::diagnose::formula::Shape;
     use crate::diagnose::hypothesis::Addition;
     use crate::diagnose::trials::{against, joint_error, refit};
-
-    /// Damping that grows with displacement.
-    const OPENING: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*abs(x)*v\"\n\
-                           [effects.parameters]\nc = { value = 3e4, unit = \"N/m*(s/m)\" }\n";
 
     #[test]
     fn analytic_a_law_of_the_top_that_is_fitted_at_the_ground_alone_is_found_at_the_top() {

@@ -24,6 +24,9 @@ const TAIL_S: f64 = 4.0;
 /// A drag at the top that no catalogue has.
 pub const DRAG: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*v*abs(v)\"\n\
                         [effects.parameters]\nc = { value = 4000.0, unit = \"N*(s/m)**2\" }\n";
+/// Damping at the top that grows with displacement.
+pub const OPENING: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-c*abs(x)*v\"\n\
+                           [effects.parameters]\nc = { value = 3e4, unit = \"N/m*(s/m)\" }\n";
 /// A spring on one side.
 pub const SPRING: &str =
     "[[effects]]\nkind = \"one_sided_spring\"\nside = \"negative\"\nstiffness_n_per_m = 5e3\n";
