@@ -131,8 +131,11 @@ blind: ## blind cases for mrbd diagnose, made, diagnosed and scored: FIRST=0 CAS
 		$(if $(LAWS),--laws) $(if $(BEDS),--beds) $(if $(NULLS),--nulls) $(if $(CORNERS),--corners) \
 		$(if $(IMPACTS),--impacts) $(if $(RECORDED),--recorded $(RECORDED))
 
-lint: ## formatting and lints, warnings denied
+lint: ## formatting, lock files and lints, warnings denied
 	cargo fmt --all --check
+	for lock in $$(git ls-files '*/Cargo.lock'); do \
+		cargo update --workspace --locked --quiet --manifest-path $${lock%lock}toml || exit 1; \
+	done
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings
 
 docs: ## the library's documentation, warnings denied
