@@ -6,7 +6,7 @@
 
 use super::fit::nats;
 use super::trials::{FittedHypothesis, closes_held_out, leave_noise};
-use super::verdict::{Found, Verdict};
+use super::verdict::Found;
 use crate::experiment::{TestData, Window};
 use crate::experiment_file::Purpose;
 use crate::limits::{EQUIVALENT, LEAST_SHARED};
@@ -28,9 +28,8 @@ pub(super) fn shared_windows(windows: &[Vec<Window>; 2], found: &Found) -> Optio
 
 /// Whether no answer is found, and a law that was tried follows the tests fitted to their noise and not those held out.
 fn lacks_what_is_held_out(found: &Found) -> bool {
-    let is_open = matches!(found.verdict, Verdict::PlaceOnly | Verdict::Unknown | Verdict::Curve);
     let laws = found.discovered.iter().flat_map(|discovered| &discovered.tried);
-    is_open && laws.into_iter().any(|law| follows_fitted(law) && !closes_held_out(law))
+    found.verdict.is_left_open() && laws.into_iter().any(|law| follows_fitted(law) && !closes_held_out(law))
 }
 
 fn follows_fitted(law: &FittedHypothesis) -> bool {
@@ -57,6 +56,7 @@ mod tests {
     use super::super::answer::{Findings, SharedHeldOut};
     use super::super::discovery::Discovered;
     use super::super::discovery::twin::{Twin, wall_with};
+    use super::super::verdict::Verdict;
     use super::*;
 
     /// What a law leaves, in every window fitted and in every window held out, of a wall for which nothing was told; squared error over

@@ -102,11 +102,20 @@ limits! {
     ///
     /// A fit that needs more ends, is none of the answers, and is told under `unfinished`.
     FIT_WORK: f64 = 2e5, "1/s";
+    /// So many times as much may work the best law over windows that ended for its work, since nothing follows better.
+    ///
+    /// Chosen: a root of the velocity at the ground, which steps finely wherever the joint turns back, needed more than twice, and its
+    /// exponent was found to 0.2 % then.
+    MORE_WORK: usize = 8, "";
     /// Share of the squared error above noise that the best law may leave to be fitted again from about itself where none holds, if it leaves
     /// more than `NOISE_AFTER`.
     ///
     /// Chosen: a saturating moment at the ground left 1e-3, 3 % off in its numbers.
     NEXT_TO_NOTHING: f64 = 0.02, "share";
+    /// Laws of one atom that close the gap and leave more than noise, of which so many are fitted again from about themselves.
+    ///
+    /// Chosen: of two dampers that saturate the better one had ended in a wrong valley, and a pair was looked for in vain.
+    CLOSING_REFINED: usize = 2, "";
     /// The best of these are told among the rivals.
     LAWS_TOLD: usize = 4, "";
     /// Largest size of a law in windows, over that found over points.

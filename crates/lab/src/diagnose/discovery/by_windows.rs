@@ -107,10 +107,16 @@ impl<P: Progress> Trials<'_, P> {
                 false => judged,
             }
         };
-        let (mut closing, of_singles) = judge(&mut singles, None);
+        let is_left = |closing: &[Fitted]| !closing.iter().any(|one| asked.leaves_nothing(one.judged()));
+        let mut judged = judge(&mut singles, None);
+        // What a law leaves over that closes the gap may be valleys that its fit has ended in.
+        if !judged.0.is_empty() && is_left(&judged.0) && self.refine_closing(gap, &mut singles, &judged.0) {
+            judged = judge(&mut singles, None);
+        }
+        let (mut closing, of_singles) = judged;
         refused.extend(of_singles);
         // A law may close the gap and miss windows for a second atom that shows in few of them.
-        let is_open = !closing.iter().any(|one| asked.leaves_nothing(one.judged()));
+        let is_open = is_left(&closing);
         let mut tried = singles.iter().map(|fitted| fitted.law.clone()).collect::<Vec<_>>();
         let single = searched.singles.first().map_or(0.0, |c| c.evidence);
         let says_more = searched.pairs.first().is_some_and(|pair| pair.evidence > single);
@@ -208,7 +214,7 @@ impl<P: Progress> Trials<'_, P> {
                 }
                 false => self.starts_by_look(gap, searched, gap.kin, &searched.singles, WHAT),
             };
-            let singles = self.laws_in_windows(gap, starts, WHAT);
+            let singles = self.with_more_work(gap, self.laws_in_windows(gap, starts, WHAT));
             return self.with_other_place(gap, searched.equations.points(), singles);
         };
         let mut singles = self.with_states_since(gap, &before.singles);

@@ -11,7 +11,7 @@ use crate::diagnose::hypothesis::{Addition, Hypothesis};
 use crate::diagnose::trials::{
     Data, FittedHypothesis, Trials, against, all_but_closes, judged, refit, shared_states,
 };
-use crate::limits::{LAWS_FITTED, LAWS_IN_WINDOWS, NEAR_BEST, WORTH_WINDOWS};
+use crate::limits::{CLOSING_REFINED, LAWS_FITTED, LAWS_IN_WINDOWS, MORE_WORK, NEAR_BEST, WORTH_WINDOWS};
 use nalgebra::DVector;
 use rayon::prelude::*;
 
@@ -21,6 +21,8 @@ pub(super) struct Fitted {
     pub law: FittedHypothesis,
     /// Whether its fit ended by itself, and not because it had worked as much as it may.
     pub is_done: bool,
+    /// So many times the work of others its fits may take.
+    pub work: usize,
     /// Whether it was fitted again from about itself.
     pub is_refined: bool,
     /// The same with numbers that the tests fitted leave open, with which those held out are followed, where they are not without.
@@ -32,7 +34,7 @@ pub(super) struct Fitted {
 impl Fitted {
     /// As a fit came to it.
     pub fn new(law: FittedHypothesis) -> Self {
-        Self { law, is_done: true, is_refined: false, moved: None, is_asked_to_move: false }
+        Self { law, is_done: true, work: 1, is_refined: false, moved: None, is_asked_to_move: false }
     }
 
     /// What it is judged by.
@@ -104,6 +106,28 @@ impl<P: Progress> Trials<'_, P> {
         self.in_order(starts.into_par_iter().filter_map(fit).collect())
     }
 
+    /// Laws fitted to windows, the best of which may work more where it ended for its work: a damper that goes with a root of a velocity
+    /// takes many short steps wherever that turns back. The same with exact exponents, too.
+    pub(super) fn with_more_work(&self, gap: &OpenGap, mut fitted: Vec<Fitted>) -> Vec<Fitted> {
+        let inside = |one: &Fitted| law_of(&one.law).is_some_and(|law| lies_inside(&law));
+        let may = |one: &&mut Fitted| !one.is_done && one.work < MORE_WORK && inside(one);
+        let Some(best) = fitted.first_mut().filter(may) else { return fitted };
+        best.work = MORE_WORK;
+        let FittedHypothesis { hypothesis, fit, .. } = best.law.clone();
+        let name = law_name(&hypothesis, &fit.values);
+        let start = Start { nats: nats(&fit.windows), hypothesis, values: fit.values };
+        let at_ease = self.with_work(MORE_WORK);
+        let found = at_ease.laws_in_windows(gap, vec![start], &format!("{name}, which takes more work"));
+        let done = found.into_iter().filter(|one| one.is_done).collect::<Vec<_>>();
+        if done.is_empty() {
+            return fitted;
+        }
+        self.unfinished.take_back(&name);
+        fitted.swap_remove(0);
+        let done = done.into_iter().map(|one| Fitted { work: MORE_WORK, ..one });
+        self.in_order(done.chain(fitted).collect())
+    }
+
     /// Fitted laws in the order of what speaks against them.
     pub(super) fn in_order(&self, mut fitted: Vec<Fitted>) -> Vec<Fitted> {
         let of = |fitted: &Fitted| against(&self.data, fitted.judged());
@@ -171,12 +195,31 @@ impl<P: Progress> Trials<'_, P> {
     /// Fits the best law whose numbers mean something again from about itself, where it all but closes the gap: such a fit has ended in
     /// another valley of some windows than the right one. Whether there was one, and not refined before.
     pub(super) fn refine_best(&self, gap: &OpenGap, fitted: &mut Vec<Fitted>) -> bool {
-        let near = |one: &Fitted| !one.is_refined && all_but_closes(&one.law, gap.error);
-        let best = fitted.iter_mut().find(|one| one.means_something());
-        let Some(best) = best.filter(|best| near(best)) else { return false };
-        *best = Fitted { is_refined: true, ..Fitted::new(self.refined(best.law.clone())) };
-        *fitted = self.in_order(std::mem::take(fitted));
-        true
+        let best = fitted.iter().position(Fitted::means_something);
+        best.is_some_and(|best| self.refine(gap, fitted, &[best]))
+    }
+
+    /// The same of laws that close the gap, the best of them: which is told should not hang on the valleys that their fits have ended in.
+    pub(super) fn refine_closing(&self, gap: &OpenGap, fitted: &mut Vec<Fitted>, closing: &[Fitted]) -> bool {
+        let closes = |one: &Fitted| closing.iter().any(|other| law_of(&other.law) == law_of(&one.law));
+        let which = (0..fitted.len()).filter(|i| closes(&fitted[*i])).take(CLOSING_REFINED);
+        let which = which.collect::<Vec<_>>();
+        self.refine(gap, fitted, &which)
+    }
+
+    /// Fits those of laws again from about themselves that all but close the gap and were not before. Whether there was one.
+    fn refine(&self, gap: &OpenGap, fitted: &mut Vec<Fitted>, which: &[usize]) -> bool {
+        let may = |one: &Fitted| !one.is_refined && all_but_closes(&one.law, gap.error);
+        let which = which.iter().filter(|i| may(&fitted[**i])).collect::<Vec<_>>();
+        for i in &which {
+            let one = &mut fitted[**i];
+            let refined = self.with_work(one.work).refined(one.law.clone());
+            *one = Fitted { is_refined: true, work: one.work, ..Fitted::new(refined) };
+        }
+        if !which.is_empty() {
+            *fitted = self.in_order(std::mem::take(fitted));
+        }
+        !which.is_empty()
     }
 }
 
@@ -222,47 +265,83 @@ mod tests {
     use super::super::twin::{DRAG, Twin, wall_with};
     use super::*;
     use crate::diagnose::formula::{Atom, Shape, Site};
-    use crate::diagnose::trials::with_values;
+    use crate::diagnose::trials::{WallFits, joint_error, with_values};
+
+    /// A drag of this exponent at the top, of this size in N at what is reached.
+    fn drag(n: f64, size: f64, reach: [f64; 2]) -> Law {
+        Law::of(Atom { site: Site::Top, shape: Shape::Drag, numbers: [n, 0.0], size, reach, is_exact: false })
+    }
+
+    fn reach_of_top(trials: &Trials<()>) -> [f64; 2] {
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
+        Points::new(trials.data.fit.tests, &h).expect("points").reach[Site::Top as usize]
+    }
+
+    /// What a wall leaves open, of which laws of one atom are asked.
+    fn gap(wall: &WallFits) -> OpenGap<'_> {
+        OpenGap {
+            recalibrated: &wall.recalibrated,
+            nearest: &wall.recalibrated,
+            error: joint_error(&wall.before).expect("windows"),
+            scope: Scope::OneAtom,
+            kin: &[],
+            before: None,
+        }
+    }
 
     #[test]
     fn analytic_a_law_that_all_but_closes_a_gap_is_fitted_again_once() {
         let twin = Twin::new(&wall_with(DRAG), 1e-5);
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows");
-        let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
-        let reach = Points::new(trials.data.fit.tests, &h).expect("points").reach[Site::Top as usize];
-        let (true_n, true_size) = (2.0, 4000.0 * reach[1] * reach[1]);
-        let atom = |size: f64| Atom {
-            site: Site::Top,
-            shape: Shape::Drag,
-            numbers: [true_n, 0.0],
-            size,
-            reach,
-            is_exact: false,
-        };
+        let reach = reach_of_top(&trials);
+        let true_size = 4000.0 * reach[1] * reach[1];
         // As a fit in a wrong valley leaves it.
-        let stuck = |off: f64| {
-            let law = Law::of(atom(off * true_size));
+        let stuck = |n: f64, off: f64| {
+            let law = drag(n, off * true_size, reach);
             let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
             let values = h.start().into_iter().take(h.nuisances).chain(law.values()).collect::<Vec<_>>();
             let law = with_values(&trials.data, h, &wall.recalibrated, &values).expect("a wall");
-            vec![Fitted::new(law)]
+            Fitted::new(law)
         };
-        let gap = OpenGap {
-            recalibrated: &wall.recalibrated,
-            nearest: &wall.recalibrated,
-            error: crate::diagnose::trials::joint_error(&wall.before).expect("windows"),
-            scope: Scope::OneAtom,
-            kin: &[],
-            before: None,
-        };
-        let mut near = stuck(1.03);
+        let gap = gap(&wall);
+        let mut near = vec![stuck(2.0, 1.03)];
         let before = against(&trials.data, &near[0].law);
         assert!(trials.refine_best(&gap, &mut near));
         let after = against(&trials.data, &near[0].law);
         let size = law_of(&near[0].law).expect("a law").first.size / true_size;
         assert!((size - 1.0).abs() < 0.01 && after < before - 30.0, "{size}, {before} to {after}");
         assert!(!trials.refine_best(&gap, &mut near), "once");
-        assert!(!trials.refine_best(&gap, &mut stuck(3.0)), "it leaves too much");
+        assert!(!trials.refine_best(&gap, &mut vec![stuck(2.0, 3.0)]), "it leaves too much");
+        // Of laws that close a gap more than the best.
+        let closing = [stuck(2.0, 1.02), stuck(2.01, 1.03)];
+        let mut all = [&closing[..], &[stuck(1.99, 1.03)]].concat();
+        assert!(trials.refine_closing(&gap, &mut all, &closing));
+        assert_eq!(all.iter().filter(|one| one.is_refined).count(), CLOSING_REFINED);
+        let left = all.iter().find(|one| !one.is_refined).expect("one that does not close");
+        assert_eq!(law_of(&left.law), law_of(&stuck(1.99, 1.03).law));
+        assert!(!trials.refine_closing(&gap, &mut all, &[]));
+    }
+
+    #[test]
+    fn analytic_the_best_law_may_work_more_where_it_ended_for_its_work() {
+        let twin = Twin::new(&wall_with(DRAG), 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let reach = reach_of_top(&trials);
+        let law = drag(1.9, 3600.0 * reach[1] * reach[1], reach);
+        let (hypothesis, values) = trials.law_beside(&wall.recalibrated, &law);
+        let start = Start { hypothesis, values, nats: 0.0 };
+        let gap = gap(&wall);
+        let ended = trials.with_work(0).laws_in_windows(&gap, vec![start], "a law");
+        assert!(!ended[0].is_done && trials.unfinished.all().len() == 1);
+        let done = trials.with_more_work(&gap, ended);
+        let [best, ..] = &done[..] else { panic!("no law") };
+        assert!(best.is_done && best.work == MORE_WORK);
+        let n = law_of(&best.law).expect("a law").first.numbers[0];
+        assert!((n - 2.0).abs() < 0.05, "{n}");
+        assert!(trials.unfinished.all().is_empty(), "{:?}", trials.unfinished.all());
+        let count = done.len();
+        assert_eq!(trials.with_more_work(&gap, done).len(), count, "it is done");
     }
 }

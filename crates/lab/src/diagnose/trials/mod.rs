@@ -72,9 +72,17 @@ pub struct Trials<'a, P> {
     pub progress: &'a P,
     /// Told which fits ended before they were done.
     pub unfinished: &'a Unfinished,
+    /// So many times the usual work a fit may take.
+    pub work: usize,
 }
 
 impl<P: Progress> Trials<'_, P> {
+    /// The same, where a fit may take so many times the usual work.
+    pub fn with_work(&self, work: usize) -> Trials<'_, P> {
+        let Self { experiment, data, progress, unfinished, .. } = *self;
+        Trials { experiment, data, progress, unfinished, work }
+    }
+
     /// A fit of so many numbers within what one may work; `None` where it ends before it is done, which is told.
     pub fn within_budget<R>(
         &self,
@@ -93,7 +101,7 @@ impl<P: Progress> Trials<'_, P> {
         numbers: usize,
         fit: impl FnOnce(&Data) -> Option<R>,
     ) -> Option<R> {
-        let budget = Budget::of(&data.fit, FIT_WORK * numbers.max(1) as f64);
+        let budget = Budget::of(&data.fit, FIT_WORK * (self.work * numbers.max(1)) as f64);
         let data = Data { fit: Problem { budget: Some(&budget), ..data.fit }, ..*data };
         let found = fit(&data);
         if budget.is_spent() {

@@ -2,7 +2,7 @@
 
 use super::{OtherLaw, Remainder, Verdict};
 use crate::diagnose::discovery::Discovered;
-use crate::diagnose::trials::{Data, FittedHypothesis, against, is_noise, joint_error};
+use crate::diagnose::trials::{Data, FittedHypothesis, against, all_but_closes, is_noise, joint_error};
 
 /// What was found in given windows.
 #[derive(Debug)]
@@ -38,6 +38,13 @@ impl Found {
         all
     }
 
+    /// The best law outside the catalogue that was tried, where nothing is told and it all but closes the gap.
+    pub fn nearest_of_laws_refused(&self) -> Option<&FittedHypothesis> {
+        let error = joint_error(&self.before).filter(|_| self.verdict.is_left_open())?;
+        let best = self.discovered.as_ref()?.tried.first()?;
+        all_but_closes(best, error).then_some(best)
+    }
+
     /// The hypothesis that leaves least, where what it leaves is more than noise: that of a name with a remainder, or of all that
     /// was tried in vain.
     pub fn least_leaving(&self) -> Option<&FittedHypothesis> {
@@ -62,5 +69,44 @@ impl Found {
             | Verdict::Recalibrated => &self.after,
             _ => &self.before,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::discovery::twin::{Twin, wall_with};
+
+    #[test]
+    fn analytic_the_nearest_law_is_one_that_all_but_closes_a_gap_of_which_nothing_is_told() {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let wall = twin.trials().wall_fits(None).expect("windows").recalibrated;
+        let leaving = |reduced: f64| {
+            let mut tried = wall.clone();
+            let windows = tried.fit.windows.iter_mut().chain(&mut tried.held_out.windows);
+            windows.for_each(|window| window.squares = reduced * window.freedom);
+            tried
+        };
+        let found = |verdict: Verdict, left: f64| Found {
+            verdict,
+            before: leaving(100.0),
+            recalibrated: leaving(100.0),
+            after: leaving(100.0),
+            equivalent: Vec::new(),
+            place: None,
+            remainder: None,
+            other_law: None,
+            discovered: Some(Discovered::in_vain(vec![leaving(left)])),
+            tried: Vec::new(),
+        };
+        for open in [Verdict::PlaceOnly, Verdict::Unknown, Verdict::Curve] {
+            assert!(found(open, 1.0).nearest_of_laws_refused().is_some());
+        }
+        assert!(found(Verdict::PlaceOnly, 9.0).nearest_of_laws_refused().is_none(), "it leaves too much");
+        for told in [Verdict::Named, Verdict::Formula, Verdict::None] {
+            assert!(found(told, 1.0).nearest_of_laws_refused().is_none());
+        }
+        let none = Found { discovered: None, ..found(Verdict::Unknown, 1.0) };
+        assert!(none.nearest_of_laws_refused().is_none());
     }
 }

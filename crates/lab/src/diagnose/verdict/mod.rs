@@ -66,6 +66,11 @@ impl Verdict {
         matches!(self, Self::Formula | Self::FormulaClass)
     }
 
+    /// Whether something is missing of which no effect and no law is told.
+    pub fn is_left_open(self) -> bool {
+        matches!(self, Self::PlaceOnly | Self::Unknown | Self::Curve)
+    }
+
     /// Its name in `diagnosis.json`.
     pub fn name(self) -> &'static str {
         match self {
