@@ -9,7 +9,7 @@ use super::{laws, score, twins};
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-const SETS: [(&str, Draw); 16] = [
+const SETS: [(&str, Draw); 17] = [
     ("fresh11", cases::draw::draw),
     ("fresh12", cases::draw::draw),
     ("beds3", cases::beds::draw),
@@ -20,6 +20,7 @@ const SETS: [(&str, Draw); 16] = [
     ("beds7", cases::beds::draw),
     ("beds8", cases::beds::draw),
     ("beds9", cases::beds::draw),
+    ("beds10", cases::beds::draw),
     ("impacts1", cases::impacts::draw),
     ("nulls5", cases::nulls::draw),
     ("nulls6", cases::nulls::draw),
