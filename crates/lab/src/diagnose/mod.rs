@@ -238,9 +238,12 @@ impl<P: Progress> Flow<'_, P> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use discovery::twin::{Twin, wall_with};
-    use hypothesis::candidates;
-    use trials::with_values;
+    use crate::limits::WORTH_OPENING;
+    use discovery::twin::{DRAG, Twin, wall_with};
+    use discovery::{Discovered, Points};
+    use formula::{Atom, Law, Shape, Site};
+    use hypothesis::{Addition, candidates};
+    use trials::{closes_held_out, refit, with_values};
 
     #[test]
     fn analytic_a_gain_that_leaves_no_window_to_fit_is_none_of_a_sensor() {
@@ -251,7 +254,7 @@ mod tests {
         let (windows, wall) = flow.wall().expect("windows");
         let first_fits = |gain: f64| {
             let trials = flow.trials(&windows);
-            let named = |a: &hypothesis::Addition| a.name() == "sensor_gain.both";
+            let named = |a: &Addition| a.name() == "sensor_gain.both";
             let addition = candidates(experiment.wall.parameters()).into_iter().find(named);
             let h = trials.hypothesis(&[], &[addition.expect("of the catalogue")]);
             let best = with_values(&trials.data, h, &wall.before, &[gain]).expect("a wall");
@@ -266,5 +269,45 @@ mod tests {
         assert_eq!(flow.read_again(&hides_all), None);
         assert!(flow.tests.iter().all(|test| test.read_gain == [1.0; 2]), "as they were read");
         assert_eq!(flow.read_again(&small), Some([1.0; 2]), "read anew");
+    }
+
+    #[test]
+    fn analytic_windows_are_opened_for_a_law_where_nothing_is_told() {
+        let twin = Twin::new(&wall_with(DRAG), 3e-4);
+        let (experiment, trials) = (twin.experiment(), twin.trials());
+        let WallFits { before, recalibrated } = trials.wall_fits(None).expect("windows");
+        let wall = trials.hypothesis(&experiment.nuisances, &[]);
+        let points = Points::new(trials.data.fit.tests, &wall).expect("points");
+        let reach = points.reach[Site::Top as usize];
+        let (shape, size) = (Shape::Drag, 4000.0 * reach[1] * reach[1]);
+        let law = Law::of(Atom { site: Site::Top, shape, numbers: [2.0, 0.0], size, reach, is_exact: false });
+        let h = trials.hypothesis(&experiment.nuisances, &[Addition::Formula(law)]);
+        let values = recalibrated.fit.values.iter().copied().chain(law.values()).collect::<Vec<_>>();
+        let right = refit(&trials.data, h, &recalibrated, &values).expect("a fit");
+        // Though it is the right one.
+        assert!(!closes_held_out(&right), "{:?}", right.errors());
+        let found = |verdict: Verdict| Found {
+            verdict,
+            before: before.clone(),
+            recalibrated: recalibrated.clone(),
+            after: before.clone(),
+            equivalent: Vec::new(),
+            place: Some("top"),
+            remainder: None,
+            other_law: None,
+            discovered: Some(Discovered::in_vain(vec![right.clone()])),
+            tried: Vec::new(),
+        };
+        let (tests, unfinished) = (experiment.tests.clone(), Unfinished::default());
+        let flow = Flow { experiment, progress: &(), tests, unfinished };
+        let windows = twin.windows().clone();
+        let (opened, told) =
+            flow.with_windows_opened(&(windows.clone(), found(Verdict::PlaceOnly))).expect("a law");
+        let count = opened.iter().flatten().filter(|window| window.opened).count();
+        assert!(told.verdict == Verdict::Formula && count >= WORTH_OPENING, "{:?}, {count}", told.verdict);
+        let law = told.after.hypothesis.laws(&told.after.fit.values)[0].first;
+        assert!(law.shape == shape && (law.numbers[0] - 2.0).abs() < 0.1, "{law:?}");
+        assert!(closes_held_out(&told.after), "{:?}", told.after.errors());
+        assert!(flow.with_windows_opened(&(windows, found(Verdict::Named))).is_none());
     }
 }
