@@ -77,7 +77,7 @@ fn held_against_a_bed(effects: &[(&str, &[f64])]) -> (f64, Vec<(String, f64)>) {
     let windows = [fit, held_out];
     let data = Data::new(&experiment.tests, &windows);
     let unfinished = Unfinished::default();
-    let trials = Trials { experiment: &experiment, data, progress: &(), unfinished: &unfinished };
+    let trials = Trials::new(&experiment, data, &(), &unfinished);
     let wall = trials.wall_fits(None).expect("windows");
     let beds = trials.beds(&wall);
     let bed = beds.first().expect("windows ask for a bed");

@@ -231,7 +231,7 @@ impl<P: Progress> Flow<'_, P> {
     /// Where hypotheses are tried.
     fn trials<'a>(&'a self, windows: &'a [Vec<Window>; 2]) -> Trials<'a, P> {
         let Self { experiment, progress, tests, unfinished } = self;
-        Trials { experiment, data: Data::new(tests, windows), progress, unfinished, work: 1 }
+        Trials::new(experiment, Data::new(tests, windows), *progress, unfinished)
     }
 }
 

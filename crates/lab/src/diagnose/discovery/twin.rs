@@ -95,7 +95,7 @@ impl Twin {
     /// Where hypotheses of it are tried.
     pub fn trials(&self) -> Trials<'_, ()> {
         let Self { experiment, windows, unfinished } = self;
-        Trials { experiment, data: Data::new(&experiment.tests, windows), progress: &(), unfinished, work: 1 }
+        Trials::new(experiment, Data::new(&experiment.tests, windows), &(), unfinished)
     }
 }
 

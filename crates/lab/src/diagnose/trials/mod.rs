@@ -73,7 +73,19 @@ pub struct Trials<'a, P> {
     /// Told which fits ended before they were done.
     pub unfinished: &'a Unfinished,
     /// So many times the usual work a fit may take.
-    pub work: usize,
+    work: usize,
+}
+
+impl<'a, P> Trials<'a, P> {
+    /// Hypotheses are tried in windows, each fit within the usual work.
+    pub fn new(
+        experiment: &'a Experiment,
+        data: Data<'a>,
+        progress: &'a P,
+        unfinished: &'a Unfinished,
+    ) -> Self {
+        Self { experiment, data, progress, unfinished, work: 1 }
+    }
 }
 
 impl<P: Progress> Trials<'_, P> {
