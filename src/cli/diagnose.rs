@@ -14,7 +14,7 @@ use crate::error::Result;
 use crate::report::numbers_of;
 use crate::results::diagnosis::{OutputNames, write_results};
 use mrbd_lab::diagnose::answer::{
-    FittedNumber, FittedToAll, FoundEffect, OwnHypothesis, SharedHeldOut, Summary,
+    FitHeldOut, FittedNumber, FittedToAll, FoundEffect, OwnHypothesis, SharedHeldOut, Summary,
 };
 use mrbd_lab::diagnose::verdict::Remainder;
 use mrbd_lab::diagnose::{Diagnosis, Experiment, check_data, diagnose};
@@ -77,6 +77,7 @@ fn in_words(summary: &Summary) -> String {
     lines.extend(summary.effects.iter().flat_map(effect_in_words));
     lines.extend(summary.fitted_to_all.as_ref().map(fitted_to_all_in_words));
     lines.extend(summary.shared_held_out.map(shared_held_out_in_words));
+    lines.extend(summary.missed_held_out.as_ref().map(missed_held_out_in_words));
     lines.extend(summary.remainder.as_ref().map(remainder_in_words));
     if !summary.equivalent.is_empty() {
         lines.push(format!("  these tests cannot tell apart: {}", summary.equivalent.join(", ")));
@@ -131,6 +132,15 @@ fn shared_held_out_in_words(SharedHeldOut { fitted, judging }: SharedHeldOut) ->
     format!(
         "  the tests fitted do not show all of it: {fitted} windows of the tests held out were fitted too, and the {judging} \
          between them judge"
+    )
+}
+
+/// That tests held out are missed where those fitted are followed.
+fn missed_held_out_in_words(found: &FitHeldOut<f64>) -> String {
+    format!(
+        "  without an effect the wall follows the tests fitted ({:.2} times the noise) and misses those held out ({:.2}): \
+         something shows in these alone; fit a test like them too",
+        found.fit, found.held_out
     )
 }
 

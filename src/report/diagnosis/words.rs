@@ -120,7 +120,14 @@ pub fn lead(summary: &Summary) -> String {
         }
         Verdict::Unknown => {
             let like = imitation(summary);
-            format!("Unknown: model and tests part, and nothing in the catalogue explains it.{like}")
+            let alone = summary.missed_held_out.as_ref().map_or_else(String::new, |found| {
+                format!(
+                    " Without an effect the wall follows the tests fitted ({} times the noise) and misses those held out ({}): something shows in these alone. A test like them, fitted too, would tell more.",
+                    number(found.fit),
+                    number(found.held_out)
+                )
+            });
+            format!("Unknown: model and tests part, and nothing in the catalogue explains it.{alone}{like}")
         }
         Verdict::NoPower => {
             "No power: the wall moves too little beside the noise, or is sampled too coarsely, for most effects of a size that matters to show."

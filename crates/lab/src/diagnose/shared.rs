@@ -26,8 +26,11 @@ pub(super) fn shared_windows(windows: &[Vec<Window>; 2], found: &Found) -> Optio
     Some(shared)
 }
 
-/// Whether no answer is found, and a law that was tried follows the tests fitted to their noise and not those held out.
+/// Whether no answer is found, and a law that was tried follows the tests fitted to their noise and not those held out, or the wall does.
 fn lacks_what_is_held_out(found: &Found) -> bool {
+    if found.says_nothing_of_what_is_held_out() {
+        return follows_fitted(&found.after);
+    }
     let laws = found.discovered.iter().flat_map(|discovered| &discovered.tried);
     found.verdict.is_left_open() && laws.into_iter().any(|law| follows_fitted(law) && !closes_held_out(law))
 }
@@ -41,12 +44,12 @@ pub(super) fn as_fitted(tests: &[TestData]) -> Vec<TestData> {
     tests.iter().map(|test| TestData { purpose: Purpose::Fit, ..test.clone() }).collect()
 }
 
-/// Whether a law found so is one for the tests that were to be fitted: these say no less of it than of the best law fitted to them alone.
+/// Whether a law found so is one for the tests that were to be fitted: these say no less of it than of the best law fitted to them alone, or of the wall.
 pub(super) fn keeps_what_was_fitted(before: &Found, after: &Found, windows: &[Vec<Window>; 2]) -> bool {
     let count = windows[0].len();
     let best = |found: &Found| {
         let laws = found.discovered.iter().flat_map(|discovered| &discovered.tried);
-        laws.map(|law| nats(&law.fit.windows)).fold(f64::INFINITY, f64::min)
+        laws.chain([&found.after]).map(|law| nats(&law.fit.windows)).fold(f64::INFINITY, f64::min)
     };
     nats(&after.after.fit.windows[..count]) < best(before) + EQUIVALENT
 }
@@ -114,14 +117,17 @@ mod tests {
         let twin = Twin::new(&wall_with(""), 1e-4);
         let given = twin.windows();
         let missing = || found(&twin, [1.0, 9.0]);
-        for told in
-            [Verdict::Named, Verdict::Formula, Verdict::FormulaClass, Verdict::Recalibrated, Verdict::None]
-        {
+        for told in [Verdict::Named, Verdict::Formula, Verdict::FormulaClass] {
             assert!(shared_windows(given, &Found { verdict: told, ..missing() }).is_none());
         }
         assert!(shared_windows(given, &found(&twin, [1.0, 1.0])).is_none(), "follows those held out");
         assert!(shared_windows(given, &found(&twin, [9.0, 9.0])).is_none(), "misses those fitted");
         assert!(shared_windows(given, &Found { discovered: None, ..missing() }).is_none(), "no law");
+        // The wall itself follows the tests fitted alone.
+        for nothing in [Verdict::None, Verdict::Recalibrated] {
+            let wall = Found { verdict: nothing, discovered: None, ..missing() };
+            assert!(shared_windows(given, &wall).is_some());
+        }
         let few = [given[0].clone(), given[1][..LEAST_SHARED - 1].to_vec()];
         assert!(shared_windows(&few, &missing()).is_none());
     }

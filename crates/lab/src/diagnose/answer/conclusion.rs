@@ -49,6 +49,7 @@ impl Findings<'_> {
             stability: found.discovered.as_ref().and_then(|found| found.stability),
             fitted_to_all: self.fitted_to_all(),
             shared_held_out: self.shared_held_out(),
+            missed_held_out: found.missed_held_out().map(of_both),
             refused: self.refused_laws(),
             unfinished: self.unfinished.clone(),
             equivalent: found.equivalent.clone(),

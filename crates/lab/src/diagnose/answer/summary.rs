@@ -43,6 +43,10 @@ pub struct Summary {
     /// absent where no window held out was fitted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shared_held_out: Option<SharedHeldOut>,
+    /// Windowed errors of the wall without effects, where it follows the tests fitted and misses those held out, and nothing is known of that;
+    /// absent otherwise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub missed_held_out: Option<FitHeldOut<f64>>,
     /// Laws outside the catalogue, and names, that were refused though they fit, with what refused each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub refused: Vec<RefusedLaw>,

@@ -3,6 +3,7 @@
 use super::{OtherLaw, Remainder, Verdict};
 use crate::diagnose::discovery::Discovered;
 use crate::diagnose::trials::{Data, FittedHypothesis, against, all_but_closes, is_noise, joint_error};
+use crate::limits::{HELD_OUT_ERROR, NOISE_AFTER};
 
 /// What was found in given windows.
 #[derive(Debug)]
@@ -43,6 +44,30 @@ impl Found {
         let error = joint_error(&self.before).filter(|_| self.verdict.is_left_open())?;
         let best = self.discovered.as_ref()?.tried.first()?;
         all_but_closes(best, error).then_some(best)
+    }
+
+    /// Whether nothing is said to be missing, and the tests held out are missed: what their larger motion shows is no noise.
+    pub fn says_nothing_of_what_is_held_out(&self) -> bool {
+        let says_nothing = matches!(self.verdict, Verdict::None | Verdict::Recalibrated);
+        says_nothing && self.after.errors()[1].is_some_and(|error| error >= HELD_OUT_ERROR)
+    }
+
+    /// The same, or `unknown` where nothing would be said of what tests held out show.
+    pub fn or_unknown(self) -> Self {
+        match self.says_nothing_of_what_is_held_out() {
+            true => Self { verdict: Verdict::Unknown, after: self.before.clone(), ..self },
+            false => self,
+        }
+    }
+
+    /// What the wall without effects leaves of tests fitted and held out, where nothing more is known than that it misses the latter alone.
+    pub fn missed_held_out(&self) -> Option<[f64; 2]> {
+        let walls =
+            [&self.before, &self.recalibrated].into_iter().filter(|_| self.verdict == Verdict::Unknown);
+        let errors = walls.filter_map(|wall| wall.errors()[0].zip(wall.errors()[1]));
+        let mut alone =
+            errors.filter(|(fitted, held_out)| *fitted < NOISE_AFTER && *held_out >= HELD_OUT_ERROR);
+        alone.next().map(|(fitted, held_out)| [fitted, held_out])
     }
 
     /// The hypothesis that leaves least, where what it leaves is more than noise: that of a name with a remainder, or of all that
@@ -108,5 +133,24 @@ mod tests {
         }
         let none = Found { discovered: None, ..found(Verdict::Unknown, 1.0) };
         assert!(none.nearest_of_laws_refused().is_none());
+        // Nothing is missing where the tests held out are followed too, and is not known where they are not.
+        let held_out = |verdict: Verdict, left: f64| {
+            let mut after = leaving(1.0);
+            after.held_out.windows.iter_mut().for_each(|window| window.squares = left * window.freedom);
+            Found { after, ..found(verdict, 1.0) }.or_unknown().verdict
+        };
+        for nothing in [Verdict::None, Verdict::Recalibrated] {
+            assert_eq!(
+                [1.4_f64, 1.6].map(|error| held_out(nothing, error * error)),
+                [nothing, Verdict::Unknown]
+            );
+        }
+        assert_eq!(held_out(Verdict::Named, 4.0), Verdict::Named);
+        let mut before = leaving(1.0);
+        before.held_out.windows.iter_mut().for_each(|window| window.squares = 4.0 * window.freedom);
+        let unknown = Found { before, ..found(Verdict::Unknown, 1.0) };
+        assert_eq!(unknown.missed_held_out(), Some([1.0, 2.0]));
+        assert_eq!(found(Verdict::Unknown, 1.0).missed_held_out(), None, "those fitted are missed too");
+        assert_eq!(Found { verdict: Verdict::None, ..unknown }.missed_held_out(), None);
     }
 }
