@@ -125,8 +125,10 @@ mod tests {
         assert!(shared_windows(given, &Found { discovered: None, ..missing() }).is_none(), "no law");
         // The wall itself follows the tests fitted alone.
         for nothing in [Verdict::None, Verdict::Recalibrated] {
-            let wall = Found { verdict: nothing, discovered: None, ..missing() };
-            assert!(shared_windows(given, &wall).is_some());
+            let mut wall = Found { verdict: nothing, discovered: None, ..missing() };
+            assert!(shared_windows(given, &wall).is_none(), "what shows is what was judged");
+            wall.after.fit.windows = vec![wall.after.fit.windows; 500].concat();
+            assert!(shared_windows(given, &wall).is_some(), "all windows together leave noise");
         }
         let few = [given[0].clone(), given[1][..LEAST_SHARED - 1].to_vec()];
         assert!(shared_windows(&few, &missing()).is_none());

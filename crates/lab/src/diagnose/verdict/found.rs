@@ -46,10 +46,13 @@ impl Found {
         all_but_closes(best, error).then_some(best)
     }
 
-    /// Whether nothing is said to be missing, and the tests held out are missed: what their larger motion shows is no noise.
+    /// Whether nothing is said to be missing because all windows together leave noise, and the tests held out are missed: what their larger
+    /// motion shows is no noise. Where windows leave more, and that only what impacts of another formulation do, these are what shows.
     pub fn says_nothing_of_what_is_held_out(&self) -> bool {
         let says_nothing = matches!(self.verdict, Verdict::None | Verdict::Recalibrated);
-        says_nothing && self.after.errors()[1].is_some_and(|error| error >= HELD_OUT_ERROR)
+        says_nothing
+            && is_noise(&self.after)
+            && self.after.errors()[1].is_some_and(|error| error >= HELD_OUT_ERROR)
     }
 
     /// The same, or `unknown` where nothing would be said of what tests held out show.
@@ -136,6 +139,8 @@ mod tests {
         // Nothing is missing where the tests held out are followed too, and is not known where they are not.
         let held_out = |verdict: Verdict, left: f64| {
             let mut after = leaving(1.0);
+            // So many that those held out hardly show among all.
+            after.fit.windows = vec![after.fit.windows; 50].concat();
             after.held_out.windows.iter_mut().for_each(|window| window.squares = left * window.freedom);
             Found { after, ..found(verdict, 1.0) }.or_unknown().verdict
         };
@@ -146,6 +151,8 @@ mod tests {
             );
         }
         assert_eq!(held_out(Verdict::Named, 4.0), Verdict::Named);
+        let other_impacts = Found { after: leaving(4.0), ..found(Verdict::None, 1.0) };
+        assert_eq!(other_impacts.or_unknown().verdict, Verdict::None);
         let mut before = leaving(1.0);
         before.held_out.windows.iter_mut().for_each(|window| window.squares = 4.0 * window.freedom);
         let unknown = Found { before, ..found(Verdict::Unknown, 1.0) };
