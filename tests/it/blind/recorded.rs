@@ -9,7 +9,7 @@ use super::{laws, score, twins};
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-const SETS: [(&str, Draw); 17] = [
+const SETS: [(&str, Draw); 18] = [
     ("fresh11", cases::draw::draw),
     ("fresh12", cases::draw::draw),
     ("beds3", cases::beds::draw),
@@ -27,6 +27,7 @@ const SETS: [(&str, Draw); 17] = [
     ("nulls8", cases::nulls::draw),
     ("nulls9", cases::nulls::draw),
     ("nulls10", cases::nulls::draw),
+    ("nulls11", cases::nulls::draw),
 ];
 
 /// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.
