@@ -240,9 +240,8 @@ impl<P: Progress> Flow<'_, P> {
 mod tests {
     use super::*;
     use crate::limits::WORTH_OPENING;
-    use discovery::twin::{DRAG, Twin, wall_with};
-    use discovery::{Discovered, Points};
-    use formula::{Atom, Law, Shape, Site};
+    use discovery::twin::{DRAG, DRAG_N, Twin, drag, wall_with};
+    use formula::Shape;
     use hypothesis::{Addition, candidates};
     use trials::{closes_held_out, refit, with_values};
 
@@ -277,27 +276,13 @@ mod tests {
         let twin = Twin::new(&wall_with(DRAG), 3e-4);
         let (experiment, trials) = (twin.experiment(), twin.trials());
         let WallFits { before, recalibrated } = trials.wall_fits(None).expect("windows");
-        let wall = trials.hypothesis(&experiment.nuisances, &[]);
-        let points = Points::new(trials.data.fit.tests, &wall).expect("points");
-        let reach = points.reach[Site::Top as usize];
-        let (shape, size) = (Shape::Drag, 4000.0 * reach[1] * reach[1]);
-        let law = Law::of(Atom { site: Site::Top, shape, numbers: [2.0, 0.0], size, reach, is_exact: false });
-        let h = trials.hypothesis(&experiment.nuisances, &[Addition::Formula(law)]);
-        let values = recalibrated.fit.values.iter().copied().chain(law.values()).collect::<Vec<_>>();
+        let (h, values) = trials.law_beside(&recalibrated, &drag(2.0, DRAG_N));
         let right = refit(&trials.data, h, &recalibrated, &values).expect("a fit");
         // Though it is the right one.
         assert!(!closes_held_out(&right), "{:?}", right.errors());
         let found = |verdict: Verdict| Found {
-            verdict,
-            before: before.clone(),
             recalibrated: recalibrated.clone(),
-            after: before.clone(),
-            equivalent: Vec::new(),
-            place: Some("top"),
-            remainder: None,
-            other_law: None,
-            discovered: Some(Discovered::in_vain(vec![right.clone()])),
-            tried: Vec::new(),
+            ..Found::in_vain(verdict, &before, right.clone())
         };
         let (tests, unfinished) = (experiment.tests.clone(), Unfinished::default());
         let flow = Flow { experiment, progress: &(), tests, unfinished };
@@ -307,7 +292,7 @@ mod tests {
         let count = opened.iter().flatten().filter(|window| window.opened).count();
         assert!(told.verdict == Verdict::Formula && count >= WORTH_OPENING, "{:?}, {count}", told.verdict);
         let law = told.after.hypothesis.laws(&told.after.fit.values)[0].first;
-        assert!(law.shape == shape && (law.numbers[0] - 2.0).abs() < 0.1, "{law:?}");
+        assert!(law.shape == Shape::Drag && (law.numbers[0] - 2.0).abs() < 0.1, "{law:?}");
         assert!(closes_held_out(&told.after), "{:?}", told.after.errors());
         assert!(flow.with_windows_opened(&(windows, found(Verdict::Named))).is_none());
     }

@@ -57,7 +57,6 @@ pub(super) fn keeps_what_was_fitted(before: &Found, after: &Found, windows: &[Ve
 #[cfg(test)]
 mod tests {
     use super::super::answer::{Findings, SharedHeldOut};
-    use super::super::discovery::Discovered;
     use super::super::discovery::twin::{Twin, wall_with};
     use super::super::verdict::Verdict;
     use super::*;
@@ -69,18 +68,7 @@ mod tests {
         for (side, reduced) in [(&mut law.fit, fitted), (&mut law.held_out, held_out)] {
             side.windows.iter_mut().for_each(|window| window.squares = reduced * window.freedom);
         }
-        Found {
-            verdict: Verdict::PlaceOnly,
-            before: law.clone(),
-            recalibrated: law.clone(),
-            after: law.clone(),
-            equivalent: Vec::new(),
-            place: Some("top"),
-            remainder: None,
-            other_law: None,
-            discovered: Some(Discovered::in_vain(vec![law])),
-            tried: Vec::new(),
-        }
+        Found::in_vain(Verdict::PlaceOnly, &law, law.clone())
     }
 
     #[test]

@@ -104,8 +104,8 @@ limits! {
     FIT_WORK: f64 = 2e5, "1/s";
     /// So many times as much may work the best law over windows that ended for its work, since nothing follows better.
     ///
-    /// Chosen: a root of the velocity at the ground, which steps finely wherever the joint turns back, needed more than twice, and its
-    /// exponent was found to 0.2 % then.
+    /// Chosen: of two roots of a velocity, which step finely wherever that turns back, one at the ground needed 2.3 times as much, and is told
+    /// then, and one at the top 2.0.
     MORE_WORK: usize = 8, "";
     /// Share of the squared error above noise that the best law may leave to be fitted again from about itself where none holds, if it leaves
     /// more than `NOISE_AFTER`.

@@ -50,9 +50,9 @@ mod tests {
     use super::super::asked::Scope;
     use super::super::points::Points;
     use super::super::search::search;
-    use super::super::twin::{DRAG, SPRING, Twin, drag_and_spring, wall_with};
+    use super::super::twin::{DRAG, SPRING, Twin, drag_and_spring, open_gap, wall_with};
     use super::*;
-    use crate::diagnose::trials::{Data, against, joint_error};
+    use crate::diagnose::trials::{Data, against};
     use crate::limits::WORTH_A_NAME;
 
     /// A second atom must gain what a name must.
@@ -85,14 +85,7 @@ mod tests {
         let points = Points::new(trials.data.fit.tests, &without).expect("points");
         let (h, values) = trials.law_beside(&wall.recalibrated, &drag_and_spring(&points));
         let two = Fitted::new(refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit"));
-        let gap = OpenGap {
-            recalibrated: &wall.recalibrated,
-            nearest: &wall.recalibrated,
-            error: joint_error(&wall.before).expect("windows"),
-            scope: Scope::TwoAtoms,
-            kin: &[],
-            before: None,
-        };
+        let gap = open_gap(&wall, Scope::TwoAtoms);
         let searched = search(&points).expect("equations");
         let (held, refused) = trials.or_an_atom_alone(&gap, &searched, vec![two], &Asked(trials.data));
         let [one] = &held[..] else { panic!("{} laws are left", held.len()) };

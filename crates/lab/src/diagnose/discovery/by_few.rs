@@ -124,7 +124,7 @@ mod tests {
     use super::super::asked::Scope;
     use super::super::points::Points;
     use super::super::search::search;
-    use super::super::twin::{OPENING, Twin, drag, points_of, points_with, tests_of, wall_with};
+    use super::super::twin::{OPENING, Twin, drag, open_gap, points_of, points_with, tests_of, wall_with};
     use super::*;
     use crate::diagnose::formula::{Shape, Site};
 
@@ -133,14 +133,7 @@ mod tests {
         let twin = Twin::new(&wall_with(OPENING), 3e-4);
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows");
-        let gap = OpenGap {
-            recalibrated: &wall.recalibrated,
-            nearest: &wall.recalibrated,
-            error: 2.0,
-            scope: Scope::OneAtom,
-            kin: &[],
-            before: None,
-        };
+        let gap = OpenGap { error: 2.0, ..open_gap(&wall, Scope::OneAtom) };
         let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
         let points = Points::new(trials.data.fit.tests, &h).expect("points");
         let found = search(&points).expect("laws");

@@ -112,7 +112,7 @@ mod tests {
     use super::super::asked::Scope;
     use super::super::points::Points;
     use super::super::search::search;
-    use super::super::twin::{Twin, wall_with};
+    use super::super::twin::{Twin, open_gap, wall_with};
     use super::*;
     use crate::diagnose::trials::joint_error;
 
@@ -126,14 +126,7 @@ mod tests {
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows");
         let before = joint_error(&wall.before).expect("windows");
-        let gap = OpenGap {
-            recalibrated: &wall.recalibrated,
-            nearest: &wall.recalibrated,
-            error: before,
-            scope: Scope::Curves,
-            kin: &[],
-            before: None,
-        };
+        let gap = open_gap(&wall, Scope::Curves);
         let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
         let points = Points::new(trials.data.fit.tests, &h).expect("points");
         let found = trials.curve(&gap, &search(&points).expect("laws"), None).expect("a curve");

@@ -60,11 +60,11 @@ fn elsewhere(law: &Law, points: &Points) -> Option<Law> {
 #[cfg(test)]
 mod tests {
     use super::super::asked::Scope;
-    use super::super::twin::{OPENING, Twin, wall_with};
+    use super::super::twin::{OPENING, Twin, open_gap, wall_with};
     use super::*;
     use crate::diagnose::formula::Shape;
     use crate::diagnose::hypothesis::Addition;
-    use crate::diagnose::trials::{against, joint_error, refit};
+    use crate::diagnose::trials::{against, refit};
 
     #[test]
     fn analytic_a_law_of_the_top_that_is_fitted_at_the_ground_alone_is_found_at_the_top() {
@@ -87,14 +87,7 @@ mod tests {
         let own = wall.recalibrated.fit.values.iter().copied();
         let values = own.chain(ground.values()).collect::<Vec<_>>();
         let fitted = refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit");
-        let gap = OpenGap {
-            recalibrated: &wall.recalibrated,
-            nearest: &wall.recalibrated,
-            error: joint_error(&wall.before).expect("windows"),
-            scope: Scope::OneAtom,
-            kin: &[],
-            before: None,
-        };
+        let gap = open_gap(&wall, Scope::OneAtom);
         let all = trials.with_other_place(&gap, &points, vec![Fitted::new(fitted.clone())]);
         let best = law_of(&all[0].law).expect("a law").first;
         assert_eq!((best.site, best.shape), (Site::Top, Shape::Opening), "{best:?}");

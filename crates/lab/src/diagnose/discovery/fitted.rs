@@ -110,9 +110,7 @@ impl<P: Progress> Trials<'_, P> {
     /// takes many short steps wherever that turns back. The same with exact exponents, too.
     pub(super) fn with_more_work(&self, gap: &OpenGap, mut fitted: Vec<Fitted>) -> Vec<Fitted> {
         let inside = |one: &Fitted| law_of(&one.law).is_some_and(|law| lies_inside(&law));
-        let may = |one: &&mut Fitted| !one.is_done && one.work < MORE_WORK && inside(one);
-        let Some(best) = fitted.first_mut().filter(may) else { return fitted };
-        best.work = MORE_WORK;
+        let Some(best) = fitted.first().filter(|one| !one.is_done && inside(one)) else { return fitted };
         let FittedHypothesis { hypothesis, fit, .. } = best.law.clone();
         let name = law_name(&hypothesis, &fit.values);
         let start = Start { nats: nats(&fit.windows), hypothesis, values: fit.values };
@@ -158,7 +156,11 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// A law with its own numbers, and the wall's as another fit has them.
-    pub(super) fn law_beside(&self, fitted: &FittedHypothesis, law: &Law) -> (Hypothesis, Vec<f64>) {
+    pub(in crate::diagnose) fn law_beside(
+        &self,
+        fitted: &FittedHypothesis,
+        law: &Law,
+    ) -> (Hypothesis, Vec<f64>) {
         let hypothesis = self.hypothesis(&self.experiment.nuisances, &[Addition::Formula(*law)]);
         let own = fitted.fit.values.iter().take(hypothesis.nuisances).copied();
         let values = own.chain(law.values()).collect();
@@ -261,55 +263,29 @@ fn exact_law(tried: &FittedHypothesis) -> Option<Law> {
 #[cfg(test)]
 mod tests {
     use super::super::asked::Scope;
-    use super::super::points::Points;
-    use super::super::twin::{DRAG, Twin, wall_with};
+    use super::super::twin::{DRAG, DRAG_N, Twin, drag, open_gap, wall_with};
     use super::*;
-    use crate::diagnose::formula::{Atom, Shape, Site};
-    use crate::diagnose::trials::{WallFits, joint_error, with_values};
-
-    /// A drag of this exponent at the top, of this size in N at what is reached.
-    fn drag(n: f64, size: f64, reach: [f64; 2]) -> Law {
-        Law::of(Atom { site: Site::Top, shape: Shape::Drag, numbers: [n, 0.0], size, reach, is_exact: false })
-    }
-
-    fn reach_of_top(trials: &Trials<()>) -> [f64; 2] {
-        let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
-        Points::new(trials.data.fit.tests, &h).expect("points").reach[Site::Top as usize]
-    }
-
-    /// What a wall leaves open, of which laws of one atom are asked.
-    fn gap(wall: &WallFits) -> OpenGap<'_> {
-        OpenGap {
-            recalibrated: &wall.recalibrated,
-            nearest: &wall.recalibrated,
-            error: joint_error(&wall.before).expect("windows"),
-            scope: Scope::OneAtom,
-            kin: &[],
-            before: None,
-        }
-    }
+    use crate::diagnose::trials::with_values;
 
     #[test]
     fn analytic_a_law_that_all_but_closes_a_gap_is_fitted_again_once() {
         let twin = Twin::new(&wall_with(DRAG), 1e-5);
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows");
-        let reach = reach_of_top(&trials);
-        let true_size = 4000.0 * reach[1] * reach[1];
         // As a fit in a wrong valley leaves it.
         let stuck = |n: f64, off: f64| {
-            let law = drag(n, off * true_size, reach);
+            let law = drag(n, off * DRAG_N);
             let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
             let values = h.start().into_iter().take(h.nuisances).chain(law.values()).collect::<Vec<_>>();
             let law = with_values(&trials.data, h, &wall.recalibrated, &values).expect("a wall");
             Fitted::new(law)
         };
-        let gap = gap(&wall);
+        let gap = open_gap(&wall, Scope::OneAtom);
         let mut near = vec![stuck(2.0, 1.03)];
         let before = against(&trials.data, &near[0].law);
         assert!(trials.refine_best(&gap, &mut near));
         let after = against(&trials.data, &near[0].law);
-        let size = law_of(&near[0].law).expect("a law").first.size / true_size;
+        let size = law_of(&near[0].law).expect("a law").first.size / DRAG_N;
         assert!((size - 1.0).abs() < 0.01 && after < before - 30.0, "{size}, {before} to {after}");
         assert!(!trials.refine_best(&gap, &mut near), "once");
         assert!(!trials.refine_best(&gap, &mut vec![stuck(2.0, 3.0)]), "it leaves too much");
@@ -328,11 +304,10 @@ mod tests {
         let twin = Twin::new(&wall_with(DRAG), 1e-4);
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows");
-        let reach = reach_of_top(&trials);
-        let law = drag(1.9, 3600.0 * reach[1] * reach[1], reach);
+        let law = drag(1.9, 0.9 * DRAG_N);
         let (hypothesis, values) = trials.law_beside(&wall.recalibrated, &law);
         let start = Start { hypothesis, values, nats: 0.0 };
-        let gap = gap(&wall);
+        let gap = open_gap(&wall, Scope::OneAtom);
         let ended = trials.with_work(0).laws_in_windows(&gap, vec![start], "a law");
         assert!(!ended[0].is_done && trials.unfinished.all().len() == 1);
         let done = trials.with_more_work(&gap, ended);

@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use super::asked::{OpenGap, Scope};
 use super::points::Points;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::formula::{Atom, Law, Shape, Side, Site};
 use crate::diagnose::hypothesis::{Hypothesis, Nuisance, Scales, wall_number};
-use crate::diagnose::trials::{Data, Trials, Unfinished};
+use crate::diagnose::trials::{Data, Trials, Unfinished, WallFits, joint_error};
 use crate::experiment::{Manner, Purpose, Sampled, TestData, Window, rest_offset_rad, windows};
 use mrbd_files::parse_wall;
 use mrbd_kernel::accelerogram::Accelerogram;
@@ -173,6 +174,21 @@ pub fn drag_and_spring(points: &Points) -> Law {
     };
     let spring = atom(Shape::OneSidedSpring(Side::Negative), 1.0, 5e3 * reach[0]);
     Law { second: Some(spring), ..Law::of(atom(Shape::Drag, 2.0, 4000.0 * reach[1] * reach[1])) }
+}
+
+/// Size of [`DRAG`] at the velocity in shares of which [`drag`] is told, N.
+pub const DRAG_N: f64 = 4000.0 * REACH[1] * REACH[1];
+
+/// What a wall leaves open, and which laws are asked of it.
+pub fn open_gap(wall: &WallFits, scope: Scope) -> OpenGap<'_> {
+    OpenGap {
+        recalibrated: &wall.recalibrated,
+        nearest: &wall.recalibrated,
+        error: joint_error(&wall.before).expect("windows"),
+        scope,
+        kin: &[],
+        before: None,
+    }
 }
 
 /// Largest displacement and velocity of the top that a law is told in shares of: about those of the tests.

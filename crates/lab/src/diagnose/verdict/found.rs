@@ -65,12 +65,32 @@ impl Found {
 
     /// What the wall without effects leaves of tests fitted and held out, where nothing more is known than that it misses the latter alone.
     pub fn missed_held_out(&self) -> Option<[f64; 2]> {
-        let walls =
-            [&self.before, &self.recalibrated].into_iter().filter(|_| self.verdict == Verdict::Unknown);
-        let errors = walls.filter_map(|wall| wall.errors()[0].zip(wall.errors()[1]));
-        let mut alone =
-            errors.filter(|(fitted, held_out)| *fitted < NOISE_AFTER && *held_out >= HELD_OUT_ERROR);
-        alone.next().map(|(fitted, held_out)| [fitted, held_out])
+        if self.verdict != Verdict::Unknown {
+            return None;
+        }
+        let alone = |wall: &FittedHypothesis| {
+            let [Some(fitted), Some(held_out)] = wall.errors() else { return None };
+            (fitted < NOISE_AFTER && held_out >= HELD_OUT_ERROR).then_some([fitted, held_out])
+        };
+        [&self.before, &self.recalibrated].into_iter().find_map(alone)
+    }
+
+    /// A verdict where the wall was fitted so, and this law was tried in vain.
+    #[cfg(test)]
+    pub fn in_vain(verdict: Verdict, wall: &FittedHypothesis, law: FittedHypothesis) -> Self {
+        let [before, recalibrated, after] = [wall, wall, wall].map(Clone::clone);
+        Self {
+            verdict,
+            before,
+            recalibrated,
+            after,
+            equivalent: Vec::new(),
+            place: None,
+            remainder: None,
+            other_law: None,
+            discovered: Some(Discovered::in_vain(vec![law])),
+            tried: Vec::new(),
+        }
     }
 
     /// The hypothesis that leaves least, where what it leaves is more than noise: that of a name with a remainder, or of all that
@@ -105,28 +125,20 @@ mod tests {
     use super::*;
     use crate::diagnose::discovery::twin::{Twin, wall_with};
 
+    /// A wall that leaves so much in every window fitted and held out, squared error over squared noise.
+    fn leaving([fitted, held_out]: [f64; 2]) -> FittedHypothesis {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let mut tried = twin.trials().wall_fits(None).expect("windows").recalibrated;
+        for (side, reduced) in [(&mut tried.fit, fitted), (&mut tried.held_out, held_out)] {
+            side.windows.iter_mut().for_each(|window| window.squares = reduced * window.freedom);
+        }
+        tried
+    }
+
     #[test]
     fn analytic_the_nearest_law_is_one_that_all_but_closes_a_gap_of_which_nothing_is_told() {
-        let twin = Twin::new(&wall_with(""), 1e-4);
-        let wall = twin.trials().wall_fits(None).expect("windows").recalibrated;
-        let leaving = |reduced: f64| {
-            let mut tried = wall.clone();
-            let windows = tried.fit.windows.iter_mut().chain(&mut tried.held_out.windows);
-            windows.for_each(|window| window.squares = reduced * window.freedom);
-            tried
-        };
-        let found = |verdict: Verdict, left: f64| Found {
-            verdict,
-            before: leaving(100.0),
-            recalibrated: leaving(100.0),
-            after: leaving(100.0),
-            equivalent: Vec::new(),
-            place: None,
-            remainder: None,
-            other_law: None,
-            discovered: Some(Discovered::in_vain(vec![leaving(left)])),
-            tried: Vec::new(),
-        };
+        let wall = leaving([100.0; 2]);
+        let found = |verdict: Verdict, left: f64| Found::in_vain(verdict, &wall, leaving([left; 2]));
         for open in [Verdict::PlaceOnly, Verdict::Unknown, Verdict::Curve] {
             assert!(found(open, 1.0).nearest_of_laws_refused().is_some());
         }
@@ -136,28 +148,35 @@ mod tests {
         }
         let none = Found { discovered: None, ..found(Verdict::Unknown, 1.0) };
         assert!(none.nearest_of_laws_refused().is_none());
-        // Nothing is missing where the tests held out are followed too, and is not known where they are not.
-        let held_out = |verdict: Verdict, left: f64| {
-            let mut after = leaving(1.0);
+    }
+
+    #[test]
+    fn analytic_what_shows_in_tests_held_out_alone_is_unknown() {
+        let said = |verdict: Verdict, error: f64| {
+            let mut wall = leaving([1.0, error * error]);
             // So many that those held out hardly show among all.
-            after.fit.windows = vec![after.fit.windows; 50].concat();
-            after.held_out.windows.iter_mut().for_each(|window| window.squares = left * window.freedom);
-            Found { after, ..found(verdict, 1.0) }.or_unknown().verdict
+            wall.fit.windows = vec![wall.fit.windows; 50].concat();
+            Found::in_vain(verdict, &wall, wall.clone()).or_unknown().verdict
         };
         for nothing in [Verdict::None, Verdict::Recalibrated] {
-            assert_eq!(
-                [1.4_f64, 1.6].map(|error| held_out(nothing, error * error)),
-                [nothing, Verdict::Unknown]
-            );
+            assert_eq!([1.4, 1.6].map(|error| said(nothing, error)), [nothing, Verdict::Unknown]);
         }
-        assert_eq!(held_out(Verdict::Named, 4.0), Verdict::Named);
-        let other_impacts = Found { after: leaving(4.0), ..found(Verdict::None, 1.0) };
+        assert_eq!(said(Verdict::Named, 2.0), Verdict::Named);
+        // What impacts of another formulation leave shows in the tests fitted too.
+        let other_impacts = leaving([4.0; 2]);
+        let other_impacts = Found::in_vain(Verdict::None, &other_impacts, other_impacts.clone());
         assert_eq!(other_impacts.or_unknown().verdict, Verdict::None);
-        let mut before = leaving(1.0);
-        before.held_out.windows.iter_mut().for_each(|window| window.squares = 4.0 * window.freedom);
-        let unknown = Found { before, ..found(Verdict::Unknown, 1.0) };
-        assert_eq!(unknown.missed_held_out(), Some([1.0, 2.0]));
-        assert_eq!(found(Verdict::Unknown, 1.0).missed_held_out(), None, "those fitted are missed too");
-        assert_eq!(Found { verdict: Verdict::None, ..unknown }.missed_held_out(), None);
+    }
+
+    #[test]
+    fn analytic_tests_held_out_alone_are_missed_where_nothing_is_known_of_them() {
+        let missed = |verdict: Verdict, left: [f64; 2]| {
+            let wall = leaving(left);
+            Found::in_vain(verdict, &wall, wall.clone()).missed_held_out()
+        };
+        assert_eq!(missed(Verdict::Unknown, [1.0, 4.0]), Some([1.0, 2.0]));
+        assert_eq!(missed(Verdict::Unknown, [100.0; 2]), None, "those fitted are missed too");
+        assert_eq!(missed(Verdict::Unknown, [1.0; 2]), None, "those held out are followed");
+        assert_eq!(missed(Verdict::None, [1.0, 4.0]), None);
     }
 }
