@@ -11,7 +11,7 @@ use super::so_far::{SoFar, Watched};
 use super::threads::Threads;
 use super::{output, stop};
 use crate::error::Result;
-use crate::report::numbers_of;
+use crate::report::{numbers_of, round_exponents};
 use crate::results::diagnosis::{OutputNames, write_results};
 use mrbd_lab::diagnose::answer::{
     FitHeldOut, FittedNumber, FittedToAll, FoundEffect, OwnHypothesis, SharedHeldOut, Summary,
@@ -168,5 +168,6 @@ fn effect_in_words(effect: &FoundEffect) -> Vec<String> {
     let name = effect.formula.as_deref().or(effect.name.as_deref()).unwrap_or("a law outside the catalogue");
     let mut lines = vec![format!("  {name} at {}", effect.place)];
     lines.extend(numbers_of(effect).iter().map(|number| format!("    {number}")));
+    lines.extend(round_exponents(effect).map(|told| format!("    {told}")));
     lines
 }

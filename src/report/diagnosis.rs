@@ -22,7 +22,7 @@ use crate::error::Result;
 use crate::results::diagnosis::tables::TABLES;
 use mrbd_lab::diagnose::answer::{Summary, WallFit};
 use mrbd_lab::experiment_file::Purpose;
-pub use words::{number, numbers_of};
+pub use words::{number, numbers_of, round_exponents};
 use words::{unit_of, with_sd};
 
 /// Measured: dark grey.

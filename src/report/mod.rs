@@ -57,7 +57,7 @@ mod variance;
 mod wall;
 mod words;
 
-pub use diagnosis::{number, numbers_of};
+pub use diagnosis::{number, numbers_of, round_exponents};
 pub use push::push_svg;
 pub use run::{ImpactMark, PlotFile, RunPicture, Watch};
 pub use wall::wall_svg;

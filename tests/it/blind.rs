@@ -30,13 +30,13 @@ use cases::kind::Kind;
 use cases::walls::WallNumbers;
 use compliant::GroundMotion;
 use laws::atom::{Atom, Form, Site};
-use laws::found::{is_spelled_as, number_errors};
+use laws::found::{is_spelled_as, number_errors, round_exponents_hold};
 use mrbd_files::load_wall;
 use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::simulate::{Accuracy, History, Shaking, simulate_observed};
 use mrbd_lab::calibrate::Experiment;
-use mrbd_lab::diagnose::answer::FoundEffect;
+use mrbd_lab::diagnose::answer::{FoundEffect, RoundExponents};
 
 const STEP_S: f64 = 0.005;
 const TAIL_S: f64 = 1.0;
@@ -295,6 +295,36 @@ fn analytic_a_formula_is_known_by_its_spelling_and_its_numbers_are_held_against_
     let numbers = number_errors(&truth(&[drag]), &[exact]);
     // 1 % off, in an interval from 10 % below to 2 % above what was found.
     assert!(matches!(numbers[..], [(error, true)] if (error - 0.01).abs() < 1e-12), "{numbers:?}");
+}
+
+#[test]
+fn analytic_a_round_exponent_holds_the_true_one_where_its_interval_does() {
+    let reach = [0.05, 0.2];
+    let drag = |n: f64| Atom { site: Site::Top, form: Form::Drag { n }, size: 400.0, reach };
+    let stop = |n: f64| Atom { form: Form::Stop { side: -1.0, g: 0.4, n }, ..drag(0.0) };
+    let truth =
+        |atoms: &[Atom]| serde_json::json!({ "effects": atoms.iter().map(Atom::told).collect::<Vec<_>>() });
+    let round = |formula: &str, free: &str, intervals: &[(&str, [f64; 2])]| {
+        let told = intervals.iter().map(|(name, _)| ((*name).to_owned(), 2.0)).collect();
+        let interval = intervals.iter().map(|(name, ends)| ((*name).to_owned(), *ends)).collect();
+        let found = RoundExponents { formula: free.to_owned(), told, interval, beside: BTreeMap::new() };
+        FoundEffect { round_exponents: Some(found), ..answered(formula, &[]) }
+    };
+    let one = round("-c*v*abs(v)", "-c*sign(v)*abs(v)**n", &[("n", [1.9, 2.04])]);
+    let held = |atoms: &[Atom], found: &FoundEffect| {
+        round_exponents_hold(&truth(atoms), std::slice::from_ref(found))
+    };
+    assert_eq!([1.93, 2.0, 2.1].map(|n| held(&[drag(n)], &one)), [Some(true), Some(true), Some(false)]);
+    assert_eq!(held(&[stop(1.93)], &one), None, "another law");
+    assert_eq!(held(&[drag(1.93)], &answered("-c*v*abs(v)", &[])), None, "nothing is told of it");
+    // The atoms of an answer stand in an order of its own.
+    let both = round(
+        "-c_1*v*abs(v) + k_2*max(-x-g_2,0)**2",
+        "-c_1*sign(v)*abs(v)**n_1 + k_2*max(-x-g_2,0)**n_2",
+        &[("n_1", [1.9, 2.0]), ("n_2", [1.4, 2.0])],
+    );
+    assert_eq!(held(&[stop(1.5), drag(1.95)], &both), Some(true));
+    assert_eq!(held(&[stop(1.95), drag(1.5)], &both), Some(false));
 }
 
 #[test]

@@ -52,6 +52,22 @@ pub fn numbers_of(e: &FoundEffect) -> Vec<String> {
     e.parameters.iter().map(value).collect()
 }
 
+/// How far from round the exponents of a formula may be.
+pub fn round_exponents(e: &FoundEffect) -> Option<String> {
+    let found = e.round_exponents.as_ref()?;
+    let one = |(name, [low, high]): (&String, &[f64; 2])| {
+        // Round as it is: four digits would make it look measured.
+        let told = found.told.get(name)?;
+        Some(format!("{name} = {told} may be {} to {}", number(*low), number(*high)))
+    };
+    let all = found.interval.iter().filter_map(one).collect::<Vec<_>>().join(", ");
+    let beside = |(name, [low, high]): (&String, &[f64; 2])| {
+        format!("; {name} then is {} to {}{}", number(*low), number(*high), unit_of(e, name))
+    };
+    let beside = found.beside.iter().map(beside).collect::<String>();
+    Some(format!("round exponents: in {}, {all} (90 %){beside}", found.formula))
+}
+
 /// The unit of a number, after a space; empty where the key says it.
 pub fn unit_of(e: &FoundEffect, key: &str) -> String {
     let unit = e.units.get(key).filter(|unit| !unit.is_empty());
@@ -68,7 +84,8 @@ fn effect(e: &FoundEffect) -> String {
         )
     });
     let law = e.formula.as_deref().or(e.name.as_deref());
-    format!("{}, {at}: {values}{onset}", law.unwrap_or("a law outside the catalogue"))
+    let round = round_exponents(e).map_or_else(String::new, |told| format!(" ({told})"));
+    format!("{}, {at}: {values}{onset}{round}", law.unwrap_or("a law outside the catalogue"))
 }
 
 /// A place in a sentence.

@@ -148,30 +148,74 @@ fn stiffness_n_per_m(diagnosis: &Summary) -> Option<f64> {
     Some(own.after)
 }
 
-/// The atoms of formulas as they are written, without the numbers of their letters.
-fn atoms(effects: &[FoundEffect]) -> Vec<String> {
-    let of = |effect: &FoundEffect| {
-        let text = effect.formula.clone().unwrap_or_default().replace("_1", "").replace("_2", "");
-        let atoms = text.replace(" + ", " ").replace(" - ", " -");
-        atoms.split(' ').map(|atom| format!("{atom} at {}", effect.place)).collect::<Vec<_>>()
+/// An atom of a formula as it is written, with its place, without the numbers of its letters, and these.
+struct WrittenAtom<'a> {
+    effect: &'a FoundEffect,
+    text: String,
+    suffix: String,
+}
+
+fn atoms(effects: &[FoundEffect]) -> Vec<WrittenAtom<'_>> {
+    let of = |effect: &'_ FoundEffect| {
+        let text = effect.formula.clone().unwrap_or_default().replace(" + ", " ").replace(" - ", " -");
+        let parts = text.split(' ').map(str::to_owned).collect::<Vec<_>>();
+        let is_alone = parts.len() == 1;
+        parts.into_iter().zip(1..).map(move |(part, index)| {
+            let suffix = if is_alone { String::new() } else { format!("_{index}") };
+            (part.replace("_1", "").replace("_2", ""), suffix)
+        })
     };
-    effects.iter().flat_map(of).collect()
+    let told = |effect| of(effect).map(move |(text, suffix)| (effect, text, suffix)).collect::<Vec<_>>();
+    let all = effects.iter().flat_map(told);
+    all.map(|(effect, text, suffix)| WrittenAtom {
+        effect,
+        text: format!("{text} at {}", effect.place),
+        suffix,
+    })
+    .collect()
+}
+
+/// For each hidden atom the one of effects that is written as it is, each once; `None` where they are not written so.
+fn atoms_as_hidden<'a>(answer: &Value, effects: &'a [FoundEffect]) -> Option<Vec<WrittenAtom<'a>>> {
+    let mut found = atoms(effects);
+    let hidden = list(answer, "/effects");
+    if hidden.is_empty() || hidden.len() != found.len() {
+        return None;
+    }
+    let of_hidden = |one: &Value| {
+        let place = text(one, "/place");
+        let spelled =
+            texts(one, "/spellings", "").iter().map(|s| format!("{s} at {place}")).collect::<Vec<_>>();
+        let at = found.iter().position(|atom| spelled.contains(&atom.text));
+        at.map(|at| found.swap_remove(at))
+    };
+    hidden.iter().map(of_hidden).collect()
 }
 
 /// Whether effects are written as what is hidden is, each atom once.
 pub fn is_spelled_as(answer: &Value, effects: &[FoundEffect]) -> bool {
-    let mut found = atoms(effects);
-    let hidden = list(answer, "/effects");
-    if hidden.is_empty() || hidden.len() != found.len() {
-        return false;
-    }
-    hidden.iter().all(|one| {
-        let place = text(one, "/place");
-        let spelled =
-            texts(one, "/spellings", "").iter().map(|s| format!("{s} at {place}")).collect::<Vec<_>>();
-        let at = found.iter().position(|atom| spelled.contains(atom));
-        at.map(|at| found.swap_remove(at)).is_some()
-    })
+    atoms_as_hidden(answer, effects).is_some()
+}
+
+/// Where effects are written as what is hidden is, but for exponents told as round ones: whether the intervals of these hold the true ones.
+pub fn round_exponents_hold(answer: &Value, effects: &[FoundEffect]) -> Option<bool> {
+    let with_letters = |effect: &FoundEffect| {
+        let free = effect.round_exponents.as_ref().map(|round| round.formula.clone());
+        FoundEffect { formula: free.or_else(|| effect.formula.clone()), ..effect.clone() }
+    };
+    let free = effects.iter().map(with_letters).collect::<Vec<_>>();
+    let written = atoms_as_hidden(answer, &free)?;
+    let of_atom = |(atom, hidden): (&WrittenAtom, &Value)| {
+        let told = atom.effect.round_exponents.iter().flat_map(|round| &round.interval);
+        let own = told.filter_map(|(name, interval)| Some((name.strip_suffix(&atom.suffix)?, interval)));
+        let holds = |(name, [low, high]): (&str, &[f64; 2])| {
+            let truth = hidden.pointer(&format!("/parameters/{name}")).and_then(Value::as_f64);
+            truth.is_some_and(|truth| *low <= truth && truth <= *high)
+        };
+        own.map(holds).collect::<Vec<_>>()
+    };
+    let all = written.iter().zip(list(answer, "/effects")).flat_map(of_atom).collect::<Vec<_>>();
+    (!all.is_empty()).then(|| all.into_iter().all(|holds| holds))
 }
 
 /// How far the numbers of an answer of one atom are off: the share of the true one, and whether the interval holds it.

@@ -10,7 +10,9 @@ use super::super::diagnose::Outcome;
 use super::super::score::reading::{Diagnosed, list, number, text, texts};
 use super::super::score::recorded::Recorded;
 use super::super::score::row::held_out;
-use super::found::{Excited, curve_error, function_error, is_spelled_as, number_errors};
+use super::found::{
+    Excited, curve_error, function_error, is_spelled_as, number_errors, round_exponents_hold,
+};
 use super::refused::RefusedRow;
 
 /// A force that is off by less than this share is the right function.
@@ -46,6 +48,10 @@ pub struct LawRow {
     /// Whether the answer, and another of its class, is written as what is hidden.
     pub spelled: bool,
     pub spelled_in_class: bool,
+    /// Whether the answer, or another of its class, is written as what is hidden but for exponents told as round ones, and the intervals of
+    /// these hold the true ones; none where it is not, or of answers before these were told.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub round_exponents_hold: Option<bool>,
     /// By how much the force is off over what the tests to fit excited, and those held out.
     pub function_error: Option<f64>,
     pub function_error_held_out: Option<f64>,
@@ -117,6 +123,7 @@ impl LawRow {
             place: diagnosis.and_then(|d| d.place.clone()).unwrap_or_default(),
             spelled: has_formula && is_spelled_as(answer, effects),
             spelled_in_class: classes.iter().any(|one| is_spelled_as(answer, one)),
+            round_exponents_hold: round_exponents(answer, effects, classes),
             function_error: error("fit"),
             function_error_held_out: error("held_out"),
             numbers: if has_formula { number_errors(answer, effects) } else { Vec::new() },
@@ -163,6 +170,11 @@ impl LawRow {
         self.exact() || (self.spelled_in_class && self.function_right())
     }
 
+    /// The same, or with exponents told as round ones whose intervals hold the true ones.
+    pub fn right_or_holds_it(&self) -> bool {
+        self.right() || (self.round_exponents_hold == Some(true) && self.function_right())
+    }
+
     /// Whether a formula was accepted that is another force.
     pub fn wrong(&self) -> bool {
         self.accepts() && !self.function_right()
@@ -190,6 +202,12 @@ impl LawRow {
             self.after.unwrap_or(f64::NAN),
         )
     }
+}
+
+/// Of an answer and the others of its class whether one with round exponents holds what is hidden.
+fn round_exponents(answer: &Value, effects: &[FoundEffect], class: &[Vec<FoundEffect>]) -> Option<bool> {
+    let all = std::iter::once(effects).chain(class.iter().map(Vec::as_slice));
+    all.filter_map(|one| round_exponents_hold(answer, one)).reduce(|any, one| any || one)
 }
 
 fn excited(answer: &Value, part: &str) -> Vec<Excited> {

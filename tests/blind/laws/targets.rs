@@ -31,11 +31,17 @@ pub fn table(rows: &[LawRow]) -> String {
         one.iter().filter(own).copied().collect::<Vec<_>>()
     };
     let (low_seen, high_seen) = (seen(true), seen(false));
+    // Of answers before intervals of exponents were told nothing can be said of these.
+    let tells_round = rows.iter().any(|row| row.round_exponents_hold.is_some());
+    let with_round = "– or with a round exponent whose interval holds the true one";
     add(
         "one atom, visible, ≤ 1e-4 rad: the formula, alone or in a class",
         "≥ 90 %",
         told(&low_seen, LawRow::right),
     );
+    if tells_round {
+        add(with_round, "", told(&low_seen, LawRow::right_or_holds_it));
+    }
     add("– alone", "≥ 75 %", told(&low_seen, LawRow::exact));
     add("– the force within 10 %", "", told(&low_seen, LawRow::function_right));
     let off = low_seen.iter().copied().filter(|row| row.off_grid).collect::<Vec<_>>();
@@ -45,6 +51,16 @@ pub fn table(rows: &[LawRow]) -> String {
         "≥ 65 %",
         told(&high_seen, LawRow::right),
     );
+    if tells_round {
+        add(with_round, "", told(&high_seen, LawRow::right_or_holds_it));
+        let is_none = |row: &&LawRow| !row.spelled && !row.spelled_in_class;
+        let held = rows.iter().filter(is_none).filter_map(|row| row.round_exponents_hold).collect::<Vec<_>>();
+        add(
+            "an exponent told as round that is none: its 90 % interval holds it",
+            "85 to 95 %",
+            Counted::of(held, |holds| *holds).told(),
+        );
+    }
     let two = group(&["two atoms"]);
     add("two atoms: both right", "≥ 60 %", told(&two, LawRow::right));
     add("– the force within 10 %", "≥ 80 %", told(&two, LawRow::function_right));

@@ -74,8 +74,9 @@ pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Res
     let (windows, found) = flow.with_shared_windows(&answered).unwrap_or(answered);
     let found = found.or_unknown();
     let own = flow.trials(&windows).own_hypotheses(&found.before);
+    let freed = flow.with_exponents_free(&windows, &found);
     let unfinished = flow.unfinished.all();
-    Ok(Findings { experiment, tests: flow.tests, windows, found, own, unfinished })
+    Ok(Findings { experiment, tests: flow.tests, windows, found, freed, own, unfinished })
 }
 
 /// An experiment, with its tests as they are read so far.
@@ -134,6 +135,22 @@ impl<P: Progress> Flow<'_, P> {
         let told = first_fits.and_then(|first_fits| judge_laws(&self.trials(&shared), first_fits));
         self.tests = given;
         told.filter(|told| keeps_what_was_fitted(found, told, windows)).map(|told| (shared, told))
+    }
+
+    /// The answer with round exponents free where it has such: each law that is told, or each effect that is named.
+    fn with_exponents_free(
+        &self,
+        windows: &[Vec<Window>; 2],
+        found: &Found,
+    ) -> Vec<Option<FittedHypothesis>> {
+        let trials = self.trials(windows);
+        let (laws, named) = (found.told_laws(), &found.after);
+        let is_named = matches!(found.verdict, Verdict::Named | Verdict::Class);
+        let effects = if is_named { named.hypothesis.additions.len() } else { 0 };
+        self.progress.begin("the answer with its exponents free", laws.len() + effects);
+        let laws = laws.into_iter().map(|law| trials.with_exponents_free(law));
+        let all = laws.chain((0..effects).map(|index| trials.with_exponent_of_name_free(named, index)));
+        all.inspect(|_| self.progress.advance(1)).collect()
     }
 
     /// The windows and the answer where joints that give are it, or part of it.

@@ -89,8 +89,16 @@ mod tests {
         let told = |windows: [Vec<Window>; 2]| {
             let (experiment, found) = (twin.experiment(), found(&twin, [1.0, 1.0]));
             let (own, unfinished) = (Vec::new(), std::collections::BTreeMap::new());
-            Findings { experiment, tests: experiment.tests.clone(), windows, found, own, unfinished }
-                .shared_held_out()
+            Findings {
+                experiment,
+                tests: experiment.tests.clone(),
+                windows,
+                found,
+                freed: Vec::new(),
+                own,
+                unfinished,
+            }
+            .shared_held_out()
         };
         let half = held_out.len() / 2;
         assert_eq!(told(given.clone()), None);

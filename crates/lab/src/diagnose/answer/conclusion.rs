@@ -41,7 +41,7 @@ impl Findings<'_> {
             place: found.place.or_else(own_place).map(str::to_owned),
             effects: match found.verdict {
                 Verdict::Curve => self.curve_effects(),
-                _ if has_formula => self.formulas(&found.after),
+                _ if has_formula => self.formulas(0, &found.after),
                 _ => self.effects(has_names),
             },
             curves: self.force_curves(),
@@ -93,6 +93,7 @@ impl Findings<'_> {
             interval: BTreeMap::new(),
             written_as: None,
             sets_in_over_m: None,
+            round_exponents: None,
             formula: None,
             states: Vec::new(),
             units: BTreeMap::new(),
@@ -113,7 +114,11 @@ impl Findings<'_> {
             Some(_) => intervals_beside_own_error(&self.data(), after),
             None => intervals(&self.data(), after),
         };
-        (0..after.hypothesis.additions.len()).map(|index| found_effect(after, &intervals, index)).collect()
+        let effect = |index: usize| FoundEffect {
+            round_exponents: self.exponent_of_name(index),
+            ..found_effect(after, &intervals, index)
+        };
+        (0..after.hypothesis.additions.len()).map(effect).collect()
     }
 
     /// For each kind, the smallest sizes that would have been told from nothing and named, and the size at which it would
@@ -194,6 +199,7 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
             interval,
             written_as: Some(addition.name()),
             sets_in_over_m: Some(friction.onset_m),
+            round_exponents: None,
             formula: None,
             states: Vec::new(),
             units: BTreeMap::new(),
@@ -210,6 +216,7 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
         interval,
         written_as: None,
         sets_in_over_m: None,
+        round_exponents: None,
         formula: None,
         states: Vec::new(),
         units: BTreeMap::new(),

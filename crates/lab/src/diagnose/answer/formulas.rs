@@ -17,15 +17,18 @@ use mrbd_formula::{CarriedState, Formula};
 const FORMULA: &str = "formula";
 
 impl Findings<'_> {
-    /// The laws of a fitted hypothesis as effects, with 90 % intervals and what was excited.
-    pub(super) fn formulas(&self, tried: &FittedHypothesis) -> Vec<FoundEffect> {
+    /// The laws of a fitted hypothesis, of all that are told the one of such index, as effects, with 90 % intervals and what was excited.
+    pub(super) fn formulas(&self, index: usize, tried: &FittedHypothesis) -> Vec<FoundEffect> {
         let (h, values) = (&tried.hypothesis, &tried.fit.values);
         let all = intervals(&self.data(), tried);
         let added = (h.nuisances..h.unknowns.len()).collect::<Vec<_>>();
         let own = added.iter().map(|i| values[*i]).collect::<Vec<_>>();
         let own_intervals = added.iter().map(|i| all[*i]).collect::<Vec<_>>();
         let of_law = |law: &Law| {
-            let effect = |written: Written| self.formula(law, &written, &own, &own_intervals);
+            let effect = |written: Written| FoundEffect {
+                round_exponents: self.exponents_of_law(index, law, written.site),
+                ..self.formula(law, &written, &own, &own_intervals)
+            };
             law.written().into_iter().map(effect).collect::<Vec<_>>()
         };
         h.laws(values).iter().flat_map(of_law).collect()
@@ -33,9 +36,8 @@ impl Findings<'_> {
 
     /// Of a class of formulas all but the first.
     pub(super) fn equivalent_formulas(&self) -> Vec<Vec<FoundEffect>> {
-        let discovered = self.found.discovered.as_ref();
-        let others = discovered.map_or(&[][..], |found| found.equals.get(1..).unwrap_or_default());
-        others.iter().map(|tried| self.formulas(tried)).collect()
+        let told = self.found.told_laws().into_iter().enumerate().skip(1);
+        told.map(|(index, tried)| self.formulas(index, tried)).collect()
     }
 
     /// The formula with other numbers, where those held out are followed only so.
@@ -73,6 +75,7 @@ impl Findings<'_> {
             written_as: None,
             states: Vec::new(),
             sets_in_over_m: None,
+            round_exponents: None,
             formula: Some(formula.to_string()),
             units: formula.parameters().iter().map(|p| (p.name.clone(), p.unit.clone())).collect(),
             range: self.range(Site::Top),
@@ -123,6 +126,7 @@ impl Findings<'_> {
             written_as: None,
             states: written.states.iter().map(state).collect(),
             sets_in_over_m: None,
+            round_exponents: None,
             formula: Some(written.text.clone()),
             units: named().map(|p| (p.name.clone(), p.unit.clone())).collect(),
             range: self.range(written.site),

@@ -5,12 +5,13 @@
 //! | [`Findings`] | fitted hypotheses and the windows they were fitted to, before anything is said of them |
 //! | [`summary`] | the types of `diagnosis.json`, written, read and scored as one struct |
 //! | [`rows`] | the rows of the tables beside it, and how they follow from the findings |
-//! | `conclusion`, `own`, `formulas`, `refused`, `updated_wall` | how the summary and the updated wall file follow from the findings |
+//! | `conclusion`, `own`, `formulas`, `round`, `refused`, `updated_wall` | how the summary and the updated wall file follow from the findings |
 
 mod conclusion;
 mod formulas;
 mod own;
 mod refused;
+mod round;
 pub mod rows;
 pub mod summary;
 mod updated_wall;
@@ -26,8 +27,8 @@ use rows::ForceBeforeAfter;
 pub use rows::Tables;
 pub use summary::{
     Against, BeforeAfter, CouldHide, ExplainedBy, FitHeldOut, FittedNumber, FittedToAll, ForceCurve,
-    ForceSize, FoundEffect, FoundState, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, SharedHeldOut,
-    Stages, Summary, TestErrors, WallFit, WindowCounts,
+    ForceSize, FoundEffect, FoundState, KIND, MissingForce, OwnHypothesis, RefusedLaw, Rival, RoundExponents,
+    SharedHeldOut, Stages, Summary, TestErrors, WallFit, WindowCounts,
 };
 
 /// A diagnosis: the verdict with everything it rests on.
@@ -81,6 +82,8 @@ pub struct Findings<'e> {
     pub windows: [Vec<Window>; 2],
     /// The answer, and every hypothesis that was fitted.
     pub found: Found,
+    /// Laws that are told, or effects that are named, each with its round exponents free where it has such.
+    pub freed: Vec<Option<FittedHypothesis>>,
     /// Laws of the user's own, in the order of the experiment.
     pub own: Vec<Option<FittedHypothesis>>,
     /// Of which hypotheses how many fits ended because they had worked as much as they may.

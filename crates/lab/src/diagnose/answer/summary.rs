@@ -187,6 +187,9 @@ pub struct FoundEffect {
     /// A law outside the catalogue: the force or moment on the wall, as formulas of wall files have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub formula: Option<String>,
+    /// Of a formula with round exponents: how far from round they may be.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub round_exponents: Option<RoundExponents>,
     /// The states that it carries along.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<FoundState>,
@@ -196,6 +199,20 @@ pub struct FoundEffect {
     /// What the tests excited of its variables: `x_m` and `v_m_s` at the top, `phi_rad` and `w_rad_s` at joints.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub range: BTreeMap<String, [f64; 2]>,
+}
+
+/// Exponents that a formula has as round numbers, because another does no better.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RoundExponents {
+    /// The formula with these as parameters.
+    pub formula: String,
+    /// What they are told as.
+    pub told: BTreeMap<String, f64>,
+    /// Their 90 % intervals where they are fitted, widened to what they are told as.
+    pub interval: BTreeMap<String, [f64; 2]>,
+    /// Those of thresholds and the like beside exponents that are fitted, in their own units.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub beside: BTreeMap<String, [f64; 2]>,
 }
 
 /// A state that a law carries along, as formulas of wall files have it.

@@ -73,6 +73,24 @@ impl<P: Progress> Trials<'_, P> {
         better.then(|| with_openings(free, points))
     }
 
+    /// A name fitted on with the exponent of one of its effects free; `None` of one that is no power, and where such a fit takes more work
+    /// than it may.
+    pub fn with_exponent_of_name_free(
+        &self,
+        named: &FittedHypothesis,
+        index: usize,
+    ) -> Option<FittedHypothesis> {
+        let power = power(named, index)?;
+        let points = Points::new(self.data.fit.tests, &self.hypothesis(&self.experiment.nuisances, &[]))?;
+        let law = Law::of(power.atom(points.reach[power.site as usize]));
+        let mut additions = named.hypothesis.additions.clone();
+        additions[index] = Addition::Formula(law);
+        let hypothesis = self.hypothesis(&self.experiment.nuisances, &additions);
+        let values = values_beside(&hypothesis, named, index, &law);
+        let name = hypothesis.name();
+        self.within_budget(&name, values.len(), |data| refit(data, hypothesis, named, &values))
+    }
+
     /// A law in the place of an effect, with steps of the wall's numbers where points tell them, and how well windows follow it
     /// so, their states fitted.
     fn start_beside(
@@ -186,6 +204,11 @@ impl Power {
     }
 }
 
+/// The exponent of an effect of a name that is a power of displacement or of velocity.
+pub fn exponent_of(named: &FittedHypothesis, index: usize) -> Option<f64> {
+    power(named, index).map(|power| power.exponent)
+}
+
 /// What power an addition of a fitted hypothesis is; `None` for another effect. Friction is a power of velocity at its end:
 /// nothing lies beyond, and what nearly jumps is not fitted.
 fn power(named: &FittedHypothesis, index: usize) -> Option<Power> {
@@ -216,9 +239,12 @@ fn power(named: &FittedHypothesis, index: usize) -> Option<Power> {
 mod tests {
     use super::super::twin::{Twin, drag, points_with, wall_with};
     use super::*;
+    use crate::diagnose::certainty::intervals;
     use crate::diagnose::fit::Fit;
     use crate::diagnose::hypothesis::example::starter_with;
     use crate::diagnose::trials::try_hypothesis;
+
+    const CUBIC: &str = "[[effects]]\nkind = \"cubic_stiffness\"\ncoefficient_n_per_m3 = 2e6\n";
 
     /// An effect of the starter's wall with this first number.
     fn named(name: &str, value: f64) -> FittedHypothesis {
@@ -243,15 +269,41 @@ mod tests {
         assert_eq!(power(&named("gap", 0.01), 0), None);
     }
 
+    /// A cubic spring fitted to the windows of a wall.
+    fn as_cubic<P: Progress>(trials: &Trials<P>) -> FittedHypothesis {
+        let wall = trials.wall_fits(None).expect("windows").before;
+        let cubic = EffectKind::CubicStiffness.variant(None).expect("a kind without variants");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(cubic)]);
+        try_hypothesis(&trials.data, h, &wall).expect("a wall")
+    }
+
     /// Laws that do better than a cubic spring fitted to the windows of a wall with an effect.
     fn kin_of_cubic(effect: &str) -> Vec<Law> {
         let twin = Twin::new(&wall_with(effect), 1e-5);
         let trials = twin.trials();
-        let wall = trials.wall_fits(None).expect("windows").before;
-        let cubic = EffectKind::CubicStiffness.variant(None).expect("a kind without variants");
-        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(cubic)]);
-        let named = try_hypothesis(&trials.data, h, &wall).expect("a wall");
-        trials.kin_of_wrong_name(&named)
+        trials.kin_of_wrong_name(&as_cubic(&trials))
+    }
+
+    #[test]
+    fn analytic_the_exponent_of_a_name_is_told_as_well_as_noise_lets_it() {
+        let width = |noise_rad: f64| {
+            let twin = Twin::new(&wall_with(CUBIC), noise_rad);
+            let trials = twin.trials();
+            let named = as_cubic(&trials);
+            assert_eq!(exponent_of(&named, 0), Some(3.0));
+            let free = trials.with_exponent_of_name_free(&named, 0).expect("a power");
+            let [.., [low, high]] = intervals(&trials.data, &free)[..] else { panic!("no numbers") };
+            assert!(low < 3.0 && 3.0 < high, "{low} to {high} at {noise_rad} rad");
+            high - low
+        };
+        let [quiet, loud] = [1e-5, 1e-4].map(width);
+        assert!(loud > 3.0 * quiet, "{quiet} and {loud}");
+        let twin = Twin::new(&wall_with(CUBIC), 1e-4);
+        let trials = twin.trials();
+        let gap = EffectKind::Gap.variant(None).expect("a kind without variants");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(gap)]);
+        let gap = FittedHypothesis { hypothesis: h, ..as_cubic(&trials) };
+        assert!(trials.with_exponent_of_name_free(&gap, 0).is_none(), "no power");
     }
 
     #[test]
@@ -263,8 +315,7 @@ mod tests {
         assert_eq!(free.first.shape, Shape::Spring);
         // Noise leaves an exponent of a force that is seen so well open to far less.
         assert!((free.first.numbers[0] - 2.0).abs() < 0.1, "{free:?}");
-        let cubic = "[[effects]]\nkind = \"cubic_stiffness\"\ncoefficient_n_per_m3 = 2e6\n";
-        assert_eq!(kin_of_cubic(cubic), []);
+        assert_eq!(kin_of_cubic(CUBIC), []);
     }
 
     #[test]

@@ -14,6 +14,7 @@
 //! | `left_open` | numbers of a law that the tests fitted leave open, where those held out ask for others |
 //! | `kin` | a name whose exponent, set free, does clearly better |
 //! | [`Guard`] | the same by name, with the laws that each refused |
+//! | [`freed`] | laws told with round exponents, with these set free |
 //! | `curve`, `curve_in_windows` | a force without a formula |
 //! | `equals` | laws that the tests cannot tell apart |
 //! | [`Stability`] | how sure the form of a law is |
@@ -27,6 +28,7 @@ mod curve_in_windows;
 mod elsewhere;
 mod equals;
 mod fitted;
+mod freed;
 mod guards;
 mod kin;
 mod left_open;
@@ -39,7 +41,9 @@ pub(in crate::diagnose) mod twin;
 
 pub use asked::{AskedOfLaws, OpenGap, Scope};
 pub use by_windows::Discovered;
-pub use kin::is_of_catalogue;
+pub use equals::law_of;
+pub use freed::freed;
+pub use kin::{exponent_of, is_of_catalogue};
 pub use points::Points;
 pub use refused::{Guard, Refused};
 pub use search::{Candidate, Searched, search};

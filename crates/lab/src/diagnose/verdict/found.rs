@@ -39,6 +39,13 @@ impl Found {
         all
     }
 
+    /// The laws outside the catalogue that are told: that of the answer, and those that cannot be told from it.
+    pub fn told_laws(&self) -> Vec<&FittedHypothesis> {
+        let others = self.discovered.as_ref().and_then(|found| found.equals.get(1..)).unwrap_or_default();
+        let told = self.verdict.is_formula().then_some(&self.after).into_iter();
+        told.flat_map(|first| std::iter::once(first).chain(others)).collect()
+    }
+
     /// The best law outside the catalogue that was tried, where nothing is told and it all but closes the gap.
     pub fn nearest_of_laws_refused(&self) -> Option<&FittedHypothesis> {
         let error = joint_error(&self.before).filter(|_| self.verdict.is_left_open())?;
