@@ -257,4 +257,20 @@ mod tests {
         assert_eq!(numbers_of(&effect), ["c = 50096 N/m*(s/m) (90 %: 49668 to 50524)"]);
         assert_eq!(ranges(&[effect]), "v from -0.3141 to 0.3373 m/s");
     }
+
+    #[test]
+    fn regress_a_round_exponent_says_how_far_from_round_it_may_be() {
+        let effect: FoundEffect = serde_json::from_value(serde_json::json!({
+            "kind": "formula", "name": "formula", "formula": "-k*max(x-g,0)**2", "place": "top",
+            "parameters": { "k": 5e4, "g": 0.01182 }, "interval": {}, "units": { "k": "N/m**2", "g": "m" },
+            "round_exponents": {
+                "formula": "-k*max(x-g,0)**n", "told": { "n": 2.0 }, "interval": { "n": [1.6241, 2.0] },
+                "beside": { "g": [0.01081, 0.01583] },
+            },
+        }))
+        .expect("an effect");
+        let told = "round exponents: in -k*max(x-g,0)**n, n = 2 may be 1.624 to 2.000 (90 %); g then is 0.01081 to 0.01583 m";
+        assert_eq!(round_exponents(&effect).as_deref(), Some(told));
+        assert_eq!(round_exponents(&FoundEffect { round_exponents: None, ..effect }), None);
+    }
 }
