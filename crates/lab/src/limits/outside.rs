@@ -148,6 +148,8 @@ limits! {
     LEAST_SHARED: usize = 16, "";
     /// Largest difference of two forces over what was excited below which they are one law, over the largest force.
     SAME_FORCE: f64 = 0.02, "share";
+    /// Second atoms fitted beside the best law of one, because a linear look says that they take away most of what it leaves.
+    SECONDS_FITTED: usize = 3, "";
     /// Difference of two forces over what was excited from which a name with its exponent set free is another law, over the
     /// largest force.
     ///

@@ -33,7 +33,7 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// The atoms of a law of two, each alone and fitted from where both are, the best first; without what ends before it is done.
-    fn atoms_alone(&self, both: &FittedHypothesis) -> Vec<Fitted> {
+    pub(super) fn atoms_alone(&self, both: &FittedHypothesis) -> Vec<Fitted> {
         let fit = |atom: Atom| {
             let law = Law::of(atom);
             let (h, values) = self.law_beside(both, &law);

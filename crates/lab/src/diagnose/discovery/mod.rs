@@ -21,6 +21,7 @@
 
 mod alone;
 mod asked;
+mod beside_best;
 mod by_few;
 mod by_windows;
 mod curve;

@@ -103,6 +103,11 @@ impl Refused {
             errors: Some(tried.errors()),
         }
     }
+
+    /// Whether it is this law with these numbers.
+    pub fn is_of(&self, tried: &FittedHypothesis) -> bool {
+        self.values == tried.fit.values && self.hypothesis.name() == tried.hypothesis.name()
+    }
 }
 
 #[cfg(test)]

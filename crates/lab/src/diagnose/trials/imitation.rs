@@ -83,6 +83,16 @@ pub fn seconds(
     Some(found)
 }
 
+/// What a number that does nothing where it stands takes away of what a fit leaves, in squared noise as far as a linear look tells, the
+/// numbers before it free beside it; and where it goes. `None` where it leaves no trace.
+pub fn taken_by(data: &Data, h: &Hypothesis, at: &Fit, number: usize) -> Option<(f64, f64)> {
+    let sums = Sums::at(data, h, at.clone())?;
+    // The numbers before it would be moved without it, too.
+    let (without, _) = sums.left(number, &[], &[])?;
+    let (left, steps) = sums.left(number, &[], &[number])?;
+    Some((without - left, at.values[number] + steps[0]))
+}
+
 /// The best with a little of all the others, linear about it.
 fn with_others<'a>(
     data: &Data,
@@ -131,7 +141,11 @@ impl Sums {
     /// Of a hypothesis that begins with the numbers of another, about where that is and with nothing more.
     fn about(data: &Data, h: &Hypothesis, best: &FittedHypothesis) -> Option<Self> {
         let values = h.values_from(&best.hypothesis, &best.fit.values);
-        let at = Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None };
+        Self::at(data, h, Fit { values, windows: best.fit.windows.clone(), cost: 0.0, covariance: None })
+    }
+
+    /// Of a hypothesis about a fit.
+    fn at(data: &Data, h: &Hypothesis, at: Fit) -> Option<Self> {
         let (slopes, _) = data.fit.slopes(h, &at, None)?;
         let count = h.unknowns.len();
         let mut sums = Self { rr: 0.0, jr: DVector::zeros(count), jj: DMatrix::zeros(count, count) };

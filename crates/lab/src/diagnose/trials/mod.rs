@@ -40,6 +40,7 @@ pub use fitted_hypothesis::{
     follows_to_noise, is_noise, joint_error, kinds, leave_noise, misses_windows, nearly_closes,
 };
 pub use friction::{FRICTION, giving_friction, kind_of};
+pub(super) use imitation::taken_by;
 pub use joint_laws::crushes;
 pub use patterns::{gain_misread, reads_better, set_gain};
 pub use patterns::{opened_as_given, opened_enough, opened_under, opened_windows};
