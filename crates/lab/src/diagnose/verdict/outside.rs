@@ -257,40 +257,44 @@ impl<P: Progress> Gap<'_, P> {
         laws: &[FittedHypothesis],
     ) -> Found {
         // What no law follows may still be measured; it tells a damper at the top from one at a joint that follows as well.
-        let place = self
-            .acts_at_top()
-            .then_some("top")
-            .or_else(|| self.place_of_laws(laws))
-            .or_else(|| place(&self.trials.data, &self.wall.recalibrated, &tried));
+        let place = match self.acts_at_top() {
+            true => Some("top"),
+            // Laws that follow at two places as well leave it open, whatever an effect says that follows less.
+            false => match self.places_of_laws(laws)[..] {
+                [] => place(&self.trials.data, &self.wall.recalibrated, &tried),
+                [one] => Some(one),
+                _ => None,
+            },
+        };
         let verdict = if place.is_some() { Verdict::PlaceOnly } else { Verdict::Unknown };
         let tried = self.trials.ordered(tried);
         let after = self.wall.recalibrated.clone();
         Found { place, other_law, ..self.found(Answer::of(verdict, after), tried) }
     }
 
-    /// Where all laws act that close the gap and are as good as the best; `None` where none does, or they act at several places.
-    fn place_of_laws(&self, laws: &[FittedHypothesis]) -> Option<&'static str> {
+    /// Where the laws act that close the gap and are as good as the best; nowhere where none does.
+    fn places_of_laws(&self, laws: &[FittedHypothesis]) -> Vec<&'static str> {
         let closing = laws.iter().filter(|law| closes(law, self.error));
         let best = closing.clone().map(|law| against(&self.trials.data, law)).fold(f64::INFINITY, f64::min);
         if against(&self.trials.data, &self.wall.recalibrated) - best < WORTH_A_NAME {
-            return None;
+            return Vec::new();
         }
         let equals = closing.filter(|law| against(&self.trials.data, law) < best + EQUIVALENT);
         let atoms = equals.flat_map(|law| law.hypothesis.laws(&law.fit.values)).flat_map(|law| law.atoms());
         let mut places = atoms.map(|atom| atom.site.name()).collect::<Vec<_>>();
+        places.sort_unstable();
         places.dedup();
-        match places[..] {
-            [one] => Some(one),
-            _ => None,
-        }
+        places
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::discovery::twin::{DRAG, SPRING, Twin, wall_with};
-    use crate::diagnose::trials::is_noise;
+    use crate::diagnose::discovery::twin::{DRAG, DRAG_N, SPRING, Twin, drag, wall_with};
+    use crate::diagnose::fit::Fit;
+    use crate::diagnose::formula::{Atom, Site};
+    use crate::diagnose::trials::{is_noise, refit};
 
     /// A stop on one side, of a stiffness in N/m.
     fn stop(k: f64, gap_m: f64) -> String {
@@ -317,6 +321,29 @@ mod tests {
         // Reached by less, and at twice the noise, it does not show.
         assert_eq!(shown(&stop(2e4, 0.03), 1e-4), (true, None));
         assert_eq!(shown("", 5e-5), (true, None), "nothing is hidden");
+    }
+
+    #[test]
+    fn analytic_laws_that_follow_at_two_places_as_well_leave_the_place_open() {
+        let twin = Twin::new(&wall_with(DRAG), 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let error = joint_error(&wall.before).expect("windows");
+        let recalibrated = wall.recalibrated.clone();
+        let gap = Gap::new(&trials, wall, error);
+        let (h, values) = trials.law_beside(&recalibrated, &drag(2.0, DRAG_N));
+        let top = refit(&trials.data, h, &recalibrated, &values).expect("a fit");
+        let there = Law::of(Atom { site: Site::Ground, ..drag(2.0, DRAG_N).first });
+        // As if it followed as well from there.
+        let (h, values) = trials.law_beside(&top, &there);
+        let ground =
+            FittedHypothesis { hypothesis: h, fit: Fit { values, ..top.fit.clone() }, ..top.clone() };
+        let places = |laws: &[&FittedHypothesis]| {
+            gap.places_of_laws(&laws.iter().map(|law| (*law).clone()).collect::<Vec<_>>())
+        };
+        assert_eq!(places(&[&top]), ["top"]);
+        assert_eq!(places(&[&top, &ground]), ["ground", "top"]);
+        assert_eq!(places(&[&recalibrated]), Vec::<&str>::new(), "it closes no gap");
     }
 
     #[test]
