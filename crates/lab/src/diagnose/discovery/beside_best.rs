@@ -1,8 +1,8 @@
 //! Second atoms beside the best law of one, as windows ask for them.
 //!
-//! Points weigh every stretch by its noise and see little of what a law of one atom leaves in few windows: a dead zone that the largest swings
-//! pass was not among the pairs of which they said most, where windows said four hundred natural logarithms of it. How windows change with a
-//! little of any other shape is cheap to find.
+//! Points weigh every stretch by its noise and see little of what a law of one atom leaves in few windows: at 3e-4 rad a damper with a stop was
+//! not among the pairs of which they said most, and windows said 190 natural logarithms of the stop. How windows change with a little of any
+//! other shape is cheap to find.
 
 use super::asked::OpenGap;
 use super::equals::law_of;
@@ -14,9 +14,11 @@ use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, all_but_close
 use crate::limits::{COARSE_WINDOWS, SECONDS_FITTED, WORTH_WINDOWS};
 use rayon::prelude::*;
 
-/// Exponents at which second atoms are looked at, displacements as shares of the largest, and widths as such shares.
+/// Exponents at which second atoms are looked at.
 const EXPONENTS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
+/// Thresholds, as shares of the largest displacement.
 const THRESHOLDS: [f64; 6] = [0.13, 0.28, 0.45, 0.63, 0.8, 0.87];
+/// Displacements or velocities over which an atom saturates, as shares of the largest.
 const WIDTHS: [f64; 3] = [0.1, 0.25, 0.63];
 /// Exponent of what lies beyond a threshold: between a line and a square, of which a fit finds either.
 const BEYOND: f64 = 1.5;
