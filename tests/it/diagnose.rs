@@ -35,7 +35,7 @@ fn analytic_twin_of_a_damped_floor_is_named_and_its_wall_runs() {
     let round = &found["effects"][0]["round_exponents"];
     assert_eq!(round["formula"], "-c*sign(v)*abs(v)**n");
     let [low, high] = [0, 1].map(|i| round["interval"]["n"][i].as_f64().expect("a number"));
-    assert!(low <= 1.0 && 1.0 <= high && high - low < 0.5, "{low} to {high}: no root, and no square");
+    assert!((low..=high).contains(&1.0) && high - low < 0.5, "{low} to {high}: no root, and no square");
     let value = found["effects"][0]["parameters"]["coefficient_n_s_per_m"].as_f64().expect("a number");
     // The target for the median of such errors is 5 %.
     assert!((value / 1500.0 - 1.0).abs() < 0.05, "{value}");
