@@ -155,29 +155,21 @@ struct WrittenAtom<'a> {
     suffix: String,
 }
 
-fn atoms(effects: &[FoundEffect]) -> Vec<WrittenAtom<'_>> {
-    let of = |effect: &'_ FoundEffect| {
-        let text = effect.formula.clone().unwrap_or_default().replace(" + ", " ").replace(" - ", " -");
-        let parts = text.split(' ').map(str::to_owned).collect::<Vec<_>>();
-        let is_alone = parts.len() == 1;
-        parts.into_iter().zip(1..).map(move |(part, index)| {
-            let suffix = if is_alone { String::new() } else { format!("_{index}") };
-            (part.replace("_1", "").replace("_2", ""), suffix)
-        })
-    };
-    let told = |effect| of(effect).map(move |(text, suffix)| (effect, text, suffix)).collect::<Vec<_>>();
-    let all = effects.iter().flat_map(told);
-    all.map(|(effect, text, suffix)| WrittenAtom {
+fn atoms(effect: &FoundEffect) -> Vec<WrittenAtom<'_>> {
+    let FoundEffect { formula, place, .. } = effect;
+    let text = formula.clone().unwrap_or_default().replace(" + ", " ").replace(" - ", " -");
+    let is_alone = !text.contains(' ');
+    let atom = |(index, part): (usize, &str)| WrittenAtom {
         effect,
-        text: format!("{text} at {}", effect.place),
-        suffix,
-    })
-    .collect()
+        text: format!("{} at {place}", part.replace("_1", "").replace("_2", "")),
+        suffix: if is_alone { String::new() } else { format!("_{}", index + 1) },
+    };
+    text.split(' ').enumerate().map(atom).collect()
 }
 
 /// For each hidden atom the one of effects that is written as it is, each once; `None` where they are not written so.
 fn atoms_as_hidden<'a>(answer: &Value, effects: &'a [FoundEffect]) -> Option<Vec<WrittenAtom<'a>>> {
-    let mut found = atoms(effects);
+    let mut found = effects.iter().flat_map(atoms).collect::<Vec<_>>();
     let hidden = list(answer, "/effects");
     if hidden.is_empty() || hidden.len() != found.len() {
         return None;

@@ -9,7 +9,7 @@ use super::equals::law_of;
 use super::fitted::{Fitted, Start};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, WindowFit};
-use crate::diagnose::formula::{Atom, Law, Shape, Side, Site};
+use crate::diagnose::formula::{Atom, Law, Shape, Site};
 use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, all_but_closes, taken_by};
 use crate::limits::{COARSE_WINDOWS, SECONDS_FITTED, WORTH_WINDOWS};
 use rayon::prelude::*;
@@ -80,9 +80,9 @@ impl<P: Progress> Trials<'_, P> {
     }
 }
 
-/// Atoms of the shapes that walls have, other than that of a first one and at its place.
+/// Atoms of the shapes that walls have often, other than that of a first one and at its place.
 fn seconds_of(first: &Atom) -> Vec<Atom> {
-    let of = |shape: Shape| -> Vec<[f64; 2]> {
+    let numbers = |shape: Shape| -> Vec<[f64; 2]> {
         match shape {
             Shape::Spring | Shape::Drag => EXPONENTS.map(|n| [n, 0.0]).to_vec(),
             Shape::OneSidedSpring(_) => vec![[1.0, 0.0], [2.0, 0.0]],
@@ -92,26 +92,14 @@ fn seconds_of(first: &Atom) -> Vec<Atom> {
             _ => Vec::new(),
         }
     };
-    let at_top = [
-        Shape::Spring,
-        Shape::OneSidedSpring(Side::Positive),
-        Shape::OneSidedSpring(Side::Negative),
-        Shape::Stop(Side::Positive),
-        Shape::Stop(Side::Negative),
-        Shape::DeadZone,
-        Shape::Saturation,
-        Shape::Drag,
-        Shape::Opening,
-        Shape::DragSaturation,
-    ];
-    let shapes = at_top.into_iter().filter(|shape| {
-        *shape != first.shape && (first.site == Site::Top || Shape::AT_JOINTS.contains(shape))
-    });
+    let shapes = if first.site == Site::Top { &Shape::ALL[..] } else { &Shape::AT_JOINTS };
+    let others = shapes.iter().filter(|shape| shape.is_common() && **shape != first.shape);
     let size = LITTLE * first.size.abs();
-    let atom = |shape: Shape| {
-        of(shape).into_iter().map(move |numbers| Atom { shape, numbers, size, is_exact: false, ..*first })
+    let atoms = |shape: &Shape| {
+        let atom = |numbers| Atom { shape: *shape, numbers, size, is_exact: false, ..*first };
+        numbers(*shape).into_iter().map(atom).collect::<Vec<_>>()
     };
-    shapes.flat_map(atom).collect()
+    others.flat_map(atoms).collect()
 }
 
 #[cfg(test)]
@@ -120,6 +108,7 @@ mod tests {
     use super::super::points::Points;
     use super::super::twin::{DRAG, SPRING, Twin, drag_and_spring, open_gap, wall_with};
     use super::*;
+    use crate::diagnose::formula::Side;
     use crate::diagnose::hypothesis::Addition;
     use crate::diagnose::trials::refit;
 
@@ -152,12 +141,14 @@ mod tests {
     }
 
     #[test]
-    fn analytic_second_atoms_are_of_other_shapes_and_at_the_place_of_the_first() {
+    fn analytic_second_atoms_are_of_every_other_shape_that_walls_have_often_and_at_the_place_of_the_first() {
         let first = super::super::twin::drag(2.0, 300.0).first;
-        let all = seconds_of(&first);
-        assert!(all.iter().all(|atom| atom.shape != Shape::Drag && atom.site == Site::Top));
-        let joint = seconds_of(&Atom { site: Site::Ground, ..first });
-        assert!(!joint.is_empty() && joint.len() < all.len());
-        assert!(joint.iter().all(|atom| Shape::AT_JOINTS.contains(&atom.shape)));
+        for (site, shapes) in [(Site::Top, &Shape::ALL[..]), (Site::Ground, &Shape::AT_JOINTS)] {
+            let all = seconds_of(&Atom { site, ..first });
+            assert!(all.iter().all(|atom| atom.site == site));
+            let looked_at = |shape: &Shape| all.iter().any(|atom| atom.shape == *shape);
+            let asked = |shape: &&Shape| shape.is_common() && **shape != first.shape;
+            assert!(shapes.iter().filter(asked).all(looked_at) && !looked_at(&first.shape), "{all:?}");
+        }
     }
 }

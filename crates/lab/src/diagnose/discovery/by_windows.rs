@@ -132,7 +132,7 @@ impl<P: Progress> Trials<'_, P> {
                 refused.extend(lacking.map(|one| Refused::in_windows(&one.law, vec![Guard::LacksAtom])));
             }
             let lacked = match closing.is_empty() && of_two.is_empty() {
-                true => self.of_two_that_one_lacks(gap, &searched, &simpler, &pairs, asked),
+                true => self.of_two_that_one_lacks(&simpler, &pairs, &of_pairs),
                 false => None,
             };
             let is_lacked = |one: &Refused| lacked.as_ref().is_some_and(|two| one.is_of(&two.law));
@@ -211,19 +211,18 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// The law of two atoms that all of one lack, where none of these holds: nothing speaks against it but that its second atom gains less
-    /// than one must beside a law that holds, and it says more than each of its atoms alone.
+    /// than one must beside a law that holds, and it says more than the best of one and than each of its atoms alone.
     fn of_two_that_one_lacks(
         &self,
-        gap: &OpenGap,
-        searched: &Searched,
         best_of_one: &FittedHypothesis,
         pairs: &[Fitted],
-        asked: &impl AskedOfLaws,
+        refused: &[Refused],
     ) -> Option<Fitted> {
-        let holds = |two: &&Fitted| {
-            self.says_more(best_of_one, &two.law) && self.guards(gap, searched, two, None, asked).is_empty()
+        let by_second_atom = |two: &FittedHypothesis| {
+            refused.iter().any(|one| one.guards == [Guard::SecondAtom] && one.is_of(two))
         };
-        let two = pairs.iter().find(holds)?;
+        let may = |two: &&Fitted| by_second_atom(&two.law) && self.says_more(best_of_one, &two.law);
+        let two = pairs.iter().find(may)?;
         let alone = self.atoms_alone(&two.law);
         let is_worth_it = !alone.is_empty() && alone.iter().all(|one| self.says_more(&one.law, &two.law));
         is_worth_it.then(|| two.clone())
@@ -325,42 +324,20 @@ impl<P: Progress> Trials<'_, P> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::twin::{DRAG, SPRING, Twin, drag_and_spring, open_gap, wall_with};
+    use super::super::twin::{DRAG, SPRING, Twin, drag_and_spring, wall_with};
     use super::*;
     use crate::diagnose::hypothesis::Addition;
     use crate::diagnose::trials::refit;
 
-    /// Nothing is asked beside the windows.
-    struct Nothing;
-
-    impl AskedOfLaws for Nothing {
-        fn is_worth_two(&self, _: &FittedHypothesis, _: &FittedHypothesis) -> bool {
-            false
-        }
-
-        fn follows_held_out(&self, _: &FittedHypothesis) -> bool {
-            true
-        }
-
-        fn leaves_nothing(&self, _: &FittedHypothesis) -> bool {
-            true
-        }
-
-        fn other_law(&self, _: &FittedHypothesis) -> Vec<Guard> {
-            Vec::new()
-        }
-    }
-
     /// Whether a drag lacks an atom beside which a spring on one side stands, on a wall with effects, and whether both are told where it
-    /// does not hold; though a second atom were worth nothing beside one that does.
-    fn drag_lacks_one(effects: &str) -> [bool; 2] {
+    /// does not hold and this refuses both.
+    fn drag_lacks_one(effects: &str, guards: &[Guard]) -> [bool; 2] {
         let twin = Twin::new(&wall_with(effects), 1e-4);
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows");
         let points =
             Points::new(trials.data.fit.tests, &trials.hypothesis(&trials.experiment.nuisances, &[]));
-        let points = points.expect("points");
-        let both = drag_and_spring(&points);
+        let both = drag_and_spring(&points.expect("points"));
         let fitted = |law: Law| {
             let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(law)]);
             let own = wall.recalibrated.fit.values.iter().copied();
@@ -368,16 +345,18 @@ mod tests {
             refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit")
         };
         let (two, one) = (Fitted::new(fitted(both)), fitted(Law { second: None, ..both }));
-        let gap = OpenGap { error: 10.0, ..open_gap(&wall, Scope::TwoAtoms) };
-        let searched = search(&points).expect("laws");
+        let refused = [Refused::in_windows(&two.law, guards.to_vec())];
         let pairs = [two];
-        let told = trials.of_two_that_one_lacks(&gap, &searched, &one, &pairs, &Nothing);
+        let told = trials.of_two_that_one_lacks(&one, &pairs, &refused);
         [trials.lacks_an_atom(&one, &pairs), told.is_some()]
     }
 
     #[test]
     fn analytic_a_law_lacks_an_atom_where_one_of_two_says_more_in_tests_not_fitted_too() {
-        assert_eq!(drag_lacks_one(&[DRAG, SPRING].concat()), [true; 2]);
-        assert_eq!(drag_lacks_one(DRAG), [false; 2]);
+        let (both, by_gain) = ([DRAG, SPRING].concat(), [Guard::SecondAtom]);
+        assert_eq!(drag_lacks_one(&both, &by_gain), [true; 2]);
+        assert_eq!(drag_lacks_one(DRAG, &by_gain), [false; 2]);
+        let more = [Guard::HeldOut, Guard::SecondAtom];
+        assert_eq!(drag_lacks_one(&both, &more), [true, false], "more speaks against it than its gain");
     }
 }
