@@ -46,7 +46,7 @@ use trials::{
     opened_as_given, opened_enough, opened_windows, reads_better, set_gain, typical_error,
 };
 pub use verdict::Verdict;
-use verdict::{Found, beside_beds, judge, judge_laws, leaves_noise, on_beds};
+use verdict::{Found, LawsAsked, beside_beds, judge, judge_laws, leaves_noise, on_beds};
 
 /// The windows that count, and the answer in them.
 type Answered = ([Vec<Window>; 2], Found);
@@ -119,8 +119,8 @@ impl<P: Progress> Flow<'_, P> {
         let law = found.nearest_of_laws_refused()?;
         let opened = opened_enough(&Data::new(&self.tests, windows), law)?;
         let first_fits = self.first_fits_in(&opened, Some(&found.recalibrated.fit.values)).ok()?;
-        let told = judge(&self.trials(&opened), first_fits);
-        told.verdict.is_formula().then_some((opened, told))
+        let told = judge_laws(&self.trials(&opened), first_fits, LawsAsked::UpToTwoAtoms)?;
+        Some((opened, told))
     }
 
     /// A law outside the catalogue, and its windows, where tests held out show what those fitted do not: every other window of them is
@@ -132,7 +132,8 @@ impl<P: Progress> Flow<'_, P> {
         let looked_at = as_fitted(&self.tests);
         let given = std::mem::replace(&mut self.tests, looked_at);
         let first_fits = self.first_fits_in(&shared, Some(&found.recalibrated.fit.values)).ok();
-        let told = first_fits.and_then(|first_fits| judge_laws(&self.trials(&shared), first_fits));
+        let told = first_fits
+            .and_then(|first_fits| judge_laws(&self.trials(&shared), first_fits, LawsAsked::ToldEarly));
         self.tests = given;
         told.filter(|told| keeps_what_was_fitted(found, told, windows)).map(|told| (shared, told))
     }

@@ -6,12 +6,13 @@
 
 use super::asked::OpenGap;
 use super::equals::law_of;
-use super::fitted::{Fitted, Start};
+use super::fitted::{Fitted, LOOK_STEPS, Start};
 use super::points::Points;
 use crate::Progress;
 use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Atom, Law, Site};
-use crate::diagnose::trials::{Trials, all_but_closes};
+use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, all_but_closes};
+use crate::limits::NEAR_BEST;
 
 impl<P: Progress> Trials<'_, P> {
     /// Laws of one atom that were fitted to windows, and the best of them at the other place if it was not fitted there and all but closes
@@ -27,13 +28,28 @@ impl<P: Progress> Trials<'_, P> {
         let Some(law) = law_of(&best.law) else { return singles };
         let known = singles.iter().filter_map(|one| law_of(&one.law)).collect::<Vec<_>>();
         let is_new = |there: &Law| !known.iter().any(|own| is_of_kind(&own.first, &there.first));
-        let start = |there: Law| {
-            let (hypothesis, values) = self.law_beside(&best.law, &there);
-            Start { hypothesis, values, nats: nats(&best.law.fit.windows) }
-        };
-        let starts = elsewhere(&law, points).filter(is_new).map(start).into_iter().collect();
-        let others = self.laws_in_windows(gap, starts, "the best law at its other place");
+        let there = elsewhere(&law, points).filter(is_new);
+        let few = Few::of_coarse(self.data.fit, &best.law.fit);
+        let start = there.and_then(|there| self.start_elsewhere(few.as_ref(), &best.law, &there));
+        let others =
+            self.laws_in_windows(gap, start.into_iter().collect(), "the best law at its other place");
         self.in_order([singles, others].concat())
+    }
+
+    /// A law in the place of another, fitted coarsely to `few` windows where there are many; `None` where it comes nowhere near that one there.
+    fn start_elsewhere(&self, few: Option<&Few>, best: &FittedHypothesis, there: &Law) -> Option<Start> {
+        let (hypothesis, values) = self.law_beside(best, there);
+        let Some(few) = few else {
+            return Some(Start { nats: nats(&best.fit.windows), hypothesis, values });
+        };
+        let data = Data { fit: few.problem(), held_out: few.nothing() };
+        let own = few.of(best);
+        let fit = self.within_budget_of(&data, &there.name(), values.len(), |data| {
+            let begun = data.fit.states_to_begin(&hypothesis, &values, &own.states(), LOOK_STEPS)?;
+            data.fit.fit_coarsely(&hypothesis, begun)
+        })?;
+        let nats = [&fit, &own.fit].map(|fit| nats(&fit.windows));
+        (nats[0] < nats[1] + NEAR_BEST).then(|| Start { hypothesis, values: fit.values, nats: nats[0] })
     }
 }
 
@@ -60,11 +76,12 @@ fn elsewhere(law: &Law, points: &Points) -> Option<Law> {
 #[cfg(test)]
 mod tests {
     use super::super::asked::Scope;
-    use super::super::twin::{OPENING, Twin, open_gap, wall_with};
+    use super::super::twin::{DRAG, DRAG_N, OPENING, Twin, drag, open_gap, wall_with};
     use super::*;
     use crate::diagnose::formula::Shape;
     use crate::diagnose::hypothesis::Addition;
     use crate::diagnose::trials::{against, refit};
+    use crate::limits::COARSE_WINDOWS;
 
     #[test]
     fn analytic_a_law_of_the_top_that_is_fitted_at_the_ground_alone_is_found_at_the_top() {
@@ -95,5 +112,24 @@ mod tests {
         // Those that are known already are not fitted again.
         let again = trials.with_other_place(&gap, &points, all.clone());
         assert_eq!(again.len(), all.len());
+    }
+
+    #[test]
+    fn analytic_a_place_that_few_windows_speak_against_is_not_tried_in_all() {
+        let twin = Twin::new(&wall_with(DRAG), 1e-5);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let law = drag(2.0, DRAG_N);
+        let (h, values) = trials.law_beside(&wall.recalibrated, &law);
+        let best = refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit");
+        let few = Few::new(trials.data.fit, COARSE_WINDOWS, 1.0);
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[]);
+        let points = Points::new(trials.data.fit.tests, &h).expect("points");
+        let there = elsewhere(&law, &points).expect("a law of the ground");
+        let start = |law: &Law| trials.start_elsewhere(Some(&few), &best, law);
+        // This twin swings as a whole: a drag of the ground comes as near as one of the top, and a spring nowhere.
+        assert!(start(&law).is_some() && start(&there).is_some());
+        let spring = Atom { shape: Shape::Spring, numbers: [3.0, 0.0], ..there.first };
+        assert!(start(&Law::of(spring)).is_none());
     }
 }

@@ -1,13 +1,14 @@
 //! Joints that give beside an effect, where that is not enough on sharp edges and windows did not ask for beds alone.
 
 use super::found::Found;
-use super::names;
+use super::judge::{Answer, Gap};
 use super::on_beds::{Standing, comes_near, following_alone, follows, is_worth_it};
 use super::remainder::is_soft;
+use super::{Verdict, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{FittedHypothesis, Trials, WallFits, does_something};
-use crate::limits::BEDS_BESIDE_EFFECTS;
+use crate::limits::{BEDS_BESIDE_EFFECTS, EQUIVALENT};
 
 /// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
 pub struct BedsBeside {
@@ -94,6 +95,26 @@ impl BedsBeside {
     }
 }
 
+impl<P: Progress> Gap<'_, P> {
+    /// Joints that give beside an effect, unless two effects on sharp edges close the gap and say more: a gap with other impacts follows as a
+    /// bed with a damper, to 1.02 noises. Where neither says more, both are the answer.
+    pub(super) fn unless_pairs_do_better(&self, on_beds: Found, on_edges: Option<&Answer>) -> Option<Found> {
+        let Some(pair) = on_edges else { return Some(on_beds) };
+        let gain = self.gain(&on_beds.after, &pair.after);
+        if gain > EQUIVALENT {
+            return None;
+        }
+        if gain < -EQUIVALENT {
+            return Some(on_beds);
+        }
+        let of_both = names_of_all(&on_beds.after, [&pair.after]);
+        let is_new = |name: &String| !on_beds.equivalent.contains(name);
+        let more = of_both.into_iter().filter(is_new).collect::<Vec<_>>();
+        let equivalent = [on_beds.equivalent, more].concat();
+        Some(Found { verdict: Verdict::Class, equivalent, ..on_beds })
+    }
+}
+
 /// Whether an effect beside joints that give could be told: a strip whose top is held shows one moment, and a wall with beds of its own
 /// gets no others.
 fn may_have_beds_beside<P: Progress>(trials: &Trials<P>) -> bool {
@@ -125,4 +146,40 @@ fn contains(both: &FittedHypothesis, effect: &FittedHypothesis) -> bool {
 /// Whether an addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.
 fn is_effect(addition: &Addition) -> bool {
     addition.role().is_some_and(|role| !role.is_at_impacts())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::discovery::twin::{DRAG, Twin, wall_with};
+    use crate::diagnose::trials::joint_error;
+
+    #[test]
+    fn analytic_a_bed_beside_an_effect_gives_way_to_two_effects_on_sharp_edges_that_say_more() {
+        let twin = Twin::new(&wall_with(DRAG), 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let error = joint_error(&wall.before).expect("windows");
+        let WallFits { before, recalibrated } = wall.clone();
+        let gap = Gap::new(&trials, wall, error);
+        // Of a window that is followed to less than its noise, natural logarithms are half of the squares.
+        let says = |more: f64| {
+            let mut tried = recalibrated.clone();
+            let window = &mut tried.fit.windows[0];
+            window.squares = window.freedom - 2.0 * (2.0 * EQUIVALENT + more);
+            tried
+        };
+        let on_beds =
+            |after| Found { after, ..Found::in_vain(Verdict::Named, &before, recalibrated.clone()) };
+        let verdict = |more: f64| {
+            let pair = Answer::of(Verdict::Named, says(more));
+            gap.unless_pairs_do_better(on_beds(says(0.0)), Some(&pair)).map(|found| found.verdict)
+        };
+        assert_eq!(verdict(EQUIVALENT + 1.0), None, "two effects say more");
+        assert_eq!(verdict(0.5 * EQUIVALENT), Some(Verdict::Class));
+        assert_eq!(verdict(-0.5 * EQUIVALENT), Some(Verdict::Class));
+        assert_eq!(verdict(-EQUIVALENT - 1.0), Some(Verdict::Named), "the bed says more");
+        let alone = gap.unless_pairs_do_better(on_beds(says(0.0)), None).map(|found| found.verdict);
+        assert_eq!(alone, Some(Verdict::Named));
+    }
 }

@@ -7,20 +7,18 @@ use super::at_impacts::{
 };
 use super::beds_beside::BedsBeside;
 use super::found::Found;
+use super::names_of_all;
 use super::on_beds::{on_beds_instead, on_beds_last};
 use super::worth_naming::{could_show, place, worth_two};
 use super::{OtherLaw, Verdict};
-use super::{name_of_number, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::discovery::Discovered;
-use crate::diagnose::experiment::Experiment;
-use crate::diagnose::hypothesis::{Addition, Nuisance, candidates};
+use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{
     FirstFits, FittedHypothesis, Trials, WallFits, against, best_answer, closes, does_something, follow_few,
     is_noise, joint_error, kinds,
 };
-use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, MEASURED_PRIOR, MOVED_SHARE, WORTH_A_NAME, WORTH_PAIRS};
-use mrbd_kernel::model::{EffectKind, Role};
+use crate::limits::{EQUIVALENT, HELD_OUT_ERROR, WORTH_A_NAME, WORTH_PAIRS};
 
 /// A hypothesis that may be the answer.
 pub(super) struct Answer {
@@ -69,16 +67,29 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
 }
 
 /// A law outside the catalogue and nothing else; `None` where none holds, or an effect does by name.
-pub fn judge_laws<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Option<Found> {
+pub fn judge_laws<P: Progress>(trials: &Trials<P>, first_fits: FirstFits, asked: LawsAsked) -> Option<Found> {
     let FirstFits { before, recalibrated, singles } = first_fits;
     let error = joint_error(&before)?;
     let gap = Gap::new(trials, WallFits { before, recalibrated }, error);
     if gap.named(&singles, &gap.wall.recalibrated).is_some() {
         return None;
     }
-    let told = gap.told_early(&singles)?;
+    let early = gap.told_early(&singles);
+    let told = match asked {
+        LawsAsked::ToldEarly => early?,
+        LawsAsked::UpToTwoAtoms => early.or_else(|| gap.of_up_to_two_atoms(&singles))?,
+    };
     let found = gap.placed_by(Some(told), None, singles);
     found.verdict.is_formula().then_some(found)
+}
+
+/// Which laws outside the catalogue are an answer where nothing else is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LawsAsked {
+    /// Those that are told before joints that give are tried.
+    ToldEarly,
+    /// All of one atom and of two that hold.
+    UpToTwoAtoms,
 }
 
 /// A gap between model and measurement, or none.
@@ -169,13 +180,16 @@ impl<P: Progress> Gap<'_, P> {
         }
         // A force that is told at the top is none of joints that give, and these take long to fit.
         let early = early.or_else(|| if one.is_none() { self.told_early(&singles) } else { None });
-        let may_give = one.is_none() && early.is_none();
+        if one.is_none() && early.as_ref().is_some_and(Discovered::is_all_of_one_atom) {
+            return self.placed_by(early, None, singles);
+        }
+        let may_give = one.is_none() && early.is_none() && !self.closes_by_law_at_top();
         let beds = if may_give { BedsBeside::an_effect(self.trials, &singles) } else { None };
         let follow = beds.as_ref().and_then(|beds| beds.following(self.trials, &self.wall, &singles));
-        if let Some(found) = follow {
+        let (answer, tried) = self.with_pairs(one, singles);
+        if let Some(found) = follow.and_then(|found| self.unless_pairs_do_better(found, answer.as_ref())) {
             return found;
         }
-        let (answer, tried) = self.with_pairs(one, singles);
         let answer = answer.filter(|answer| !gives_way(answer, &early));
         // Beside a second effect factors on impacts may be found that follow to the noise, and say no more than that impacts are
         // those of another formulation. What leaves more has no name by what it leaves between them.
@@ -254,7 +268,7 @@ impl<P: Progress> Gap<'_, P> {
 
     /// The best hypothesis that closes the gap, or leaves noise between impacts, is an answer, and is worth its name beside a
     /// simpler one; with what cannot be told from it.
-    fn named(&self, tried: &[FittedHypothesis], simpler: &FittedHypothesis) -> Option<Answer> {
+    pub(super) fn named(&self, tried: &[FittedHypothesis], simpler: &FittedHypothesis) -> Option<Answer> {
         self.closing(tried, simpler).or_else(|| {
             let NamedBetween { best, near } = named_between(self.trials, tried, simpler)?;
             let equivalent = if near.is_empty() { Vec::new() } else { names_of_all(best, near) };
@@ -311,68 +325,6 @@ impl<P: Progress> Gap<'_, P> {
         let others = closing.iter().filter(as_good);
         let mut others = others.filter(|t| !t.hypothesis.additions.contains(&Addition::Placebo)).peekable();
         if others.peek().is_none() { Vec::new() } else { names_of_all(best, others.copied()) }
-    }
-
-    /// A gap that the wall's own numbers close: an answer, unless what moved had not been known and effects do as well.
-    fn within_the_wall(self, singles: Vec<FittedHypothesis>) -> Found {
-        let unknown = self.moved_unknown();
-        if !unknown.is_empty() {
-            let instead = self.effects_instead();
-            if let Some(answer) = self.as_good_as_the_wall(&instead, &unknown) {
-                return self.found(answer, instead);
-            }
-        }
-        let after = self.wall.recalibrated.clone();
-        self.found(Answer::of(Verdict::Recalibrated, after), singles)
-    }
-
-    /// Uncertain numbers of the wall that were not known and moved.
-    fn moved_unknown(&self) -> Vec<Nuisance> {
-        let FittedHypothesis { hypothesis, fit, .. } = &self.wall.recalibrated;
-        let moved = |nuisance: &&Nuisance| {
-            let key = match nuisance {
-                Nuisance::Number(number, _) => number.key.to_owned(),
-                Nuisance::Coefficient(l, _) => format!("C_{}", l + 1),
-            };
-            let found = hypothesis.unknowns.iter().zip(&fit.values).find(|(u, _)| u.key == key);
-            let change = found.map_or(0.0, |(u, value)| (value / u.start - 1.0).abs());
-            nuisance.is_wide() && change > MOVED_SHARE
-        };
-        self.trials.experiment.nuisances.iter().filter(moved).copied().collect()
-    }
-
-    /// Effects in place of numbers of the wall, as if these were known.
-    fn effects_instead(&self) -> Vec<FittedHypothesis> {
-        let known = |n: &Nuisance| match *n {
-            Nuisance::Number(number, sd) => Nuisance::Number(number, sd.min(MEASURED_PRIOR)),
-            Nuisance::Coefficient(l, sd) => Nuisance::Coefficient(l, sd.min(MEASURED_PRIOR)),
-        };
-        let Experiment { nuisances, wall, .. } = self.trials.experiment;
-        let nuisances = nuisances.iter().map(known).collect::<Vec<_>>();
-        // A second spring that hardly yields is the floor's own, by another name.
-        let other_law = |a: &Addition| a.role().is_some_and(|role| role != Role::Memory);
-        let sets = candidates(wall.parameters()).into_iter().filter(other_law).map(|a| vec![a]);
-        let what = "effects in place of unknown numbers of the wall";
-        self.trials.try_all(what, &nuisances, &[&self.wall.before], &sets.collect::<Vec<_>>())
-    }
-
-    /// The class of an effect that does as well as numbers of the wall that were not known, and of these.
-    fn as_good_as_the_wall(&self, instead: &[FittedHypothesis], unknown: &[Nuisance]) -> Option<Answer> {
-        let limit = against(&self.trials.data, &self.wall.recalibrated) + EQUIVALENT;
-        let answer = self.named(instead, &self.wall.before)?;
-        if against(&self.trials.data, &answer.after) >= limit {
-            return None;
-        }
-        let mut equivalent = answer.equivalent;
-        if equivalent.is_empty() {
-            equivalent = names(&answer.after);
-        }
-        equivalent.extend(unknown.iter().map(|n| match n {
-            Nuisance::Number(number, _) => name_of_number(number),
-            Nuisance::Coefficient(..) => EffectKind::ImpactDissipation.name().to_owned(),
-        }));
-        equivalent.dedup();
-        Some(Answer { equivalent, ..Answer::of(Verdict::Class, answer.after) })
     }
 
     /// What one hypothesis gains over another.

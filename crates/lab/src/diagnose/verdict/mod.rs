@@ -3,6 +3,7 @@
 //! | module | idea |
 //! | --- | --- |
 //! | `judge` | nothing missing, the wall's own numbers, one effect, two, or a place |
+//! | `within_the_wall` | a gap that the wall's own numbers close |
 //! | `found` | the verdict, and what it rests on |
 //! | `worth_naming` | whether tests could show an effect, whether a second one shows, and where a force is missing |
 //! | `at_impacts` | what is left at impacts, where formulations of a contact part |
@@ -22,12 +23,13 @@ mod on_beds;
 mod other_law;
 mod outside;
 mod remainder;
+mod within_the_wall;
 mod worth_naming;
 
 use super::hypothesis::{Addition, WallNumber};
 use super::trials::{FittedHypothesis, kind_of};
 pub use found::Found;
-pub use judge::{judge, judge_laws};
+pub use judge::{LawsAsked, judge, judge_laws};
 pub use on_beds::{beside_beds, on_beds};
 pub use other_law::{OtherLaw, Trend};
 pub use remainder::{NextRival, Remainder, model_error_rad};

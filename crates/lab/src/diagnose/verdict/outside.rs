@@ -71,6 +71,18 @@ impl<P: Progress> Gap<'_, P> {
         (found.is_outside_catalogue() && is_told && self.leaves_nothing(best)).then_some(found)
     }
 
+    /// Whether a law outside the catalogue that was looked for closes the gap at the top, told early or not: of forty walls on beds, most with
+    /// an effect beside them, none had such a law.
+    pub(super) fn closes_by_law_at_top(&self) -> bool {
+        let best = self.early.get().and_then(|early| early.equals.first());
+        best.is_some_and(|law| law.hypothesis.additions[0].place() == "top")
+    }
+
+    /// Laws outside the catalogue of up to two atoms.
+    pub(super) fn of_up_to_two_atoms(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
+        self.looked_for(singles, &[], Scope::TwoAtoms, self.early.get())
+    }
+
     /// A law of one atom outside the catalogue that shows where the wall follows the tests without it: all windows together leave noise,
     /// and few of them show a law that no effect of the catalogue imitates.
     pub(super) fn law_that_shows(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
@@ -359,6 +371,9 @@ mod tests {
             assert!(gap.law_beyond_impacts(std::slice::from_ref(&law)).is_none(), "an effect does as well");
             assert!(gap.outdoes(&law, &gap.wall.recalibrated), "a name that leaves more gives way");
             assert!(!gap.outdoes(&law, &law), "one that leaves as little stays");
+            assert!(!gap.closes_by_law_at_top(), "none was looked for before");
+            gap.told_early(&[]);
+            assert!(gap.closes_by_law_at_top());
             Some(law.hypothesis.name())
         };
         assert_eq!(beyond(&stop(2e4, 0.02)).as_deref(), Some("k*max(-x-g,0) at top"));
