@@ -76,6 +76,9 @@ struct Options {
     /// Calibrate twins, and score their intervals, instead of diagnosing cases.
     #[arg(long)]
     calibrations: bool,
+    /// Find out what laws show at all that were diagnosed and not told: the same cases with the law in the wall file.
+    #[arg(long, requires = "laws", conflicts_with_all = ["make_only", "score_only"])]
+    visible: bool,
     /// Score what has been diagnosed and stop.
     #[arg(long, conflicts_with = "make_only")]
     score_only: bool,
@@ -115,7 +118,10 @@ fn go(options: &Options) -> Result<(), String> {
         let bar = progress(chosen.len());
         let done: Vec<Result<(), String>> = pool.install(|| {
             let one = |case: &cases::draw::Case| {
-                let done = make_and_diagnose(case, &motions, &folder(case), program.as_ref());
+                let done = match program.as_ref().filter(|_| options.visible) {
+                    Some(program) => laws::visible::with_the_law(case, &folder(case), program),
+                    None => make_and_diagnose(case, &motions, &folder(case), program.as_ref()),
+                };
                 bar.inc(1);
                 done.map_err(|e| format!("case {}, {}: {e}", case.number, case.kind.name()))
             };

@@ -7,6 +7,7 @@
 //! | [`excited`] | where the tests went, and the force that was there |
 //! | [`found`] | the formulas of an answer, held against the truth |
 //! | [`refused`] | what each guard keeps out |
+//! | [`visible`] | what a law that was missed shows at all |
 //! | [`row`], [`targets`] | one row a case, and what was reached |
 
 pub mod atom;
@@ -16,5 +17,6 @@ pub mod found;
 pub mod refused;
 pub mod row;
 pub mod targets;
+pub mod visible;
 
 pub use row::LawRow;

@@ -14,10 +14,12 @@ use super::found::{
     Excited, curve_error, function_error, is_spelled_as, number_errors, round_exponents_hold,
 };
 use super::refused::RefusedRow;
+use super::visible;
 
 /// A force that is off by less than this share is the right function.
 pub const RIGHT_FUNCTION: f64 = 0.1;
-/// What speaks against the recalibrated wall from which a law is visible, in natural logarithms of likelihood.
+/// What a law gains over the recalibrated wall from which it is visible, in natural logarithms of likelihood; of rows that do not know it,
+/// what speaks against that wall.
 const VISIBLE_NATS: f64 = 60.0;
 
 /// A diagnosed case.
@@ -65,6 +67,9 @@ pub struct LawRow {
     pub refused: Option<Vec<RefusedRow>>,
     /// What speaks against the wall with its own numbers fitted, in natural logarithms of likelihood.
     pub against_recalibrated: Option<f64>,
+    /// What the true law gains over that wall, of a law that was not told; none where nothing of it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub law_gains: Option<f64>,
     /// Windowed error of the held-out test over the noise, before and after.
     pub before: Option<f64>,
     pub after: Option<f64>,
@@ -93,8 +98,11 @@ impl LawRow {
     ///
     /// # Errors
     /// Text for people if a file cannot be read.
-    pub fn load(case: &Path) -> Result<Option<Self>, String> {
-        Ok(Diagnosed::load(case)?.map(|case| Self::new(&case.answer, case.diagnosis.as_ref(), &case.outcome)))
+    pub fn load(folder: &Path) -> Result<Option<Self>, String> {
+        let Some(case) = Diagnosed::load(folder)? else { return Ok(None) };
+        let row = Self::new(&case.answer, case.diagnosis.as_ref(), &case.outcome);
+        let law_gains = if row.right() { None } else { visible::gain(&case, folder)? };
+        Ok(Some(Self { law_gains, ..row }))
     }
 
     fn new(answer: &Value, diagnosis: Option<&Summary>, outcome: &Outcome) -> Self {
@@ -133,6 +141,7 @@ impl LawRow {
                 d.refused.iter().filter_map(|law| RefusedRow::new(answer, law, &points)).collect()
             }),
             against_recalibrated: diagnosis.map(|d| d.against.recalibrated),
+            law_gains: None,
             before: diagnosis.and_then(|d| held_out(d, |error| error.before)),
             after: diagnosis.and_then(|d| held_out(d, |error| error.after)),
             seconds: outcome.seconds,
@@ -145,9 +154,11 @@ impl LawRow {
         matches!(self.verdict.as_str(), "formula" | "formula_class")
     }
 
-    /// Whether the hidden law shows at all; a diagnosis that failed is held against the program.
+    /// Whether the hidden law shows at all, by what the true one gains where that is known; a diagnosis that failed is held against the
+    /// program.
     pub fn visible(&self) -> bool {
-        self.against_recalibrated.is_none_or(|nats| nats > VISIBLE_NATS)
+        let speaks = self.law_gains.or(self.against_recalibrated);
+        self.right() || speaks.is_none_or(|nats| nats > VISIBLE_NATS)
     }
 
     /// Whether every atom makes a part of the force, where tests were fitted, without which that would be another.

@@ -75,6 +75,11 @@ pub fn table(rows: &[LawRow]) -> String {
     }
     let joint = group(&["joint"]);
     add("a law at a joint: the formula, alone or in a class", "≥ 70 %", told(&joint, LawRow::right));
+    // Of rows without the gain of the true law, no trace cannot be told from one that is small.
+    if joint.iter().any(|row| row.law_gains.is_some()) {
+        let shows = joint.iter().copied().filter(|row| row.visible()).collect::<Vec<_>>();
+        add("– of those that show", "", told(&shows, LawRow::right));
+    }
     let memory = group(&["memory"]);
     add("a memory: the formula, alone or in a class", "≥ 70 %", told(&memory, LawRow::right));
     add("– the force within 10 %", "≥ 85 %", told(&memory, LawRow::function_right));

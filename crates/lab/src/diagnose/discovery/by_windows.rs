@@ -42,6 +42,8 @@ pub struct Discovered {
     pairs: Vec<Fitted>,
     /// What the best law of two atoms says more over points than the first that holds, in natural logarithms of likelihood.
     second_says_more: Option<f64>,
+    /// Whether windows chose among laws, of which points say next to nothing.
+    windows_chose: bool,
 }
 
 impl Discovered {
@@ -59,6 +61,7 @@ impl Discovered {
             singles: Vec::new(),
             pairs: Vec::new(),
             second_says_more: None,
+            windows_chose: false,
         }
     }
 
@@ -71,6 +74,11 @@ impl Discovered {
     pub fn is_all_of_one_atom(&self) -> bool {
         let of_one = |law: &FittedHypothesis| law_of(law).is_some_and(|law| law.second.is_none());
         self.equals.first().is_some_and(of_one) && self.second_says_more.is_some_and(|more| more < EQUIVALENT)
+    }
+
+    /// Whether that means something: points that say next to nothing of a law say no more of two.
+    pub fn is_all_of_one_atom_by_points(&self) -> bool {
+        self.is_all_of_one_atom() && !self.windows_chose
     }
 
     /// Whether none of the laws that hold is made of powers of the catalogue alone.
@@ -162,6 +170,7 @@ impl<P: Progress> Trials<'_, P> {
             singles,
             pairs,
             second_says_more,
+            windows_chose: windows_choose,
         })
     }
 

@@ -180,7 +180,8 @@ impl<P: Progress> Gap<'_, P> {
         }
         // A force that is told at the top is none of joints that give, and these take long to fit.
         let early = early.or_else(|| if one.is_none() { self.told_early(&singles) } else { None });
-        if one.is_none() && early.as_ref().is_some_and(Discovered::is_all_of_one_atom) {
+        // Two effects that one atom stands for to the noise leave each alone near it: points must have seen them.
+        if one.is_none() && early.as_ref().is_some_and(Discovered::is_all_of_one_atom_by_points) {
             return self.placed_by(early, None, singles);
         }
         let may_give = one.is_none() && early.is_none() && !self.closes_by_law_at_top();
