@@ -1,7 +1,7 @@
 //! What a hidden law shows at all: the same case with the law in the wall file that is given.
 //!
 //! A law that was not told may leave no trace in its tests. How much the true law gains over the wall with its own numbers fitted, these
-//! fitted beside it too, says so; what speaks against that wall alone does not, for it is anything from −700 to 600 natural logarithms where
+//! fitted beside it too, says so; what speaks against that wall alone does not, for it is anything from −660 to 610 natural logarithms where
 //! nothing is hidden.
 
 use std::path::{Path, PathBuf};
