@@ -66,13 +66,15 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
     }
 }
 
-/// A law outside the catalogue and nothing else; `None` where none holds, or an effect does by name.
+/// A law outside the catalogue and nothing else; `None` where none holds, or an effect does by name that no law outdoes.
 pub fn judge_laws<P: Progress>(trials: &Trials<P>, first_fits: FirstFits, asked: LawsAsked) -> Option<Found> {
     let FirstFits { before, recalibrated, singles } = first_fits;
     let error = joint_error(&before)?;
     let gap = Gap::new(trials, WallFits { before, recalibrated }, error);
     if gap.named(&singles, &gap.wall.recalibrated).is_some() {
-        return None;
+        // A name may give way to a law: that is told where everything is.
+        let found = (asked == LawsAsked::UpToTwoAtoms).then(|| gap.judge(singles))?;
+        return found.verdict.is_formula().then_some(found);
     }
     let early = gap.told_early(&singles);
     let told = match asked {
