@@ -40,7 +40,7 @@ impl<P: Progress> Trials<'_, P> {
     fn seconds(&self, best: &FittedHypothesis) -> Vec<Start> {
         let Some(law) = law_of(best).filter(|law| law.second.is_none()) else { return Vec::new() };
         let few = Few::followed_worst(self.data.fit, COARSE_WINDOWS, &best.fit);
-        let data = Data { fit: few.problem(), held_out: few.nothing() };
+        let data = few.data();
         let left = few.of(best).fit.windows;
         let seconds = seconds_of(&law.first);
         self.progress.begin("second atoms beside the best law, a first look", seconds.len());

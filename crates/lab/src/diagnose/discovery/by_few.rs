@@ -10,9 +10,10 @@ use super::fitted::{Fitted, LOOK_STEPS, Start};
 use super::guards::holds_in_each_test;
 use super::search::Searched;
 use crate::Progress;
-use crate::diagnose::fit::nats;
+use crate::diagnose::fit::{Fit, nats};
 use crate::diagnose::formula::{Atom, Law};
-use crate::diagnose::trials::{Data, Few, Trials, against};
+use crate::diagnose::hypothesis::Hypothesis;
+use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, against};
 use crate::limits::{LAWS_FITTED_BY_FEW, LAWS_IN_WINDOWS, SILENT_POINTS, WORTH_WINDOWS};
 use rayon::prelude::*;
 
@@ -84,16 +85,13 @@ impl<P: Progress> Trials<'_, P> {
     ) -> Vec<Start> {
         let few = Few::of_coarse(self.data.fit, &gap.nearest.fit);
         let (nearest, data) = match &few {
-            Some(few) => (few.of(gap.nearest), Data { fit: few.problem(), held_out: few.nothing() }),
+            Some(few) => (few.of(gap.nearest), few.data()),
             None => (gap.nearest.clone(), self.data),
         };
         self.progress.begin(&format!("{what}, in few windows"), laws.len());
         let start = |law: &Law| {
             let (hypothesis, values) = self.of_points(searched, law)?;
-            let fit = self.within_budget_of(&data, &law.name(), values.len(), |data| {
-                let begun = data.fit.states_to_begin(&hypothesis, &values, &nearest.states(), LOOK_STEPS)?;
-                data.fit.fit_coarsely(&hypothesis, begun)
-            });
+            let fit = self.coarsely(&data, law, &hypothesis, &values, &nearest);
             self.progress.advance(1);
             let fit = fit?;
             Some(Start {
@@ -106,6 +104,21 @@ impl<P: Progress> Trials<'_, P> {
         starts.sort_by(|a, b| a.nats.total_cmp(&b.nats));
         starts.truncate(LAWS_FITTED_BY_FEW);
         starts
+    }
+
+    /// A law fitted coarsely to windows from given values, the states of these from those of another hypothesis.
+    pub(super) fn coarsely(
+        &self,
+        data: &Data,
+        law: &Law,
+        hypothesis: &Hypothesis,
+        values: &[f64],
+        from: &FittedHypothesis,
+    ) -> Option<Fit> {
+        self.within_budget_of(data, &law.name(), values.len(), |data| {
+            let begun = data.fit.states_to_begin(hypothesis, values, &from.states(), LOOK_STEPS)?;
+            data.fit.fit_coarsely(hypothesis, begun)
+        })
     }
 
     /// Whether windows say so much more than points that they choose among laws.

@@ -6,12 +6,12 @@
 
 use super::asked::OpenGap;
 use super::equals::law_of;
-use super::fitted::{Fitted, LOOK_STEPS, Start};
+use super::fitted::{Fitted, Start};
 use super::points::Points;
 use crate::Progress;
 use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Atom, Law, Site};
-use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, all_but_closes};
+use crate::diagnose::trials::{Few, FittedHypothesis, Trials, all_but_closes};
 use crate::limits::NEAR_BEST;
 
 impl<P: Progress> Trials<'_, P> {
@@ -42,12 +42,8 @@ impl<P: Progress> Trials<'_, P> {
         let Some(few) = few else {
             return Some(Start { nats: nats(&best.fit.windows), hypothesis, values });
         };
-        let data = Data { fit: few.problem(), held_out: few.nothing() };
         let own = few.of(best);
-        let fit = self.within_budget_of(&data, &there.name(), values.len(), |data| {
-            let begun = data.fit.states_to_begin(&hypothesis, &values, &own.states(), LOOK_STEPS)?;
-            data.fit.fit_coarsely(&hypothesis, begun)
-        })?;
+        let fit = self.coarsely(&few.data(), there, &hypothesis, &values, &own)?;
         let nats = [&fit, &own.fit].map(|fit| nats(&fit.windows));
         (nats[0] < nats[1] + NEAR_BEST).then(|| Start { hypothesis, values: fit.values, nats: nats[0] })
     }

@@ -1,6 +1,6 @@
 //! Few of the windows to fit, spread over all of them: enough to tell what is worth a fit to all.
 
-use super::{FittedHypothesis, excess, relieved, widened};
+use super::{Data, FittedHypothesis, excess, relieved, widened};
 use crate::diagnose::fit::{Fit, Problem, WindowFit};
 use crate::experiment::{TestData, Window};
 use crate::limits::COARSE_WINDOWS;
@@ -47,6 +47,11 @@ impl Few {
     /// No windows of these tests.
     pub fn nothing(&self) -> Problem<'_> {
         Problem { tests: &self.tests, windows: &[], budget: None }
+    }
+
+    /// These windows to fit, and none held out.
+    pub fn data(&self) -> Data<'_> {
+        Data { fit: self.problem(), held_out: self.nothing() }
     }
 
     /// What a hypothesis leaves in these windows.

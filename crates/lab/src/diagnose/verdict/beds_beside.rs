@@ -152,6 +152,7 @@ fn is_effect(addition: &Addition) -> bool {
 mod tests {
     use super::*;
     use crate::diagnose::discovery::twin::{DRAG, Twin, wall_with};
+    use crate::diagnose::hypothesis::candidates;
     use crate::diagnose::trials::joint_error;
 
     #[test]
@@ -162,9 +163,11 @@ mod tests {
         let error = joint_error(&wall.before).expect("windows");
         let WallFits { before, recalibrated } = wall.clone();
         let gap = Gap::new(&trials, wall, error);
+        let [one, two] = [0, 1].map(|i| candidates(trials.experiment.wall.parameters())[i]);
         // Of a window that is followed to less than its noise, natural logarithms are half of the squares.
-        let says = |more: f64| {
+        let says = |effect: Addition, more: f64| {
             let mut tried = recalibrated.clone();
+            tried.hypothesis.additions = vec![effect];
             let window = &mut tried.fit.windows[0];
             window.squares = window.freedom - 2.0 * (2.0 * EQUIVALENT + more);
             tried
@@ -172,14 +175,18 @@ mod tests {
         let on_beds =
             |after| Found { after, ..Found::in_vain(Verdict::Named, &before, recalibrated.clone()) };
         let verdict = |more: f64| {
-            let pair = Answer::of(Verdict::Named, says(more));
-            gap.unless_pairs_do_better(on_beds(says(0.0)), Some(&pair)).map(|found| found.verdict)
+            let pair = Answer::of(Verdict::Named, says(two, more));
+            let found = gap.unless_pairs_do_better(on_beds(says(one, 0.0)), Some(&pair))?;
+            Some((found.verdict, found.equivalent))
         };
+        let of_both = [one, two].into_iter().flat_map(|effect| names(&says(effect, 0.0)));
+        let class = Some((Verdict::Class, of_both.collect::<Vec<_>>()));
+        assert_eq!(class.as_ref().map(|(_, names)| names.len()), Some(2));
         assert_eq!(verdict(EQUIVALENT + 1.0), None, "two effects say more");
-        assert_eq!(verdict(0.5 * EQUIVALENT), Some(Verdict::Class));
-        assert_eq!(verdict(-0.5 * EQUIVALENT), Some(Verdict::Class));
-        assert_eq!(verdict(-EQUIVALENT - 1.0), Some(Verdict::Named), "the bed says more");
-        let alone = gap.unless_pairs_do_better(on_beds(says(0.0)), None).map(|found| found.verdict);
+        assert_eq!(verdict(0.5 * EQUIVALENT), class);
+        assert_eq!(verdict(-0.5 * EQUIVALENT), class);
+        assert_eq!(verdict(-EQUIVALENT - 1.0), Some((Verdict::Named, Vec::new())), "the bed says more");
+        let alone = gap.unless_pairs_do_better(on_beds(says(one, 0.0)), None).map(|found| found.verdict);
         assert_eq!(alone, Some(Verdict::Named));
     }
 }

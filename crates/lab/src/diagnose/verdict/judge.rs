@@ -72,7 +72,7 @@ pub fn judge_laws<P: Progress>(trials: &Trials<P>, first_fits: FirstFits, asked:
     let error = joint_error(&before)?;
     let gap = Gap::new(trials, WallFits { before, recalibrated }, error);
     if gap.named(&singles, &gap.wall.recalibrated).is_some() {
-        // A name may give way to a law: that is told where everything is.
+        // Whether a name gives way to a law hangs on all that is tried.
         let found = (asked == LawsAsked::UpToTwoAtoms).then(|| gap.judge(singles))?;
         return found.verdict.is_formula().then_some(found);
     }

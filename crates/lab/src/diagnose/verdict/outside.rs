@@ -72,7 +72,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// Whether a law outside the catalogue that was looked for closes the gap at the top, told early or not: of 35 walls of a blind set on
-    /// beds, most with an effect beside them, none had such a law.
+    /// beds, most with an effect beside them, none came to be asked with such a law.
     pub(super) fn closes_by_law_at_top(&self) -> bool {
         let best = self.early.get().and_then(|early| early.equals.first());
         best.is_some_and(|law| law.hypothesis.additions[0].place() == "top")

@@ -11,7 +11,7 @@ use crate::diagnose::fit::{Fit, Problem, nats};
 use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
 use crate::diagnose::trials::imitation::seconds;
 use crate::diagnose::trials::search::{judged_from_measured, states_of, with_values};
-use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, all_windows, joint_error};
+use crate::diagnose::trials::{Few, FittedHypothesis, Trials, all_windows, joint_error};
 use crate::limits::{
     BEDS_ASKED_FOR, BEDS_BESIDE_EFFECTS, BEDS_NEAR_BEST, BEDS_WINDOWS, BESIDE_BEDS, BESIDE_BEDS_ASKED_FOR,
     BESIDE_BEDS_GAP, BESIDE_BEDS_WINDOWS, REMAINDER_RIVAL, WORTH_A_NAME,
@@ -192,7 +192,7 @@ impl<P: Progress> Trials<'_, P> {
     fn promised(&self, few: &Few, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let first = few.of(bed);
         let nearly = follows_nearly(bed);
-        let data = Data { fit: few.problem(), held_out: few.nothing() };
+        let data = few.data();
         // Coefficients of impact do nothing on a bed.
         let is_effect = |a: &Addition| a.role().is_some_and(|role| !role.is_at_impacts());
         let effects = candidates(self.experiment.wall.parameters()).into_iter().filter(is_effect);

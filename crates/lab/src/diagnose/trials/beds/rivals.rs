@@ -28,7 +28,7 @@ impl<P: Progress> Trials<'_, P> {
     /// Single effects fitted coarsely to few windows, what follows them best first.
     pub fn rivals_in_few_windows(&self, from: &FittedHypothesis) -> Vec<FittedHypothesis> {
         let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
-        let data = Data { fit: few.problem(), held_out: few.nothing() };
+        let data = few.data();
         let start = few.of(from);
         let promising = self.promising_in(&data, &start);
         self.progress.begin("single effects on sharp edges", promising.len());
