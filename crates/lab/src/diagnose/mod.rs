@@ -37,6 +37,7 @@ use crate::experiment_file::Purpose;
 use crate::limits::{BESIDE_BEDS_GAP, READ_AGAIN};
 pub use answer::Diagnosis;
 use answer::Findings;
+use discovery::Discovered;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::Pair;
@@ -46,7 +47,7 @@ use trials::{
     opened_as_given, opened_enough, opened_windows, reads_better, set_gain, typical_error,
 };
 pub use verdict::Verdict;
-use verdict::{Found, LawsAsked, beside_beds, judge, judge_laws, leaves_noise, on_beds};
+use verdict::{Found, beside_beds, judge, judge_laws, judge_laws_beyond, leaves_noise, on_beds};
 
 /// The windows that count, and the answer in them.
 type Answered = ([Vec<Window>; 2], Found);
@@ -119,7 +120,7 @@ impl<P: Progress> Flow<'_, P> {
         let law = found.nearest_of_laws_refused()?;
         let opened = opened_enough(&Data::new(&self.tests, windows), law)?;
         let first_fits = self.first_fits_in(&opened, Some(&found.recalibrated.fit.values)).ok()?;
-        let told = judge_laws(&self.trials(&opened), first_fits, LawsAsked::UpToTwoAtoms)?;
+        let told = judge_laws(&self.trials(&opened), first_fits)?;
         Some((opened, told))
     }
 
@@ -132,8 +133,9 @@ impl<P: Progress> Flow<'_, P> {
         let looked_at = as_fitted(&self.tests);
         let given = std::mem::replace(&mut self.tests, looked_at);
         let first_fits = self.first_fits_in(&shared, Some(&found.recalibrated.fit.values)).ok();
-        let told = first_fits
-            .and_then(|first_fits| judge_laws(&self.trials(&shared), first_fits, LawsAsked::ToldEarly));
+        let of_fitted = found.discovered.as_ref().and_then(Discovered::asked_for_more);
+        let told =
+            first_fits.and_then(|first_fits| judge_laws_beyond(&self.trials(&shared), first_fits, of_fitted));
         self.tests = given;
         told.filter(|told| keeps_what_was_fitted(found, told, windows)).map(|told| (shared, told))
     }

@@ -4,35 +4,48 @@
 //! fails in those held out may lack such an atom. Every other window of the tests held out is fitted then too, and those between them
 //! judge: each is a swing of its own, with noise of its own, in motion as large.
 
+use super::discovery::Discovered;
 use super::fit::nats;
 use super::trials::{FittedHypothesis, closes_held_out, leave_noise};
 use super::verdict::Found;
 use crate::experiment::{TestData, Window};
 use crate::experiment_file::Purpose;
-use crate::limits::{EQUIVALENT, LEAST_SHARED};
+use crate::limits::{EQUIVALENT, LEAST_SHARED, MINDED_SHARE};
 
 /// Windows to fit and held out, every other one of those held out fitted too; `None` where nothing asks for it, or too few are held out.
 pub(super) fn shared_windows(windows: &[Vec<Window>; 2], found: &Found) -> Option<[Vec<Window>; 2]> {
-    let [fitted, held_out] = windows;
-    if held_out.len() < LEAST_SHARED || !lacks_what_is_held_out(found) {
+    if windows[1].len() < LEAST_SHARED {
         return None;
     }
-    let mut shared = [fitted.clone(), Vec::new()];
-    for (k, window) in held_out.iter().enumerate() {
-        let side = k % 2;
-        let purpose = [Purpose::Fit, Purpose::HoldOut][side];
-        shared[side].push(Window { purpose, ..window.clone() });
-    }
-    Some(shared)
+    Some(every_other(windows.clone(), asks_for_what_is_held_out(found)?))
 }
 
-/// Whether no answer is found, and a law that was tried follows the tests fitted to their noise and not those held out, or the wall does.
-fn lacks_what_is_held_out(found: &Found) -> bool {
-    if found.says_nothing_of_what_is_held_out() {
-        return follows_fitted(&found.after);
+/// Windows to fit and held out, every other one of those held out fitted too, and so of those that a hypothesis misses: a stop may be met in
+/// two of a row, and both sides must see it.
+pub(super) fn every_other(
+    [fitted, held_out]: [Vec<Window>; 2],
+    asking: &FittedHypothesis,
+) -> [Vec<Window>; 2] {
+    let mut shared = [fitted, Vec::new()];
+    let mut so_far = [0; 2];
+    for (window, left) in held_out.into_iter().zip(&asking.held_out.windows) {
+        let count = &mut so_far[usize::from(left.is_poor())];
+        let side = *count % 2;
+        *count += 1;
+        shared[side].push(Window { purpose: [Purpose::Fit, Purpose::HoldOut][side], ..window });
     }
-    let laws = found.discovered.iter().flat_map(|discovered| &discovered.tried);
-    found.verdict.is_left_open() && laws.into_iter().any(|law| follows_fitted(law) && !closes_held_out(law))
+    shared
+}
+
+/// Where no answer is found, the law that follows the tests fitted and that nothing but those held out refuses, or one that misses these, or
+/// the wall if that follows those fitted so.
+fn asks_for_what_is_held_out(found: &Found) -> Option<&FittedHypothesis> {
+    if found.says_nothing_of_what_is_held_out() {
+        return Some(&found.after).filter(|wall| follows_fitted(wall));
+    }
+    let discovered = found.discovered.as_ref().filter(|_| found.verdict.is_left_open())?;
+    let misses = |law: &&FittedHypothesis| follows_fitted(law) && !closes_held_out(law);
+    discovered.asked_for_more().or_else(|| discovered.tried.iter().find(misses))
 }
 
 fn follows_fitted(law: &FittedHypothesis) -> bool {
@@ -44,14 +57,17 @@ pub(super) fn as_fitted(tests: &[TestData]) -> Vec<TestData> {
     tests.iter().map(|test| TestData { purpose: Purpose::Fit, ..test.clone() }).collect()
 }
 
-/// Whether a law found so is one for the tests that were to be fitted: these say no less of it than of the best law fitted to them alone, or of the wall.
+/// Whether a law found so is one for the tests that were to be fitted: these say no less of it than of the best law fitted to them alone, which
+/// nothing refused but the tests held out, or of the wall, or but a share less of what its second atom says: models of one contact differ.
 pub(super) fn keeps_what_was_fitted(before: &Found, after: &Found, windows: &[Vec<Window>; 2]) -> bool {
     let count = windows[0].len();
     let best = |found: &Found| {
-        let laws = found.discovered.iter().flat_map(|discovered| &discovered.tried);
+        let laws = found.discovered.iter().flat_map(Discovered::unless_tests_fitted_refuse);
         laws.chain([&found.after]).map(|law| nats(&law.fit.windows)).fold(f64::INFINITY, f64::min)
     };
-    nats(&after.after.fit.windows[..count]) < best(before) + EQUIVALENT
+    let minded = nats(&after.after.fit.windows[..count]) - best(before);
+    let told = || after.discovered.as_ref().map_or(0.0, |laws| laws.says_more_than_one_atom(&after.after));
+    minded < EQUIVALENT || minded < MINDED_SHARE * told()
 }
 
 #[cfg(test)]

@@ -146,10 +146,18 @@ limits! {
     ///
     /// Chosen: half of them judge.
     LEAST_SHARED: usize = 16, "";
+    /// Share of what a second atom says in windows that tests held out share, that the tests fitted may say less of both than of the first alone.
+    ///
+    /// Chosen: where the wall is of another formulation, right second atoms that said 118 and 302 natural logarithms cost 17 and 23.
+    MINDED_SHARE: f64 = 0.15, "share";
     /// Largest difference of two forces over what was excited below which they are one law, over the largest force.
     SAME_FORCE: f64 = 0.02, "share";
     /// Second atoms fitted beside the best law of one, because a linear look says that they take away most of what it leaves.
     SECONDS_FITTED: usize = 3, "";
+    /// The same of those that only the larger motion of tests held out reaches, because few windows fitted coarsely say so.
+    ///
+    /// Chosen: of stops on one side, on the other and on both, and what imitates them, a coarse fit may leave the right one last.
+    SECONDS_FITTED_BEYOND: usize = 5, "";
     /// Difference of two forces over what was excited from which a name with its exponent set free is another law, over the
     /// largest force.
     ///

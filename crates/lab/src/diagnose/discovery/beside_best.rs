@@ -42,7 +42,7 @@ impl<P: Progress> Trials<'_, P> {
         let few = Few::followed_worst(self.data.fit, COARSE_WINDOWS, &best.fit);
         let data = few.data();
         let left = few.of(best).fit.windows;
-        let seconds = seconds_of(&law.first);
+        let seconds = seconds_of(&law.first, law.first.reach);
         self.progress.begin("second atoms beside the best law, a first look", seconds.len());
         let look = |second: &Atom| {
             let taken = self.taken_by_second(&data, best, &left, Law { second: Some(*second), ..law });
@@ -63,7 +63,7 @@ impl<P: Progress> Trials<'_, P> {
 
     /// What a second atom takes away of what a law of one leaves in windows, in natural logarithms of likelihood as far as a linear look
     /// tells, and both with the size at which it does. `None` where it may not have that, or shows nowhere.
-    fn taken_by_second(
+    pub(super) fn taken_by_second(
         &self,
         data: &Data,
         best: &FittedHypothesis,
@@ -80,8 +80,8 @@ impl<P: Progress> Trials<'_, P> {
     }
 }
 
-/// Atoms of the shapes that walls have often, other than that of a first one and at its place.
-fn seconds_of(first: &Atom) -> Vec<Atom> {
+/// Atoms of the shapes that walls have often, other than that of a first one and at its place, which reaches so far.
+pub(super) fn seconds_of(first: &Atom, reach: [f64; 2]) -> Vec<Atom> {
     let numbers = |shape: Shape| -> Vec<[f64; 2]> {
         match shape {
             Shape::Spring | Shape::Drag => EXPONENTS.map(|n| [n, 0.0]).to_vec(),
@@ -96,7 +96,7 @@ fn seconds_of(first: &Atom) -> Vec<Atom> {
     let others = shapes.iter().filter(|shape| shape.is_common() && **shape != first.shape);
     let size = LITTLE * first.size.abs();
     let atoms = |shape: &Shape| {
-        let atom = |numbers| Atom { shape: *shape, numbers, size, is_exact: false, ..*first };
+        let atom = |numbers| Atom { shape: *shape, numbers, size, reach, is_exact: false, ..*first };
         numbers(*shape).into_iter().map(atom).collect::<Vec<_>>()
     };
     others.flat_map(atoms).collect()
@@ -144,7 +144,7 @@ mod tests {
     fn analytic_second_atoms_are_of_every_other_shape_that_walls_have_often_and_at_the_place_of_the_first() {
         let first = super::super::twin::drag(2.0, 300.0).first;
         for (site, shapes) in [(Site::Top, &Shape::ALL[..]), (Site::Ground, &Shape::AT_JOINTS)] {
-            let all = seconds_of(&Atom { site, ..first });
+            let all = seconds_of(&Atom { site, ..first }, first.reach);
             assert!(all.iter().all(|atom| atom.site == site));
             let looked_at = |shape: &Shape| all.iter().any(|atom| atom.shape == *shape);
             let asked = |shape: &&Shape| shape.is_common() && **shape != first.shape;

@@ -39,11 +39,11 @@ pub struct Discovered {
     /// Laws of one atom, as far as they were fitted to windows.
     pub(super) singles: Vec<Fitted>,
     /// Laws of two atoms, as far as they were fitted to windows.
-    pairs: Vec<Fitted>,
+    pub(super) pairs: Vec<Fitted>,
     /// What the best law of two atoms says more over points than the first that holds, in natural logarithms of likelihood.
-    second_says_more: Option<f64>,
+    pub(super) second_says_more: Option<f64>,
     /// Whether windows chose among laws, of which points say next to nothing.
-    windows_chose: bool,
+    pub(super) windows_chose: bool,
 }
 
 impl Discovered {
@@ -221,7 +221,7 @@ impl<P: Progress> Trials<'_, P> {
 
     /// The law of two atoms that all of one lack, where none of these holds: nothing speaks against it but that its second atom gains less
     /// than one must beside a law that holds, and it says more than the best of one and than each of its atoms alone.
-    fn of_two_that_one_lacks(
+    pub(super) fn of_two_that_one_lacks(
         &self,
         best_of_one: &FittedHypothesis,
         pairs: &[Fitted],

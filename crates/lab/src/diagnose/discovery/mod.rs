@@ -9,6 +9,8 @@
 //! | `by_windows` | the best of them fitted to windows with their impacts, which alone judge |
 //! | `elsewhere` | the best of one atom of the top at the ground, or the other way |
 //! | `fitted` | where laws start in windows, and their fits |
+//! | `beside_best` | second atoms beside the best law of one, as windows ask for them |
+//! | `beyond` | the same where only the larger motion of tests held out reaches them |
 //! | `alone` | a law of two atoms beside each of them alone |
 //! | `guards` | what refuses a law that fits |
 //! | `left_open` | numbers of a law that the tests fitted leave open, where those held out ask for others |
@@ -22,6 +24,7 @@
 mod alone;
 mod asked;
 mod beside_best;
+mod beyond;
 mod by_few;
 mod by_windows;
 mod curve;

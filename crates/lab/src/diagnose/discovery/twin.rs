@@ -53,7 +53,7 @@ fn nuisances(stiffness: f64) -> [Nuisance; 2] {
     [("stiffness_n_per_m", stiffness), ("mass_kg", 0.01)].map(number)
 }
 
-/// An experiment on a wall: two tests to fit and one held out, in which it rocks farther.
+/// An experiment on a wall: tests to fit and one held out.
 pub struct Twin {
     experiment: Experiment,
     windows: [Vec<Window>; 2],
@@ -61,11 +61,26 @@ pub struct Twin {
 }
 
 impl Twin {
-    /// The wall is known but for its effects, which are hidden.
+    /// Two tests to fit. The wall is known but for its effects, which are hidden.
     pub fn new(hidden: &Wall, noise_rad: f64) -> Self {
         let mut tests = tests_of(hidden, noise_rad);
         tests.remove(2);
         tests[2].purpose = Purpose::HoldOut;
+        Self::of(tests)
+    }
+
+    /// The same with the test held out in which it rocks farthest.
+    pub fn farthest_held_out(hidden: &Wall, noise_rad: f64) -> Self {
+        let mut tests = tests_of(hidden, noise_rad);
+        let reach = |test: &TestData| test.theta_rad.iter().map(|theta| theta[0].abs()).fold(0.0, f64::max);
+        tests.sort_by(|a, b| reach(a).total_cmp(&reach(b)));
+        if let Some(farthest) = tests.last_mut() {
+            farthest.purpose = Purpose::HoldOut;
+        }
+        Self::of(tests)
+    }
+
+    fn of(tests: Vec<TestData>) -> Self {
         let (fit, held_out) = windows(&tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
         let wall = wall_with("");
         let experiment = Experiment {

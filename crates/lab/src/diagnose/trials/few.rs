@@ -5,6 +5,9 @@ use crate::diagnose::fit::{Fit, Problem, WindowFit};
 use crate::experiment::{TestData, Window};
 use crate::limits::COARSE_WINDOWS;
 
+/// Squared error, in that of noise, up to which a fit that begins feels a window well: half its bound.
+const FELT: f64 = 10.0;
+
 /// Few windows of tests whose noise is so many times as large.
 pub struct Few {
     tests: Vec<TestData>,
@@ -25,6 +28,13 @@ impl Few {
     pub fn followed_worst(problem: Problem, most: usize, fit: &Fit) -> Self {
         let left = fit.windows.iter().map(WindowFit::reduced).collect::<Vec<_>>();
         Self::these(problem, worst_and_spread(&left, most / 2, most), 1.0)
+    }
+
+    /// The same under a noise so many times as large that a fit which begins feels every one of them.
+    pub fn felt(problem: Problem, most: usize, fit: &Fit) -> Self {
+        let few = Self::followed_worst(problem, most, fit);
+        let worst = few.left(fit).iter().map(WindowFit::reduced).fold(0.0, f64::max);
+        Self::these(problem, few.asked, (worst / FELT).sqrt().max(1.0))
     }
 
     /// The windows that coarse fits are made to, a quarter of them those that a fit follows worst; `None` where that would be nearly all.

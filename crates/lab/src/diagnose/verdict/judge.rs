@@ -66,32 +66,32 @@ pub fn judge<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Found {
     }
 }
 
-/// A law outside the catalogue and nothing else; `None` where none holds, or an effect does by name that no law outdoes.
-pub fn judge_laws<P: Progress>(trials: &Trials<P>, first_fits: FirstFits, asked: LawsAsked) -> Option<Found> {
-    let FirstFits { before, recalibrated, singles } = first_fits;
-    let error = joint_error(&before)?;
-    let gap = Gap::new(trials, WallFits { before, recalibrated }, error);
+/// A law outside the catalogue of one atom or two and nothing else; `None` where none holds, or an effect does by name that no law outdoes.
+pub fn judge_laws<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Option<Found> {
+    let (gap, singles) = Gap::of_laws(trials, first_fits)?;
     if gap.named(&singles, &gap.wall.recalibrated).is_some() {
         // Whether a name gives way to a law hangs on all that is tried.
-        let found = (asked == LawsAsked::UpToTwoAtoms).then(|| gap.judge(singles))?;
+        let found = gap.judge(singles);
         return found.verdict.is_formula().then_some(found);
     }
-    let early = gap.told_early(&singles);
-    let told = match asked {
-        LawsAsked::ToldEarly => early?,
-        LawsAsked::UpToTwoAtoms => early.or_else(|| gap.of_up_to_two_atoms(&singles))?,
-    };
-    let found = gap.placed_by(Some(told), None, singles);
-    found.verdict.is_formula().then_some(found)
+    let told = gap.told_early(&singles).or_else(|| gap.of_up_to_two_atoms(&singles))?;
+    gap.told(told, singles)
 }
 
-/// Which laws outside the catalogue are an answer where nothing else is asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum LawsAsked {
-    /// Those that are told before joints that give are tried.
-    ToldEarly,
-    /// All of one atom and of two that hold.
-    UpToTwoAtoms,
+/// The same in windows that tests held out share with those fitted: the law that the latter tell, if they tell one, with an atom that only
+/// the larger motion reaches, or else one that is told before joints that give are tried.
+pub fn judge_laws_beyond<P: Progress>(
+    trials: &Trials<P>,
+    first_fits: FirstFits,
+    of_fitted: Option<&FittedHypothesis>,
+) -> Option<Found> {
+    let (gap, singles) = Gap::of_laws(trials, first_fits)?;
+    if gap.named(&singles, &gap.wall.recalibrated).is_some() {
+        return None;
+    }
+    let beyond = of_fitted.and_then(|law| gap.beyond(law, &singles));
+    let told = beyond.or_else(|| gap.told_early(&singles))?;
+    gap.told(told, singles)
 }
 
 /// A gap between model and measurement, or none.
@@ -112,7 +112,22 @@ impl<'t, P: Progress> Gap<'t, P> {
     }
 }
 
+impl<'t, P: Progress> Gap<'t, P> {
+    /// A gap of which only laws outside the catalogue are asked, and effects one by one.
+    fn of_laws(trials: &'t Trials<'t, P>, first_fits: FirstFits) -> Option<(Self, Vec<FittedHypothesis>)> {
+        let FirstFits { before, recalibrated, singles } = first_fits;
+        let error = joint_error(&before)?;
+        Some((Self::new(trials, WallFits { before, recalibrated }, error), singles))
+    }
+}
+
 impl<P: Progress> Gap<'_, P> {
+    /// A law as the answer.
+    fn told(self, law: Discovered, singles: Vec<FittedHypothesis>) -> Option<Found> {
+        let found = self.placed_by(Some(law), None, singles);
+        found.verdict.is_formula().then_some(found)
+    }
+
     fn judge(self, singles: Vec<FittedHypothesis>) -> Found {
         let gain = best_answer(&singles).map_or(0.0, |best| self.gain(&self.wall.recalibrated, best));
         if gain < WORTH_A_NAME {

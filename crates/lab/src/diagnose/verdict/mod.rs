@@ -29,7 +29,7 @@ mod worth_naming;
 use super::hypothesis::{Addition, WallNumber};
 use super::trials::{FittedHypothesis, kind_of};
 pub use found::Found;
-pub use judge::{LawsAsked, judge, judge_laws};
+pub use judge::{judge, judge_laws, judge_laws_beyond};
 pub use on_beds::{beside_beds, on_beds};
 pub use other_law::{OtherLaw, Trend};
 pub use remainder::{NextRival, Remainder, model_error_rad};

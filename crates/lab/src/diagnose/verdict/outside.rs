@@ -83,6 +83,19 @@ impl<P: Progress> Gap<'_, P> {
         self.looked_for(singles, &[], Scope::TwoAtoms, self.early.get())
     }
 
+    /// The law of one atom that other windows tell with a second that these show: at the top, where what is missing may act, or leaving noise.
+    pub(super) fn beyond(
+        &self,
+        of_fitted: &FittedHypothesis,
+        singles: &[FittedHypothesis],
+    ) -> Option<Discovered> {
+        let gap = self.open_gap(singles, &[], Scope::TwoAtoms, None)?;
+        let found = self.trials.discover_beyond(of_fitted, &gap, self)?;
+        let best = found.equals.first()?;
+        let may_act_there = || best.hypothesis.additions[0].place() == "top" && self.may_act_at_top();
+        (found.is_outside_catalogue() && (self.leaves_nothing(best) || may_act_there())).then_some(found)
+    }
+
     /// A law of one atom outside the catalogue that shows where the wall follows the tests without it: all windows together leave noise,
     /// and few of them show a law that no effect of the catalogue imitates.
     pub(super) fn law_that_shows(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
@@ -242,11 +255,21 @@ impl<P: Progress> Gap<'_, P> {
         scope: Scope,
         before: Option<&Discovered>,
     ) -> Option<Discovered> {
+        self.trials.discover(&self.open_gap(tried, kin, scope, before)?, self)
+    }
+
+    /// What laws outside the catalogue are to close.
+    fn open_gap<'g>(
+        &'g self,
+        tried: &'g [FittedHypothesis],
+        kin: &'g [Law],
+        scope: Scope,
+        before: Option<&'g Discovered>,
+    ) -> Option<OpenGap<'g>> {
         let (trials, recalibrated) = (self.trials, &self.wall.recalibrated);
         let nearest = tried.iter().chain([recalibrated]);
         let nearest = nearest.min_by(|a, b| against(&trials.data, a).total_cmp(&against(&trials.data, b)));
-        let gap = OpenGap { recalibrated, nearest: nearest?, error: self.error, scope, kin, before };
-        trials.discover(&gap, self)
+        Some(OpenGap { recalibrated, nearest: nearest?, error: self.error, scope, kin, before })
     }
 
     /// The answer that laws outside the catalogue make, if one holds.
