@@ -157,5 +157,13 @@ mod tests {
             keeps_what_was_fitted(&before, &after, twin.windows())
         };
         assert!(keeps(0.0) && keeps(0.9 * EQUIVALENT) && !keeps(1.2 * EQUIVALENT));
+        // Where a law of one atom leaves so much more, it keeps enough.
+        let beside = |left: f64| {
+            let mut after = found(&twin, [1.0 + 2.4 * EQUIVALENT / freedom, 1.0]);
+            after.discovered = found(&twin, [1.0 + 2.0 * left / freedom, 1.0]).discovered;
+            keeps_what_was_fitted(&before, &after, twin.windows())
+        };
+        let enough = 1.2 * EQUIVALENT / MINDED_SHARE;
+        assert!(beside(1.5 * enough) && !beside(0.9 * enough));
     }
 }

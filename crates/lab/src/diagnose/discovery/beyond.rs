@@ -145,6 +145,7 @@ const TOLD_STEPS: usize = 3;
 #[cfg(test)]
 mod tests {
     use super::super::asked::Scope;
+    use super::super::refused::Refused;
     use super::super::twin::{DRAG, Twin, drag, open_gap, wall_with};
     use super::*;
     use crate::diagnose::formula::{Shape, Side};
@@ -208,6 +209,26 @@ mod tests {
         assert_eq!(second.shape, Shape::Stop(Side::Positive), "{law:?}");
         let gap_m = second.numbers[0] * second.reach[0];
         assert!((gap_m - 0.06).abs() < 0.1 * 0.06, "{gap_m}");
+    }
+
+    #[test]
+    fn analytic_the_law_that_nothing_but_tests_held_out_refuses_asks_for_more() {
+        let twin = Twin::new(&wall_with(DRAG), 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let (h, values) = trials.law_beside(&wall.recalibrated, &drag(2.0, super::super::twin::DRAG_N));
+        let law = refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit");
+        let refused = |guards: &[Guard]| Discovered {
+            refused: vec![Refused::in_windows(&law, guards.to_vec())],
+            ..Discovered::in_vain(vec![law.clone()])
+        };
+        let asks = |guards: &[Guard]| refused(guards).asked_for_more().is_some();
+        assert!(asks(&[Guard::HeldOut]) && !asks(&[Guard::HeldOut, Guard::Bend]) && !asks(&[]));
+        let is_kept = |guards: &[Guard]| refused(guards).unless_tests_fitted_refuse().count() == 1;
+        assert!(is_kept(&[Guard::HeldOut, Guard::Gap]) && !is_kept(&[Guard::HeldOut, Guard::Bend]));
+        // No law is one of two that it could be.
+        let said = refused(&[]).says_more_than_one_atom(&wall.recalibrated);
+        assert!(said < -WORTH_A_SECOND_SEEN, "{said}");
     }
 
     #[test]

@@ -47,10 +47,11 @@ pub struct Discovered {
 }
 
 impl Discovered {
-    /// Laws that were tried, none of which holds.
+    /// Laws of one atom that were tried, none of which holds.
     #[cfg(test)]
     pub fn in_vain(tried: Vec<FittedHypothesis>) -> Self {
         Self {
+            singles: tried.iter().cloned().map(Fitted::new).collect(),
             equals: Vec::new(),
             moved: None,
             tried,
@@ -58,7 +59,6 @@ impl Discovered {
             curve: None,
             stability: None,
             excited: [[[0.0; 2]; 2]; 3],
-            singles: Vec::new(),
             pairs: Vec::new(),
             second_says_more: None,
             windows_chose: false,
