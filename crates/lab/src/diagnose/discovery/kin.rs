@@ -23,7 +23,8 @@ const EXPONENTS: [f64; 4] = [0.5, 1.5, 2.0, 4.0];
 
 impl<P: Progress> Trials<'_, P> {
     /// Laws beside a name of which an effect is clearly a wrong case: its exponent set free, in the windows, gains what a
-    /// name must and makes another force, and the tests held out are followed no worse. Empty where the name stands.
+    /// name must and makes another force, and the tests held out are followed no worse; or one in the place of two effects. Empty where the
+    /// name stands.
     pub fn kin_of_wrong_name(&self, named: &FittedHypothesis) -> Vec<Law> {
         let wall = self.hypothesis(&self.experiment.nuisances, &[]);
         let powers = (0..named.hypothesis.additions.len()).filter_map(|index| power(named, index));
@@ -38,7 +39,9 @@ impl<P: Progress> Trials<'_, P> {
             self.progress.advance(1);
             freed
         };
-        powers.into_iter().find_map(kin).unwrap_or_default()
+        let one = powers.into_iter().find_map(kin);
+        let for_both = || Some(vec![self.one_for_friction_and_damper(named, &points)?]);
+        one.or_else(for_both).unwrap_or_default()
     }
 
     /// The laws that do better than one effect of a name, if its exponent set free does.
@@ -132,9 +135,9 @@ fn nearest_on_either_side(own: f64, found: Vec<(f64, Start)>) -> Vec<Start> {
 
 /// A law of one atom, of the size that brings its force nearest to that of another over what was excited. `None` where nothing of either
 /// was, or no size does.
-fn as_large(law: Law, other: &Law, points: &Points) -> Option<Law> {
+pub(super) fn as_large(law: Law, other: &Law, points: &Points) -> Option<Law> {
     let unit = Atom { size: 1.0, ..law.first };
-    let [own, others] = [Law::of(unit), Law::of(other.first)].map(|law| points.forces(&law, unit.site));
+    let [own, others] = [Law::of(unit), *other].map(|law| points.forces(&law, unit.site));
     let sum = |[own, with]: [f64; 2], [one, other]: [f64; 2]| [own + one * one, with + one * other];
     let both = own.into_iter().zip(others).map(|(own, other)| [own, other]);
     let [own, with] = both.fold([0.0; 2], sum);

@@ -15,6 +15,7 @@
 //! | `guards` | what refuses a law that fits |
 //! | `left_open` | numbers of a law that the tests fitted leave open, where those held out ask for others |
 //! | `kin` | a name whose exponent, set free, does clearly better |
+//! | `kin_of_two` | a power of velocity that does clearly better than friction and a damper |
 //! | [`Guard`] | the same by name, with the laws that each refused |
 //! | [`freed`] | laws told with round exponents, with these set free |
 //! | `curve`, `curve_in_windows` | a force without a formula |
@@ -35,6 +36,7 @@ mod fitted;
 mod freed;
 mod guards;
 mod kin;
+mod kin_of_two;
 mod left_open;
 mod points;
 mod refused;
