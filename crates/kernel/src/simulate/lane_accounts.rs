@@ -10,8 +10,8 @@ use super::ground_path::LEAST_PIECE;
 use super::lane_paths::{bound, keeps_to, scale, value};
 use super::lane_steps::{Landed, Stepping};
 use super::row::{GroundRow, LimitRow, MovingRow, Row, Samples, SumRow};
-use super::run::{PROGRESS, too_many_steps};
-use crate::lanes::{LANES, Numbers, from_row, lanes};
+use super::run::PROGRESS;
+use crate::lanes::{Numbers, from_row, lanes};
 use crate::model::Vector;
 
 type F<S> = f64x4<S>;
@@ -217,17 +217,6 @@ impl Row {
         left
     }
 
-    /// Lanes whose runs may try one more step.
-    #[cold]
-    fn may_try_again(&self) -> u64 {
-        let sums = &self.sums;
-        let may = |i: &usize| {
-            let tried = sums.tried_before[*i] + sums.steps[*i] + sums.rejected_steps[*i] + 1.0;
-            !too_many_steps(tried as u64, self.ground.k[*i])
-        };
-        (0..LANES).filter(may).fold(0, |lanes, i| lanes | 1 << i)
-    }
-
     /// Requests shorter steps in place of those of the lanes that are left whose errors are too large. Gives the bits of these lanes.
     #[inline(always)]
     pub fn reject<S: Simd>(&mut self, simd: S, landed: &Landed<S>, left: u64) -> u64 {
@@ -240,8 +229,6 @@ impl Row {
         if !too_large.any_true() {
             return 0;
         }
-        // One that tries too many steps is ended by its run.
-        let too_large = too_large & Mask::from_bitmask(simd, self.may_try_again());
         self.errors.propose_shorter(too_large.to_bitmask(), error.into(), h.into());
         SumRow::add(too_large, &mut self.sums.rejected_steps, F::splat(simd, 1.0));
         let left_s = from_row(simd, &self.ground.length_s) - from_row(simd, &self.ground.offset_s);

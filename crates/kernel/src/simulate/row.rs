@@ -141,8 +141,6 @@ pub(super) struct SumRow {
     pub tolerance_steps: Numbers,
     /// Steps since then that were not kept.
     pub rejected_steps: Numbers,
-    /// Steps tried before the run boarded.
-    pub tried_before: Numbers,
 }
 
 /// What the last step gave.

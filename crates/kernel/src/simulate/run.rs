@@ -24,7 +24,7 @@ use crate::model::{
 use crate::solver::{Controller, Point, Quintic, STAGES, Step};
 use carried::CarriedRun;
 pub(super) use carried::CarriedStep;
-pub(super) use event::{PROGRESS, SHORT, too_many_steps};
+pub(super) use event::{PROGRESS, SHORT};
 pub(super) use step::StepRequest;
 
 /// A run between two of its steps.

@@ -316,26 +316,6 @@ fn analytic_walls_with_states_go_beside_others_with_the_same_bits() {
 }
 
 #[test]
-fn rejects_a_damper_that_changes_the_motion_too_fast_alone_and_side_by_side() {
-    // A sample of the record takes some ten thousand steps.
-    let wall =
-        with_formulas(&[formula(Place::Top, "-c*v", &[("c", 1e10, "N*s/m")])], table_wall());
-    let alone = simulate(&wall, &shaking(1.0), ACCURACY);
-    match &alone.outcome {
-        Outcome::Failed { reason, .. } => assert!(reason.contains("too fast to be followed"), "{reason}"),
-        other => panic!("{other:?}"),
-    }
-    let mut waiting = 0..5;
-    let mut next = || waiting.next().map(|i| (i, Simulator::new(&wall, &shaking(1.0), ACCURACY).prepared()));
-    let mut count = 0;
-    simulate_side_by_side(&mut next, &mut |i, response| {
-        assert_eq!(format!("{response:?}"), format!("{alone:?}"), "{i}");
-        count += 1;
-    });
-    assert_eq!(count, 5);
-}
-
-#[test]
 fn rejects_states_that_cannot_be_followed() {
     // Some hundred thousand times faster than a sample of the record.
     let response = simulate(&with_formulas(&[maxwell(1e12, 1e-9)], table_wall()), &shaking(1.0), ACCURACY);

@@ -127,7 +127,6 @@ impl<O: Observer> Run<O> {
         sums.effect_loss_j[i] = totals.energy.effect_loss_j;
         sums.passed_through_j[i] = totals.energy.passed_through_j;
         (sums.steps[i], sums.tolerance_steps[i], sums.rejected_steps[i]) = (0.0, 0.0, 0.0);
-        sums.tried_before[i] = (totals.work.steps + totals.work.rejected_steps) as f64;
         self.board_strikes(row, i);
     }
 

@@ -4,7 +4,6 @@ use super::super::bed_events::first_bed_change;
 use super::super::events::{EdgeEvent, Event, first_event, first_kink, left_to_kink, sooner};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
-use super::super::response::Work;
 use super::super::row::Row;
 use super::{Run, Stop, Task, failed};
 use crate::model::{Joint, Kink, Pair, Reactions, State, Touching, Vector, opening};
@@ -30,17 +29,6 @@ const MOST_TURNS_AT_ONCE: u32 = 8;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
 pub(in super::super) const PROGRESS: f64 = 1e-6;
 
-/// Steps that a run may try, beside [`STEPS_PER_PIECE`], before its motion counts as too fast to be followed: a damper that goes with a
-/// high power of velocity, far beyond that for which it was meant, would take days. The longest burst of impacts takes some ten thousand.
-const MOST_STEPS: u64 = 200_000;
-/// Steps that it may try for each sample of a record. Roots of a velocity take some hundreds where that turns back.
-const STEPS_PER_PIECE: u64 = 1000;
-
-/// Whether a run has tried more steps than it may up to this piece.
-pub(in super::super) fn too_many_steps(tried: u64, k: usize) -> bool {
-    tried > MOST_STEPS + STEPS_PER_PIECE * k as u64
-}
-
 impl<O: Observer> Run<O> {
     /// Keeps a step, or requests one up to the first event inside it.
     ///
@@ -54,14 +42,6 @@ impl<O: Observer> Run<O> {
             let time_s = piece.start_s + self.offset_s;
             if time_s + step.h == time_s {
                 let reason = format!("no step is short enough in pattern {}", self.contact.name());
-                return Err(Stop::Failed { time_s, reason });
-            }
-            let Work { steps, rejected_steps, .. } = self.totals.work;
-            if too_many_steps(steps + rejected_steps, self.k) {
-                let reason = format!(
-                    "more than {MOST_STEPS} steps, and {STEPS_PER_PIECE} to a sample: a motion changes too fast to be followed in pattern {}",
-                    self.contact.name()
-                );
                 return Err(Stop::Failed { time_s, reason });
             }
             return Ok(());
