@@ -148,8 +148,8 @@ limits! {
     LEAST_SHARED: usize = 16, "";
     /// Share of what a second atom says in windows that tests held out share, that the tests fitted may say less of both than of the first alone.
     ///
-    /// Chosen: where the wall is of another formulation, right second atoms that said 118 and 302 natural logarithms cost 17 and 23.
-    MINDED_SHARE: f64 = 0.15, "share";
+    /// Chosen: where the wall is of another formulation, a right second atom that said 302 natural logarithms cost 23.
+    MINDED_SHARE: f64 = 0.1, "share";
     /// Largest difference of two forces over what was excited below which they are one law, over the largest force.
     SAME_FORCE: f64 = 0.02, "share";
     /// Second atoms fitted beside the best law of one, because a linear look says that they take away most of what it leaves.

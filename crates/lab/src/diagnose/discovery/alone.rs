@@ -50,31 +50,9 @@ mod tests {
     use super::super::asked::Scope;
     use super::super::points::Points;
     use super::super::search::search;
-    use super::super::twin::{DRAG, SPRING, Twin, drag_and_spring, open_gap, wall_with};
+    use super::super::twin::{AskedOfGain, DRAG, SPRING, Twin, drag_and_spring, open_gap, wall_with};
     use super::*;
-    use crate::diagnose::trials::{Data, against};
     use crate::limits::WORTH_A_NAME;
-
-    /// A second atom must gain what a name must.
-    struct Asked<'d>(Data<'d>);
-
-    impl AskedOfLaws for Asked<'_> {
-        fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
-            against(&self.0, one) - against(&self.0, two) > WORTH_A_NAME
-        }
-
-        fn follows_held_out(&self, _: &FittedHypothesis) -> bool {
-            true
-        }
-
-        fn leaves_nothing(&self, _: &FittedHypothesis) -> bool {
-            true
-        }
-
-        fn other_law(&self, _: &FittedHypothesis) -> Vec<Guard> {
-            Vec::new()
-        }
-    }
 
     /// How many atoms are left of a drag with a spring on one side, on a wall with effects, and what refused other laws.
     fn atoms_left(effects: &str) -> (usize, Vec<Guard>) {
@@ -87,7 +65,12 @@ mod tests {
         let two = Fitted::new(refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit"));
         let gap = open_gap(&wall, Scope::TwoAtoms);
         let searched = search(&points).expect("equations");
-        let (held, refused) = trials.or_an_atom_alone(&gap, &searched, vec![two], &Asked(trials.data));
+        let (held, refused) = trials.or_an_atom_alone(
+            &gap,
+            &searched,
+            vec![two],
+            &AskedOfGain { data: trials.data, least: WORTH_A_NAME },
+        );
         let [one] = &held[..] else { panic!("{} laws are left", held.len()) };
         let atoms = law_of(&one.law).expect("a law").atoms().count();
         (atoms, refused.into_iter().flat_map(|refused| refused.guards).collect())

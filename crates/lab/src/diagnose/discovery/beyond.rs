@@ -37,7 +37,7 @@ impl Discovered {
         if of_one.is_finite() { of_one - left(law) } else { 0.0 }
     }
 
-    /// Laws that were tried without those that something else refuses than the tests held out, in these or to a gap.
+    /// Laws that were tried, without those that more refuses than the tests held out: these alone, or with the gap that they leave.
     pub fn unless_tests_fitted_refuse(&self) -> impl Iterator<Item = &FittedHypothesis> {
         let of_held_out = |guard: &Guard| matches!(guard, Guard::HeldOut | Guard::Gap);
         let refuse = move |law: &FittedHypothesis| {
@@ -59,7 +59,10 @@ impl<P: Progress> Trials<'_, P> {
         let wall = self.hypothesis(&self.experiment.nuisances, &[]);
         let points = Points::new(self.data.fit.tests, &wall)?;
         let searched = search(&points)?;
-        let alone = refit(&self.data, told.hypothesis.clone(), gap.nearest, &told.fit.values)?;
+        let FittedHypothesis { hypothesis, fit, .. } = told;
+        let alone = self.within_budget(&hypothesis.name(), fit.values.len(), |data| {
+            refit(data, hypothesis.clone(), gap.nearest, &fit.values)
+        })?;
         let one = self.with_numbers_of(told, &alone)?;
         let gap = OpenGap { nearest: &one, ..*gap };
         let starts = self.seconds_beyond(&one, points.reach[law_of(told)?.first.site as usize]);
@@ -106,12 +109,14 @@ impl<P: Progress> Trials<'_, P> {
         self.progress.begin(&format!("{WHAT}, in few windows"), seconds.len());
         let look = |second: &Atom| {
             let both = Law { second: Some(*second), ..law };
-            let (_, pair) = self.taken_by_second(&data, one, &own.fit.windows, both)?;
-            let (hypothesis, values) = self.law_beside(one, &pair);
-            let fit = self.coarsely(&data, &pair, &hypothesis, &values, &own);
+            let taken = self.taken_by_second(&data, one, &own.fit.windows, both);
+            let start = taken.and_then(|(_, pair)| {
+                let (hypothesis, values) = self.law_beside(one, &pair);
+                let fit = self.coarsely(&data, &pair, &hypothesis, &values, &own)?;
+                Some((pair, Start { nats: nats(&fit.windows), hypothesis, values: fit.values }))
+            });
             self.progress.advance(1);
-            let fit = fit?;
-            Some((pair, Start { nats: nats(&fit.windows), hypothesis, values: fit.values }))
+            start
         };
         let worth = nats(&own.fit.windows) - WORTH_WINDOWS;
         let found = seconds.par_iter().filter_map(look).filter(|(_, start)| start.nats < worth);
@@ -146,11 +151,11 @@ const TOLD_STEPS: usize = 3;
 mod tests {
     use super::super::asked::Scope;
     use super::super::refused::Refused;
-    use super::super::twin::{DRAG, Twin, drag, open_gap, wall_with};
+    use super::super::twin::{AskedOfGain, DRAG, DRAG_N, Twin, drag, open_gap, wall_with};
     use super::*;
     use crate::diagnose::formula::{Shape, Side};
-    use crate::diagnose::shared::every_other;
-    use crate::diagnose::trials::{Data, Unfinished, against};
+    use crate::diagnose::shared::{as_fitted, every_other};
+    use crate::diagnose::trials::{Data, Unfinished};
     use crate::limits::WORTH_A_SECOND_SEEN;
 
     /// A stop on one side that only the test held out reaches.
@@ -158,44 +163,23 @@ mod tests {
                         [effects.parameters]\nk = { value = 2e5, unit = \"N/m\" }\n\
                         g = { value = 0.06, unit = \"m\" }\n";
 
-    /// A second atom must gain what one must that tests held out see.
-    struct Asked<'d>(Data<'d>);
-
-    impl AskedOfLaws for Asked<'_> {
-        fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
-            against(&self.0, one) - against(&self.0, two) > WORTH_A_SECOND_SEEN
-        }
-
-        fn follows_held_out(&self, _: &FittedHypothesis) -> bool {
-            true
-        }
-
-        fn leaves_nothing(&self, _: &FittedHypothesis) -> bool {
-            true
-        }
-
-        fn other_law(&self, _: &FittedHypothesis) -> Vec<Guard> {
-            Vec::new()
-        }
-    }
-
     /// What is found beside a drag, as the tests fitted tell it, in windows that the test held out shares; and what the drag leaves of the former
     /// and of the latter.
     fn beyond_a_drag(effects: &str) -> (Option<Law>, [f64; 2]) {
         let twin = Twin::farthest_held_out(&wall_with(effects), 1e-4);
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows");
-        let (h, values) = trials.law_beside(&wall.recalibrated, &drag(2.0, super::super::twin::DRAG_N));
+        let (h, values) = trials.law_beside(&wall.recalibrated, &drag(2.0, DRAG_N));
         let told = refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit");
-        let [fitted, held_out] = twin.windows().clone();
-        let windows = every_other([fitted, held_out], &told);
+        let windows = every_other(twin.windows().clone(), &told);
         let experiment = twin.experiment();
-        let tests = crate::diagnose::shared::as_fitted(&experiment.tests);
+        let tests = as_fitted(&experiment.tests);
         let unfinished = Unfinished::default();
         let trials = Trials::new(experiment, Data::new(&tests, &windows), &(), &unfinished);
         let wall = trials.wall_fits(None).expect("windows");
         let gap = open_gap(&wall, Scope::TwoAtoms);
-        let found = trials.discover_beyond(&told, &gap, &Asked(trials.data));
+        let asked = AskedOfGain { data: trials.data, least: WORTH_A_SECOND_SEEN };
+        let found = trials.discover_beyond(&told, &gap, &asked);
         let errors = told.errors().map(|error| error.expect("windows"));
         (found.and_then(|found| law_of(&found.equals[0])), errors)
     }
@@ -216,7 +200,7 @@ mod tests {
         let twin = Twin::new(&wall_with(DRAG), 1e-4);
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows");
-        let (h, values) = trials.law_beside(&wall.recalibrated, &drag(2.0, super::super::twin::DRAG_N));
+        let (h, values) = trials.law_beside(&wall.recalibrated, &drag(2.0, DRAG_N));
         let law = refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit");
         let refused = |guards: &[Guard]| Discovered {
             refused: vec![Refused::in_windows(&law, guards.to_vec())],
@@ -226,7 +210,7 @@ mod tests {
         assert!(asks(&[Guard::HeldOut]) && !asks(&[Guard::HeldOut, Guard::Bend]) && !asks(&[]));
         let is_kept = |guards: &[Guard]| refused(guards).unless_tests_fitted_refuse().count() == 1;
         assert!(is_kept(&[Guard::HeldOut, Guard::Gap]) && !is_kept(&[Guard::HeldOut, Guard::Bend]));
-        // No law is one of two that it could be.
+        // The wall without it says less.
         let said = refused(&[]).says_more_than_one_atom(&wall.recalibrated);
         assert!(said < -WORTH_A_SECOND_SEEN, "{said}");
     }

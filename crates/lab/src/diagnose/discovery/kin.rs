@@ -55,25 +55,33 @@ impl<P: Progress> Trials<'_, P> {
         });
         let all = of_name.chain(of_points).collect::<Vec<_>>();
         let look = |(start, steps): &(Law, Option<DVector<f64>>)| {
-            self.start_beside(named, power.index, start, steps.as_ref())
+            let mut additions = named.hypothesis.additions.clone();
+            additions[power.index] = Addition::Formula(*start);
+            self.start_beside(named, &additions, (power.index, start), steps.as_ref())
         };
         let found = all.par_iter().filter_map(|one| Some((one.0.first.numbers[0], look(one)?)));
         let starts = nearest_on_either_side(power.exponent, found.collect());
-        let fit = |start: Start| {
-            let name = start.hypothesis.name();
-            self.within_budget(&name, start.values.len(), |data| {
-                let found = refit(data, start.hypothesis, named, &start.values)?;
-                Some(shared_states(data, &found, &[named]))
-            })
-        };
+        let fit = |start: Start| self.fitted_beside(named, start);
         let found = starts.into_par_iter().filter_map(fit).collect::<Vec<_>>();
         let found = self.ordered(found).into_iter().next()?;
         let free = *found.hypothesis.laws(&found.fit.values).first()?;
-        let [before, after] = [named, &found].map(|t| t.against(&self.data));
-        let better = against(&self.data, named) - against(&self.data, &found) > WORTH_A_NAME
-            && after[1] <= before[1]
-            && difference(points, &law, &free) > OTHER_FORCE;
+        let better = self.does_clearly_better(named, &found) && difference(points, &law, &free) > OTHER_FORCE;
         better.then(|| with_openings(free, points))
+    }
+
+    /// Fitted from where it starts; with the states of the windows of a name where these are better.
+    pub(super) fn fitted_beside(&self, named: &FittedHypothesis, start: Start) -> Option<FittedHypothesis> {
+        let name = start.hypothesis.name();
+        self.within_budget(&name, start.values.len(), |data| {
+            let found = refit(data, start.hypothesis, named, &start.values)?;
+            Some(shared_states(data, &found, &[named]))
+        })
+    }
+
+    /// Whether it gains over a name what a name must, and follows the tests held out no worse.
+    pub(super) fn does_clearly_better(&self, named: &FittedHypothesis, found: &FittedHypothesis) -> bool {
+        let [before, after] = [named, found].map(|tried| tried.against(&self.data)[1]);
+        against(&self.data, named) - against(&self.data, found) > WORTH_A_NAME && after <= before
     }
 
     /// A name fitted on with the exponent of one of its effects free; `None` of one that is no power, and where such a fit takes more work
@@ -94,25 +102,22 @@ impl<P: Progress> Trials<'_, P> {
         self.within_budget(&name, values.len(), |data| refit(data, hypothesis, named, &values))
     }
 
-    /// A law in the place of an effect, with steps of the wall's numbers where points tell them, and how well windows follow it
-    /// so, their states fitted.
-    fn start_beside(
+    /// Additions in the place of those of a name, one of which is a law, with steps of the wall's numbers where points tell them, and how well
+    /// windows follow them so, their states fitted.
+    pub(super) fn start_beside(
         &self,
         named: &FittedHypothesis,
-        index: usize,
-        law: &Law,
+        additions: &[Addition],
+        (index, law): (usize, &Law),
         steps: Option<&DVector<f64>>,
     ) -> Option<Start> {
-        let mut additions = named.hypothesis.additions.clone();
-        additions[index] = Addition::Formula(*law);
-        let hypothesis = self.hypothesis(&self.experiment.nuisances, &additions);
+        let hypothesis = self.hypothesis(&self.experiment.nuisances, additions);
         let mut values = values_beside(&hypothesis, named, index, law);
         if let Some(steps) = steps.filter(|steps| steps.len() == hypothesis.nuisances) {
             let wall = beside(&hypothesis, steps).collect::<Vec<_>>();
             values[..wall.len()].copy_from_slice(&wall);
         }
-        let states = named.fit.windows.iter().map(|w| w.x.clone()).collect::<Vec<_>>();
-        let fit = self.data.fit.states(&hypothesis, &values, &states, LOOK_STEPS, false)?;
+        let fit = self.data.fit.states(&hypothesis, &values, &named.states(), LOOK_STEPS, false)?;
         Some(Start { nats: nats(&fit.windows), hypothesis, values })
     }
 }

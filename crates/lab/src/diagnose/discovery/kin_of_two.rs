@@ -1,15 +1,12 @@
 //! One power of velocity in the place of friction and a damper: together these stand for any power between them. So does a spring that yields
 //! at once, which is friction.
 
-use super::fitted::{LOOK_STEPS, Start};
 use super::kin::as_large;
 use super::points::Points;
 use crate::Progress;
-use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Atom, Law, Shape, Site};
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{FittedHypothesis, Trials, against, refit, shared_states};
-use crate::limits::WORTH_A_NAME;
+use crate::diagnose::trials::{FittedHypothesis, Trials};
 use mrbd_kernel::model::EffectKind;
 use rayon::prelude::*;
 
@@ -42,30 +39,13 @@ impl<P: Progress> Trials<'_, P> {
         let others = others.collect::<Vec<_>>();
         let starts = BETWEEN.par_iter().filter_map(|n| {
             let one = as_large(Law::of(drag(*n, 1.0)), &law, points)?;
-            self.start_instead(named, &[&others[..], &[Addition::Formula(one)]].concat(), &one)
+            let additions = [&others[..], &[Addition::Formula(one)]].concat();
+            self.start_beside(named, &additions, (others.len(), &one), None)
         });
         let start = starts.min_by(|a, b| a.nats.total_cmp(&b.nats))?;
-        let name = start.hypothesis.name();
-        let found = self.within_budget(&name, start.values.len(), |data| {
-            let found = refit(data, start.hypothesis, named, &start.values)?;
-            Some(shared_states(data, &found, &[named]))
-        })?;
-        let [before, after] = [named, &found].map(|tried| tried.against(&self.data));
-        let gain = against(&self.data, named) - against(&self.data, &found);
-        let better = gain > WORTH_A_NAME && after[1] <= before[1];
-        found.hypothesis.laws(&found.fit.values).first().copied().filter(|_| better)
-    }
-
-    /// Additions, the last of which is a law, in the place of those of a name, and how well windows follow them, their states fitted.
-    fn start_instead(&self, named: &FittedHypothesis, additions: &[Addition], law: &Law) -> Option<Start> {
-        let hypothesis = self.hypothesis(&self.experiment.nuisances, additions);
-        let mut values = hypothesis.values_from(&named.hypothesis, &named.fit.values);
-        let own = (0..values.len()).filter(|i| hypothesis.unknowns[*i].belongs_to(additions.len() - 1));
-        for (i, value) in own.zip(law.values()) {
-            values[i] = hypothesis.unknowns[i].within(value);
-        }
-        let fit = self.data.fit.states(&hypothesis, &values, &named.states(), LOOK_STEPS, false)?;
-        Some(Start { nats: nats(&fit.windows), hypothesis, values })
+        let found = self.fitted_beside(named, start)?;
+        let law = found.hypothesis.laws(&found.fit.values).into_iter().next();
+        law.filter(|_| self.does_clearly_better(named, &found))
     }
 }
 

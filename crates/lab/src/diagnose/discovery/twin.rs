@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::asked::{OpenGap, Scope};
+use super::asked::{AskedOfLaws, OpenGap, Scope};
 use super::points::Points;
+use super::refused::Guard;
 use crate::diagnose::experiment::Experiment;
 use crate::diagnose::formula::{Atom, Law, Shape, Side, Site};
 use crate::diagnose::hypothesis::{Hypothesis, Nuisance, Scales, wall_number};
-use crate::diagnose::trials::{Data, Trials, Unfinished, WallFits, joint_error};
+use crate::diagnose::trials::{Data, FittedHypothesis, Trials, Unfinished, WallFits, against, joint_error};
 use crate::experiment::{Manner, Purpose, Sampled, TestData, Window, rest_offset_rad, windows};
 use mrbd_files::parse_wall;
 use mrbd_kernel::accelerogram::Accelerogram;
@@ -203,6 +204,32 @@ pub fn open_gap(wall: &WallFits, scope: Scope) -> OpenGap<'_> {
         scope,
         kin: &[],
         before: None,
+    }
+}
+
+/// Asks a second atom to gain so much over all windows, in natural logarithms, and nothing else.
+pub struct AskedOfGain<'d> {
+    /// The windows.
+    pub data: Data<'d>,
+    /// What it must gain.
+    pub least: f64,
+}
+
+impl AskedOfLaws for AskedOfGain<'_> {
+    fn is_worth_two(&self, one: &FittedHypothesis, two: &FittedHypothesis) -> bool {
+        against(&self.data, one) - against(&self.data, two) > self.least
+    }
+
+    fn follows_held_out(&self, _: &FittedHypothesis) -> bool {
+        true
+    }
+
+    fn leaves_nothing(&self, _: &FittedHypothesis) -> bool {
+        true
+    }
+
+    fn other_law(&self, _: &FittedHypothesis) -> Vec<Guard> {
+        Vec::new()
     }
 }
 

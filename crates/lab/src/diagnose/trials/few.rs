@@ -108,12 +108,27 @@ fn worst_and_spread(errors: &[f64], worst: usize, most: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::discovery::twin::{Twin, wall_with};
 
     #[test]
     fn analytic_few_windows_are_spread_over_all() {
         assert_eq!(spread_over(9, 3), [0, 3, 6]);
         assert_eq!(spread_over(2, 3), [0, 1]);
         assert!(spread_over(0, 3).is_empty());
+    }
+
+    #[test]
+    fn analytic_windows_that_a_fit_misses_by_far_are_felt_under_more_noise() {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let trials = twin.trials();
+        let mut fit = trials.wall_fits(None).expect("windows").recalibrated.fit;
+        assert_eq!(Few::felt(trials.data.fit, 4, &fit).noise_2(), 1.0, "none is missed");
+        let freedom = fit.windows[1].freedom;
+        fit.windows[1].squares = 40.0 * FELT * freedom;
+        let few = Few::felt(trials.data.fit, 4, &fit);
+        // But for roundings.
+        assert!((few.noise_2() - 40.0).abs() < 1e-9, "{}", few.noise_2());
+        assert!(few.left(&fit).iter().all(|window| window.reduced() < FELT * (1.0 + 1e-9)));
     }
 
     #[test]
