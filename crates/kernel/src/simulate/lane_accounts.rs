@@ -225,7 +225,11 @@ impl Row {
         // Whether a step could be shorter at all is looked at by the run.
         let could_be_shorter = h.simd_ge(step_s * PROGRESS);
         let advances = from_row(simd, &self.limits.advances).simd_eq(1.0);
-        let too_large = Mask::from_bitmask(simd, left) & error.simd_gt(1.0) & could_be_shorter & advances;
+        // So is whether it may try another.
+        let [steps, rejected, most_steps] =
+            [&self.sums.steps, &self.sums.rejected_steps, &self.sums.most_steps].map(|n| from_row(simd, n));
+        let goes_on = could_be_shorter & advances & (steps + rejected + 1.0).simd_lt(most_steps);
+        let too_large = Mask::from_bitmask(simd, left) & error.simd_gt(1.0) & goes_on;
         if !too_large.any_true() {
             return 0;
         }

@@ -141,6 +141,8 @@ pub(super) struct SumRow {
     pub tolerance_steps: Numbers,
     /// Steps since then that were not kept.
     pub rejected_steps: Numbers,
+    /// Steps that the run may try since then.
+    pub most_steps: Numbers,
 }
 
 /// What the last step gave.

@@ -37,6 +37,8 @@ pub(super) struct Run<O> {
     /// Openings up to this are contact: a rounding of α, rad.
     contact_rad: f64,
     controller: Controller,
+    /// Steps that it may try.
+    most_steps: u64,
     totals: Totals,
     observer: O,
     contact: Contact,
@@ -99,6 +101,7 @@ impl<O: Observer> Run<O> {
             collapse_rad: simulator.wall.wall().collapse_rotation_rad(),
             contact_rad: f64::EPSILON * simulator.wall.wall().alpha_rad(),
             controller: simulator.controller,
+            most_steps: simulator.most_steps,
             totals: Totals::new(simulator.wall.joints().count()),
             observer,
             contact,

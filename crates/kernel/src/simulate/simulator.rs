@@ -85,6 +85,8 @@ pub struct Simulator {
     /// The ground motion as recorded, and as the wall's effects make it.
     record: GroundPath,
     ground: GroundPath,
+    /// Steps that a run may try, kept or not.
+    pub(super) most_steps: u64,
 }
 
 /// A start moved onto its contact state.
@@ -105,7 +107,7 @@ impl Simulator {
     /// Another wall under the same shaking, whose samples are shared and not copied.
     #[must_use]
     pub fn with_wall(&self, wall: &Wall, accuracy: Accuracy) -> Self {
-        Self::over(wall, self.record.clone(), accuracy)
+        Self::over(wall, self.record.clone(), accuracy).with_most_steps(self.most_steps)
     }
 
     fn over(wall: &Wall, record: GroundPath, accuracy: Accuracy) -> Self {
@@ -127,7 +129,15 @@ impl Simulator {
             wall: rocking,
             record,
             ground,
+            most_steps: u64::MAX,
         }
+    }
+
+    /// The same, each of whose runs fails where it has tried more steps than these: a law looked for may be so steep far from where it
+    /// was meant that a run would take days.
+    #[must_use]
+    pub fn with_most_steps(self, most_steps: u64) -> Self {
+        Self { most_steps, ..self }
     }
 
     /// The wall, ready to move.

@@ -316,6 +316,32 @@ fn analytic_walls_with_states_go_beside_others_with_the_same_bits() {
 }
 
 #[test]
+fn rejects_a_run_of_more_steps_than_it_may_try_alone_and_side_by_side() {
+    let law = formula(Place::Top, "-c*v", &[("c", 1e10, "N*s/m")]);
+    let (steep, gentle) = (with_formulas(&[law], table_wall()), with_formulas(&[], table_wall()));
+    let most = 2000;
+    let bounded = |wall| Simulator::new(wall, &shaking(1.0), ACCURACY).with_most_steps(most);
+    let alone = bounded(&steep).run(&mut ());
+    match &alone.outcome {
+        Outcome::Failed { reason, .. } => assert!(reason.contains("too fast to be followed"), "{reason}"),
+        other => panic!("{other:?}"),
+    }
+    // It ends where a step is not kept.
+    let tried = alone.work.steps + alone.work.rejected_steps;
+    assert!((most..most + 100).contains(&tried), "{tried}");
+    let free = simulate(&gentle, &shaking(1.0), ACCURACY);
+    let mut waiting = [&steep, &gentle].into_iter().cycle().take(18).enumerate();
+    let mut next = || waiting.next().map(|(i, wall)| (i, bounded(wall).prepared()));
+    let mut count = 0;
+    simulate_side_by_side(&mut next, &mut |i, response| {
+        let one = if i % 2 == 0 { &alone } else { &free };
+        assert_eq!(format!("{response:?}"), format!("{one:?}"), "{i}");
+        count += 1;
+    });
+    assert_eq!(count, 18);
+}
+
+#[test]
 fn rejects_states_that_cannot_be_followed() {
     // Some hundred thousand times faster than a sample of the record.
     let response = simulate(&with_formulas(&[maxwell(1e12, 1e-9)], table_wall()), &shaking(1.0), ACCURACY);

@@ -127,6 +127,7 @@ impl<O: Observer> Run<O> {
         sums.effect_loss_j[i] = totals.energy.effect_loss_j;
         sums.passed_through_j[i] = totals.energy.passed_through_j;
         (sums.steps[i], sums.tolerance_steps[i], sums.rejected_steps[i]) = (0.0, 0.0, 0.0);
+        sums.most_steps[i] = self.steps_left() as f64;
         self.board_strikes(row, i);
     }
 

@@ -4,6 +4,7 @@ use super::super::bed_events::first_bed_change;
 use super::super::events::{EdgeEvent, Event, first_event, first_kink, left_to_kink, sooner};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
+use super::super::response::Work;
 use super::super::row::Row;
 use super::{Run, Stop, Task, failed};
 use crate::model::{Joint, Kink, Pair, Reactions, State, Touching, Vector, opening};
@@ -30,6 +31,12 @@ const MOST_TURNS_AT_ONCE: u32 = 8;
 pub(in super::super) const PROGRESS: f64 = 1e-6;
 
 impl<O: Observer> Run<O> {
+    /// Steps that the run may still try. Looked at where a step is not kept, as some never are of a motion that changes too fast.
+    pub(super) fn steps_left(&self) -> u64 {
+        let Work { steps, rejected_steps, .. } = self.totals.work;
+        self.most_steps.saturating_sub(steps + rejected_steps)
+    }
+
     /// Keeps a step, or requests one up to the first event inside it.
     ///
     /// That shorter step is taken for its accuracy. To go on from the path inside the longer one, bent so that it has the acceleration of
@@ -42,6 +49,14 @@ impl<O: Observer> Run<O> {
             let time_s = piece.start_s + self.offset_s;
             if time_s + step.h == time_s {
                 let reason = format!("no step is short enough in pattern {}", self.contact.name());
+                return Err(Stop::Failed { time_s, reason });
+            }
+            if self.steps_left() == 0 {
+                let reason = format!(
+                    "after {} steps: the motion changes too fast to be followed in pattern {}",
+                    self.most_steps,
+                    self.contact.name()
+                );
                 return Err(Stop::Failed { time_s, reason });
             }
             return Ok(());
