@@ -133,7 +133,10 @@ impl<P: Progress> Flow<'_, P> {
         let looked_at = as_fitted(&self.tests);
         let given = std::mem::replace(&mut self.tests, looked_at);
         let first_fits = self.first_fits_in(&shared, Some(&found.recalibrated.fit.values)).ok();
-        let of_fitted = found.discovered.as_ref().and_then(Discovered::asked_for_more);
+        let of_fitted = match found.verdict.is_formula() {
+            true => Some(&found.after),
+            false => found.discovered.as_ref().and_then(Discovered::asked_for_more),
+        };
         let told =
             first_fits.and_then(|first_fits| judge_laws_beyond(&self.trials(&shared), first_fits, of_fitted));
         self.tests = given;

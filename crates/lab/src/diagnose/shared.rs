@@ -7,7 +7,7 @@
 use super::discovery::Discovered;
 use super::fit::nats;
 use super::trials::{FittedHypothesis, closes_held_out, leave_noise};
-use super::verdict::Found;
+use super::verdict::{Found, stands_out_held_out};
 use crate::experiment::{TestData, Window};
 use crate::experiment_file::Purpose;
 use crate::limits::{EQUIVALENT, LEAST_SHARED, MINDED_SHARE};
@@ -42,6 +42,9 @@ pub(super) fn every_other(
 fn asks_for_what_is_held_out(found: &Found) -> Option<&FittedHypothesis> {
     if found.says_nothing_of_what_is_held_out() {
         return Some(&found.after).filter(|wall| follows_fitted(wall));
+    }
+    if found.verdict.is_formula() {
+        return Some(&found.after).filter(|law| follows_fitted(law) && stands_out_held_out(law));
     }
     let discovered = found.discovered.as_ref().filter(|_| found.verdict.is_left_open())?;
     let misses = |law: &&FittedHypothesis| follows_fitted(law) && !closes_held_out(law);
@@ -146,12 +149,16 @@ mod tests {
     }
 
     #[test]
-    fn analytic_none_is_shared_where_something_is_told_or_nothing_asks_for_it() {
+    fn analytic_none_is_shared_where_something_is_told_that_follows_or_nothing_asks_for_it() {
         let twin = Twin::new(&wall_with(""), 1e-4);
         let given = twin.windows();
         let missing = || found(&twin, [1.0, 9.0]);
-        for told in [Verdict::Named, Verdict::Formula, Verdict::FormulaClass] {
-            assert!(shared_windows(given, &Found { verdict: told, ..missing() }).is_none());
+        assert!(shared_windows(given, &Found { verdict: Verdict::Named, ..missing() }).is_none());
+        for told in [Verdict::Formula, Verdict::FormulaClass] {
+            let law = |left: [f64; 2]| Found { verdict: told, ..found(&twin, left) };
+            assert!(shared_windows(given, &law([1.0, 1.0])).is_none(), "follows those held out");
+            assert!(shared_windows(given, &law([1.0, 1.5])).is_some(), "stands out in those held out");
+            assert!(shared_windows(given, &law([9.0, 9.0])).is_none(), "misses those fitted");
         }
         assert!(shared_windows(given, &found(&twin, [1.0, 1.0])).is_none(), "follows those held out");
         assert!(shared_windows(given, &found(&twin, [9.0, 9.0])).is_none(), "misses those fitted");

@@ -10,7 +10,7 @@ use super::fitted::{Fitted, Start};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, WindowFit};
 use crate::diagnose::formula::{Atom, Law, Shape, Site};
-use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, all_but_closes, taken_by};
+use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials, against, all_but_closes, taken_by};
 use crate::limits::{COARSE_WINDOWS, SECONDS_FITTED, WORTH_WINDOWS};
 use rayon::prelude::*;
 
@@ -34,6 +34,19 @@ impl<P: Progress> Trials<'_, P> {
         let starts = self.seconds(&best.law);
         let beside = OpenGap { nearest: &best.law, ..*gap };
         self.laws_in_windows(&beside, starts, "second atoms beside the best law")
+    }
+
+    /// Whether the best of laws that leave no more than noise leaves what a second atom would take away: how large a noise is, is known to a
+    /// few hundredths, and a law may imitate another within that. Right laws leave 8 natural logarithms of likelihood at most, and 1 mostly.
+    pub(super) fn second_shows(&self, gap: &OpenGap, closing: &[Fitted]) -> bool {
+        if let Some(before) = gap.before.filter(|before| !before.is_open()) {
+            return before.second_shows;
+        }
+        let of = |one: &&Fitted| against(&self.data, one.judged());
+        let best = closing.iter().min_by(|a, b| of(a).total_cmp(&of(b)));
+        // The states of laws that carry one along make a look dear, and second atoms hard to tell from them.
+        let best = best.filter(|one| !law_of(one.judged()).is_some_and(|law| law.first.shape.carries()));
+        best.is_some_and(|one| !self.seconds(one.judged()).is_empty())
     }
 
     /// The law of a fitted hypothesis of one atom with second ones, one of a shape, of which a little takes away most of what it leaves.
@@ -127,8 +140,10 @@ mod tests {
         let laws = starts.iter().flat_map(|start| start.hypothesis.laws(&start.values));
         let shapes = laws.filter_map(|law| law.second).map(|second| second.shape).collect();
         let gap = OpenGap { error: 10.0, ..open_gap(&wall, Scope::TwoAtoms) };
-        let fitted = trials.seconds_in_windows(&gap, &[Fitted::new(one)]);
+        let one = [Fitted::new(one)];
+        let fitted = trials.seconds_in_windows(&gap, &one);
         assert_eq!(fitted.is_empty(), starts.is_empty());
+        assert_eq!(trials.second_shows(&gap, &one), !starts.is_empty());
         shapes
     }
 

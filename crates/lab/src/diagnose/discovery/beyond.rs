@@ -96,6 +96,7 @@ impl<P: Progress> Trials<'_, P> {
             singles: vec![Fitted::new(alone)],
             pairs,
             windows_chose: true,
+            second_shows: false,
         })
     }
 

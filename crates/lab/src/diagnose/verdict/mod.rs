@@ -34,7 +34,7 @@ pub use on_beds::{beside_beds, on_beds};
 pub use other_law::{OtherLaw, Trend};
 pub use remainder::{NextRival, Remainder, model_error_rad};
 use serde::{Deserialize, Serialize};
-pub use worth_naming::{leaves_noise, power};
+pub use worth_naming::{leaves_noise, power, stands_out_held_out};
 
 /// The answer of a diagnosis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -57,7 +57,8 @@ impl<P: Progress> Gap<'_, P> {
         }
         let of_one = self.looked_for(singles, &[], Scope::OneAtom, None)?;
         let may_act_at_top = self.may_act_at_top();
-        let found = if of_one.is_open() && may_act_at_top {
+        let asks_for_two = of_one.is_open() || of_one.asks_for_a_second();
+        let found = if asks_for_two && may_act_at_top {
             self.looked_for(singles, &[], Scope::TwoAtoms, Some(&of_one)).unwrap_or(of_one)
         } else {
             of_one
@@ -66,7 +67,7 @@ impl<P: Progress> Gap<'_, P> {
         let best = found.equals.first()?;
         let is_told = match best.hypothesis.additions[0].place() {
             "top" => may_act_at_top,
-            _ => found.is_all_of_one_atom(),
+            _ => found.is_all_of_one_atom() && !found.asks_for_a_second(),
         };
         (found.is_outside_catalogue() && is_told && self.leaves_nothing(best)).then_some(found)
     }

@@ -3,7 +3,7 @@
 use crate::diagnose::fit::{Fit, WindowFit, nats};
 use crate::diagnose::trials::{Data, FittedHypothesis, against, all_windows, joint_error, kinds};
 use crate::limits::{
-    DETECTED_SD, LEAST_SIZE, PLACE_NATS, PLACE_SQUARED_ERROR, WORTH_A_NAME, WORTH_A_SECOND,
+    DETECTED_SD, LEAST_SIZE, LEFT_HELD_OUT_SD, PLACE_NATS, PLACE_SQUARED_ERROR, WORTH_A_NAME, WORTH_A_SECOND,
     WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
 };
 
@@ -114,11 +114,20 @@ pub fn leaves_noise(tried: &FittedHypothesis) -> bool {
     are_as_noise(&all_windows(tried))
 }
 
-/// Whether what is left of windows is what noise would leave, to a standard deviation: the squared error of noise has twice its
-/// freedom as variance.
+/// Whether a hypothesis leaves so much of the tests held out alone that it may have taken up another law: their motion is larger.
+pub fn stands_out_held_out(tried: &FittedHypothesis) -> bool {
+    let windows = &tried.held_out.windows;
+    nats(windows) > LEFT_HELD_OUT_SD * noise_sd(windows)
+}
+
+/// Standard deviation of what noise leaves of windows, in natural logarithms of likelihood: its squared error has twice its freedom as variance.
+fn noise_sd(windows: &[WindowFit]) -> f64 {
+    (0.5 * windows.iter().map(|window| window.freedom).sum::<f64>()).sqrt()
+}
+
+/// Whether what is left of windows is what noise would leave, to a standard deviation.
 pub fn are_as_noise(windows: &[WindowFit]) -> bool {
-    let freedom = windows.iter().map(|window| window.freedom).sum::<f64>();
-    nats(windows) < (0.5 * freedom).sqrt()
+    nats(windows) < noise_sd(windows)
 }
 
 /// Whether the tests held out could show each effect that one of two hypotheses has more; not known: they could.
