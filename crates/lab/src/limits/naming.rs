@@ -114,9 +114,4 @@ limits! {
     WORTH_A_SECOND_SEEN: f64 = 70.0, "ln of likelihood";
     /// Gain over the tests held out from which they show it.
     WORTH_A_SECOND_HELD_OUT: f64 = 30.0, "ln of likelihood";
-    /// What a law outside the catalogue leaves of the tests held out from which on a second atom is looked for, though it leaves noise of all.
-    ///
-    /// Chosen: of 222 laws of one atom told in blind sets, five of 13 whose force is off by more than a tenth lie beyond, and
-    /// eight of the others.
-    LEFT_HELD_OUT_SD: f64 = 4.0, "standard deviations";
 }
