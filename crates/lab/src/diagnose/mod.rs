@@ -37,7 +37,6 @@ use crate::experiment_file::Purpose;
 use crate::limits::{BESIDE_BEDS_GAP, READ_AGAIN};
 pub use answer::Diagnosis;
 use answer::Findings;
-use discovery::Discovered;
 pub use experiment::{Experiment, check_data, check_tests, windowed_errors};
 use mrbd_files::error::{InputError, Result};
 use mrbd_kernel::model::Pair;
@@ -133,10 +132,7 @@ impl<P: Progress> Flow<'_, P> {
         let looked_at = as_fitted(&self.tests);
         let given = std::mem::replace(&mut self.tests, looked_at);
         let first_fits = self.first_fits_in(&shared, Some(&found.recalibrated.fit.values)).ok();
-        let of_fitted = match found.verdict.is_formula() {
-            true => Some(&found.after),
-            false => found.discovered.as_ref().and_then(Discovered::asked_for_more),
-        };
+        let of_fitted = found.asked_for_more();
         let told =
             first_fits.and_then(|first_fits| judge_laws_beyond(&self.trials(&shared), first_fits, of_fitted));
         self.tests = given;

@@ -1,8 +1,9 @@
 //! Windows of tests held out that are fitted too, where the tests fitted do not show all of a law.
 //!
 //! A stop that only the larger motion reaches is told by no test of small motion. A law that follows the tests fitted to their noise and
-//! fails in those held out may lack such an atom. Every other window of the tests held out is fitted then too, and those between them
-//! judge: each is a swing of its own, with noise of its own, in motion as large.
+//! fails in those held out may lack such an atom; one that leaves a little more than noise there may have its numbers from motion too small.
+//! Every other window of the tests held out is fitted then too, and those between them judge: each is a swing of its own, with noise of its
+//! own, in motion as large.
 
 use super::discovery::Discovered;
 use super::fit::nats;
@@ -37,8 +38,8 @@ pub(super) fn every_other(
     shared
 }
 
-/// Where no answer is found, the law that follows the tests fitted and that nothing but those held out refuses, or one that misses these, or
-/// the wall if that follows those fitted so.
+/// A law that is told and leaves more than noise of the tests held out; where no answer is found, that which follows the tests fitted and that
+/// nothing but those held out refuses, or one that misses these, or the wall if that follows those fitted so.
 fn asks_for_what_is_held_out(found: &Found) -> Option<&FittedHypothesis> {
     if found.says_nothing_of_what_is_held_out() {
         return Some(&found.after).filter(|wall| follows_fitted(wall));

@@ -1,7 +1,7 @@
 //! What was found: the verdict, the walls that it compares, and everything that was tried.
 
 use super::{OtherLaw, Remainder, Verdict};
-use crate::diagnose::discovery::Discovered;
+use crate::diagnose::discovery::{Discovered, law_of};
 use crate::diagnose::trials::{Data, FittedHypothesis, against, all_but_closes, is_noise, joint_error};
 use crate::limits::{HELD_OUT_ERROR, NOISE_AFTER};
 
@@ -44,6 +44,15 @@ impl Found {
         let others = self.discovered.as_ref().and_then(|found| found.equals.get(1..)).unwrap_or_default();
         let told = self.verdict.is_formula().then_some(&self.after).into_iter();
         told.flat_map(|first| std::iter::once(first).chain(others)).collect()
+    }
+
+    /// The law of one atom that the tests fitted tell, of which those held out may ask more: the one that is told, or that these alone refuse.
+    pub fn asked_for_more(&self) -> Option<&FittedHypothesis> {
+        if !self.verdict.is_formula() {
+            return self.discovered.as_ref()?.asked_for_more();
+        }
+        let of_one = law_of(&self.after).is_some_and(|law| law.second.is_none());
+        of_one.then_some(&self.after)
     }
 
     /// The best law outside the catalogue that was tried, where nothing is told and it all but closes the gap.
@@ -130,7 +139,9 @@ impl Found {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::discovery::twin::{Twin, wall_with};
+    use crate::diagnose::discovery::twin::{DRAG_N, Twin, drag, wall_with};
+    use crate::diagnose::fit::Fit;
+    use crate::diagnose::formula::Law;
 
     /// A wall that leaves so much in every window fitted and held out, squared error over squared noise.
     fn leaving([fitted, held_out]: [f64; 2]) -> FittedHypothesis {
@@ -155,6 +166,22 @@ mod tests {
         }
         let none = Found { discovered: None, ..found(Verdict::Unknown, 1.0) };
         assert!(none.nearest_of_laws_refused().is_none());
+    }
+
+    #[test]
+    fn analytic_more_is_asked_of_a_law_of_one_atom_that_is_told() {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let wall = twin.trials().wall_fits(None).expect("windows").recalibrated;
+        let one = drag(2.0, DRAG_N);
+        let asked = |verdict: Verdict, law: Law| {
+            let (hypothesis, values) = twin.trials().law_beside(&wall, &law);
+            let after =
+                FittedHypothesis { hypothesis, fit: Fit { values, ..wall.fit.clone() }, ..wall.clone() };
+            Found { after, ..Found::in_vain(verdict, &wall, wall.clone()) }.asked_for_more().is_some()
+        };
+        let two = Law { second: Some(drag(1.0, DRAG_N).first), ..one };
+        assert_eq!([one, two].map(|law| asked(Verdict::Formula, law)), [true, false]);
+        assert!(!asked(Verdict::PlaceOnly, one), "nothing refused a law for the tests held out alone");
     }
 
     #[test]
