@@ -1,7 +1,7 @@
 //! What refuses a law that fits: it must hold in tests it has not seen, and its numbers inside what was excited.
 
 use super::search::Equations;
-use crate::diagnose::formula::Law;
+use crate::diagnose::formula::{Atom, Law};
 use crate::limits::{AT_BOUND, LEFT_OUT_LOSS, LEFT_OUT_SHARE, WORTH_WINDOWS};
 use nalgebra::{DMatrix, DVector};
 
@@ -100,13 +100,18 @@ impl Terms {
     }
 }
 
-/// Whether the numbers of its shapes lie inside what was looked at, and thus inside what was excited.
+/// Whether the numbers of its shapes lie inside what was looked at, and thus inside what was excited. An exact exponent at the upper end is
+/// one that may be larger; at the lower stands friction.
 pub fn lies_inside(law: &Law) -> bool {
     let inside = |(value, [least, most]): (f64, [f64; 2])| {
         let margin = AT_BOUND * (most - least);
         value > least + margin && value < most - margin
     };
-    law.atoms().all(|atom| atom.free().map(|i| (atom.numbers[i], atom.bounds(i))).all(inside))
+    let below_most =
+        |atom: &Atom| (0..atom.shape.numbers().len()).all(|i| atom.numbers[i] < atom.bounds(i)[1]);
+    let holds =
+        |atom: Atom| below_most(&atom) && atom.free().map(|i| (atom.numbers[i], atom.bounds(i))).all(inside);
+    law.atoms().all(holds)
 }
 
 #[cfg(test)]
@@ -114,7 +119,7 @@ mod tests {
     use super::super::search::search;
     use super::super::twin::{drag, points_with};
     use super::*;
-    use crate::diagnose::formula::{Atom, Shape, Site};
+    use crate::diagnose::formula::{Shape, Side, Site};
 
     #[test]
     fn analytic_a_law_of_every_test_holds_in_each_and_one_of_a_single_test_does_not() {
@@ -178,5 +183,12 @@ mod tests {
     fn rejects_numbers_at_the_ends_of_what_was_looked_at() {
         assert!(lies_inside(&drag(1.7, 300.0)) && lies_inside(&drag(0.0, 300.0)));
         assert!(!lies_inside(&drag(5.0, 300.0)));
+        // Nor is an exact exponent told that may be larger; friction is one at the lower end.
+        let shape = Shape::OneSidedSpring(Side::Positive);
+        let exact = |n: f64| {
+            let first = Atom { shape, numbers: [n, 0.0], is_exact: true, ..drag(1.0, 300.0).first };
+            lies_inside(&Law::of(first))
+        };
+        assert_eq!([1.0, 3.0, 4.0].map(exact), [true, true, false]);
     }
 }
