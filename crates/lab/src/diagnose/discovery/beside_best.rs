@@ -22,6 +22,8 @@ const THRESHOLDS: [f64; 6] = [0.13, 0.28, 0.45, 0.63, 0.8, 0.87];
 const WIDTHS: [f64; 3] = [0.1, 0.25, 0.63];
 /// Exponent of what lies beyond a threshold: between a line and a square, of which a fit finds either.
 const BEYOND: f64 = 1.5;
+/// One of so many atoms is looked at where it is only asked whether any shows: neighbours take away nearly the same.
+const LOOKED_AT: usize = 3;
 /// Size for which the look is taken, as a share of the first atom's: where it starts is zero.
 const LITTLE: f64 = 0.1;
 
@@ -31,7 +33,7 @@ impl<P: Progress> Trials<'_, P> {
     pub(super) fn seconds_in_windows(&self, gap: &OpenGap, singles: &[Fitted]) -> Vec<Fitted> {
         let near = |one: &&Fitted| one.means_something() && all_but_closes(&one.law, gap.error);
         let Some(best) = singles.iter().find(near) else { return Vec::new() };
-        let starts = self.seconds(&best.law);
+        let starts = self.seconds(&best.law, 1);
         let beside = OpenGap { nearest: &best.law, ..*gap };
         self.laws_in_windows(&beside, starts, "second atoms beside the best law")
     }
@@ -46,16 +48,18 @@ impl<P: Progress> Trials<'_, P> {
         let best = closing.iter().min_by(|a, b| of(a).total_cmp(&of(b)));
         // The states of laws that carry one along make a look dear, and second atoms hard to tell from them.
         let best = best.filter(|one| !law_of(one.judged()).is_some_and(|law| law.first.shape.carries()));
-        best.is_some_and(|one| !self.seconds(one.judged()).is_empty())
+        best.is_some_and(|one| !self.seconds(one.judged(), LOOKED_AT).is_empty())
     }
 
-    /// The law of a fitted hypothesis of one atom with second ones, one of a shape, of which a little takes away most of what it leaves.
-    fn seconds(&self, best: &FittedHypothesis) -> Vec<Start> {
+    /// The law of a fitted hypothesis of one atom with second ones, one of a shape, of which a little takes away most of what it leaves: of
+    /// all, or `every` so many of them.
+    fn seconds(&self, best: &FittedHypothesis, every: usize) -> Vec<Start> {
         let Some(law) = law_of(best).filter(|law| law.second.is_none()) else { return Vec::new() };
         let few = Few::followed_worst(self.data.fit, COARSE_WINDOWS, &best.fit);
         let data = few.data();
         let left = few.of(best).fit.windows;
         let seconds = seconds_of(&law.first, law.first.reach);
+        let seconds = seconds.into_iter().step_by(every).collect::<Vec<_>>();
         self.progress.begin("second atoms beside the best law, a first look", seconds.len());
         let look = |second: &Atom| {
             let taken = self.taken_by_second(&data, best, &left, Law { second: Some(*second), ..law });
@@ -136,7 +140,7 @@ mod tests {
         let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Formula(alone)]);
         let values = wall.recalibrated.fit.values.iter().copied().chain(alone.values()).collect::<Vec<_>>();
         let one = refit(&trials.data, h, &wall.recalibrated, &values).expect("a fit");
-        let starts = trials.seconds(&one);
+        let starts = trials.seconds(&one, 1);
         let laws = starts.iter().flat_map(|start| start.hypothesis.laws(&start.values));
         let shapes = laws.filter_map(|law| law.second).map(|second| second.shape).collect();
         let gap = OpenGap { error: 10.0, ..open_gap(&wall, Scope::TwoAtoms) };
