@@ -21,7 +21,7 @@ use nalgebra::DVector;
 /// Accuracy of windows: far below any noise, over a second.
 const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
 
-/// Steps that a window may try before it stays where it is. Of five million windows of twelve diagnoses, with laws of every kind and
+/// Steps that a window may try before it stays where it is. Of ten million windows of twelve diagnoses, with laws of every kind and
 /// with beds, the longest took 57 000. A damper that goes with the 4.3rd power of velocity, tried in the place of a spring, took
 /// steps without end.
 const MOST_STEPS: u64 = 100_000;
