@@ -162,6 +162,37 @@ fn regress_the_documentation_has_the_table_of_the_last_recorded_laws_together() 
     );
 }
 
+#[test]
+fn regress_the_readme_has_the_tallies_of_the_recorded_laws() {
+    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = std::fs::read_to_string(readme).expect("the README");
+    let all = SETS_OF_LAWS.iter().flat_map(|set| recorded_laws(set)).collect::<Vec<_>>();
+    let last = &SETS_OF_LAWS[SETS_OF_LAWS.len() - TOLD_TOGETHER..];
+    let last = all.iter().filter(|row| last.contains(&row.set.as_str())).cloned().collect::<Vec<_>>();
+    let table = laws::targets::table(&last);
+    // The cases of a row: "12 of 14".
+    let cases = |figure: &str| {
+        let row = table.lines().find(|line| line.contains(figure)).expect("a row of the table");
+        row.rsplit(", ").next().expect("cases").trim_matches([' ', '|']).to_owned()
+    };
+    let [small, large, two] =
+        ["≤ 1e-4 rad: the formula", "one atom at 3e-4 rad", "two atoms: both right"].map(cases);
+    let each = cases("of the force in the tests fitted: both right").replace("of", "of the");
+    let count = |holds: &dyn Fn(&laws::LawRow) -> bool| all.iter().filter(|row| holds(row)).count();
+    let tallies = [
+        format!("{small} are told, at 3e-4 rad {large}, of two atoms {two} ({each} of which each makes 10 %"),
+        format!("of {} formulas accepted in {} sets", count(&laws::LawRow::accepts), SETS_OF_LAWS.len()),
+        format!(
+            "{} are another force, {} of them at 3e-4 rad",
+            count(&laws::LawRow::wrong),
+            count(&|row| row.wrong() && row.noise_rad == 3e-4)
+        ),
+    ];
+    for tally in tallies {
+        assert!(readme.contains(&tally), "README.md lacks \"{tally}\"");
+    }
+}
+
 /// Sets of twins by which calibrations were judged, in order: `make blind-calibrations SET=twins4` goes on from there.
 const SETS_OF_TWINS: [&str; 2] = ["twins2", "twins4"];
 

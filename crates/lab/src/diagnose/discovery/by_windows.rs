@@ -379,8 +379,8 @@ mod tests {
         [trials.lacks_an_atom(&one, &pairs), told.is_some()]
     }
 
-    /// Atoms of the law that is found beside nothing, where what any law leaves counts as noise, and whether one is found for which few
-    /// windows ask for a second.
+    /// Whether few windows ask for a second atom beside the law of one that is found, where what any law leaves counts as noise, and how
+    /// many the law has that is found then.
     fn atoms_found(effects: &str) -> (bool, usize) {
         let twin = Twin::new(&wall_with(effects), 1e-4);
         let trials = twin.trials();

@@ -235,6 +235,14 @@ mod tests {
         assert!(are_as_noise(&of(0)) && are_as_noise(&of(1)) && !are_as_noise(&of(2)));
     }
 
+    #[test]
+    fn analytic_what_stands_out_of_tests_held_out_is_four_deviations_of_their_noise_whatever_those_fitted_leave()
+     {
+        // Four times 45 nats.
+        let stands_out = |left: [f64; 2]| stands_out_held_out(&tried(&[], left));
+        assert!(stands_out([0.0, 190.0]) && !stands_out([0.0, 170.0]) && !stands_out([500.0, 0.0]));
+    }
+
     fn worth(of_one: [f64; 2], of_two: [f64; 2]) -> bool {
         worth_two(
             &DATA,
