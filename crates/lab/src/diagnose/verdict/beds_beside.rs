@@ -7,8 +7,8 @@ use super::remainder::is_soft;
 use super::{Verdict, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{FittedHypothesis, Trials, WallFits, does_something};
-use crate::limits::{BEDS_BESIDE_EFFECTS, EQUIVALENT};
+use crate::diagnose::trials::{FittedHypothesis, Trials, WallFits, does_something, joint_error};
+use crate::limits::{BEDS_BESIDE_EFFECTS, EQUIVALENT, NARROW_GAP};
 
 /// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
 pub struct BedsBeside {
@@ -44,15 +44,36 @@ impl BedsBeside {
         Self::one_of(trials, &singles, &parts.iter().collect::<Vec<_>>())
     }
 
+    /// The same beside an effect that is found with them, where neither shows without the other and the wall as given leaves a
+    /// gap that is not narrow.
+    pub fn found_together<P: Progress>(
+        trials: &Trials<P>,
+        before: &FittedHypothesis,
+        tried: &[FittedHypothesis],
+    ) -> Option<Self> {
+        if !may_have_beds_beside(trials) || joint_error(before)? < NARROW_GAP {
+            return None;
+        }
+        Self::best_of(trials, tried, &trials.beds_with_effects(before))
+    }
+
     /// The same beside one of some effects, each of which was tried alone among `singles`.
     fn one_of<P: Progress>(
         trials: &Trials<P>,
         singles: &[FittedHypothesis],
         effects: &[&FittedHypothesis],
     ) -> Option<Self> {
-        let beds = trials.beds_beside(effects);
+        Self::best_of(trials, singles, &trials.beds_beside(effects))
+    }
+
+    /// The first of some beds with an effect each, which was tried alone among others.
+    fn best_of<P: Progress>(
+        trials: &Trials<P>,
+        tried: &[FittedHypothesis],
+        beds: &[FittedHypothesis],
+    ) -> Option<Self> {
         let (best, others) = beds.split_first()?;
-        let effect = singles.iter().find(|one| contains(best, one))?.clone();
+        let effect = tried.iter().find(|one| is_alone_in(best, one))?.clone();
         let alone = trials.bed_without_effect(best)?;
         let is_other =
             |other: &&FittedHypothesis| names(other) != names(best) && comes_near(trials, best, other);
@@ -138,9 +159,10 @@ fn following_best(singles: &[FittedHypothesis]) -> Vec<&FittedHypothesis> {
     best
 }
 
-/// Whether a hypothesis has the addition of a single effect.
-fn contains(both: &FittedHypothesis, effect: &FittedHypothesis) -> bool {
-    both.hypothesis.additions.contains(&effect.hypothesis.additions[0])
+/// Whether a hypothesis is a single effect that another has, too.
+fn is_alone_in(both: &FittedHypothesis, effect: &FittedHypothesis) -> bool {
+    let additions = &effect.hypothesis.additions;
+    additions.len() == 1 && both.hypothesis.additions.contains(&additions[0])
 }
 
 /// Whether an addition is an effect on what acts on the wall: coefficients of impact do nothing on a bed.

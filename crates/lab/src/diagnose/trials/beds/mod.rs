@@ -9,7 +9,8 @@
 //! | begin | few | stiffness and damping |
 //! | fit | all | these and the wall's own numbers |
 //!
-//! What stands on a bed is the wall as given, with its numbers fitted, or with an effect that is not enough alone.
+//! What stands on a bed is the wall as given, with its numbers fitted, or with an effect that is not enough alone; or with one that
+//! shows as little without the bed as the bed without it.
 //!
 //! What no law follows to its noise is fitted under the widest loss: it feels every window in the measure of what the
 //! model leaves, as if that were the noise.
@@ -17,6 +18,7 @@
 mod beside;
 mod probe;
 mod rivals;
+mod together;
 
 use mrbd_statistics::median;
 use rayon::prelude::*;

@@ -127,13 +127,18 @@ impl<'t, P: Progress> Probe<'t, P> {
         let additions = std::iter::once(bed).chain(wall.additions.iter().copied()).collect::<Vec<_>>();
         let h = self.trials.hypothesis(nuisances, &additions);
         let mut values = h.values_from(wall, &fit.values);
-        for (value, unknown) in values.iter_mut().zip(&h.unknowns).filter(|(_, u)| u.belongs_to(0)) {
-            let number = if unknown.measure == Measure::Softness { stiffness_pa_per_m } else { damping_s };
-            *value = unknown.within(unknown.measure.value_of(number));
-        }
+        set_bed(&h, &mut values, stiffness_pa_per_m, damping_s);
         let problem = self.few.problem();
         let fit = problem.states(&h, &values, &problem.measured_states(), 1, false)?;
         Some((h, fit))
+    }
+}
+
+/// Sets the numbers of the bed that a hypothesis adds first.
+pub fn set_bed(h: &Hypothesis, values: &mut [f64], stiffness_pa_per_m: f64, damping_s: f64) {
+    for (value, unknown) in values.iter_mut().zip(&h.unknowns).filter(|(_, u)| u.belongs_to(0)) {
+        let number = if unknown.measure == Measure::Softness { stiffness_pa_per_m } else { damping_s };
+        *value = unknown.within(unknown.measure.value_of(number));
     }
 }
 
