@@ -233,8 +233,8 @@ impl<P: Progress> Gap<'_, P> {
             }
             let laws = discovered.as_ref().map_or(&[][..], |one| &one.tried);
             let found = on_beds_last(self.trials, &self.wall, &tried, laws);
-            let is_told = || discovered.as_ref().is_some_and(|one| self.formula(one).is_some());
-            if found.is_none() && !is_told() {
+            let is_told = discovered.as_ref().is_some_and(|one| !one.equals.is_empty());
+            if found.is_none() && !is_told {
                 let all = [&tried[..], laws].concat();
                 let beds = BedsBeside::found_together(self.trials, &self.wall.before, &all);
                 if let Some(found) = beds.and_then(|beds| beds.leaving_little(self.trials, &self.wall, &all))

@@ -274,7 +274,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// The answer that laws outside the catalogue make, if one holds.
-    pub(super) fn formula(&self, discovered: &Discovered) -> Option<Answer> {
+    fn formula(&self, discovered: &Discovered) -> Option<Answer> {
         let after = self.trials.refined(discovered.equals.first()?.clone());
         let verdict = if discovered.equals.len() == 1 { Verdict::Formula } else { Verdict::FormulaClass };
         let others = discovered.equals.iter().filter(|_| verdict == Verdict::FormulaClass);
