@@ -143,11 +143,11 @@ limits! {
     BEDS_BESIDE_EFFECTS: usize = 3, "";
     /// Windows in which a linear look about each of the beds that are looked at tells of effects beside it.
     ///
-    /// Every one costs thirty runs for each bed. Chosen, half as many as those that are asked for beds.
+    /// Chosen, half as many as those that are asked for beds: the looks take most of the time.
     BEDS_TOGETHER_WINDOWS: usize = 15, "";
     /// Beds with an effect that are fitted together to few windows: those that this promises most of.
     ///
-    /// Chosen: friction beside a bed of 7.3e7 Pa/m came eighth of 21 beds with 18 effects each.
+    /// Chosen: friction beside a bed of 7.3e7 Pa/m came eighth in a wider look, with three dampings in thirty windows.
     BEDS_TOGETHER: usize = 8, "";
     /// Share of the squared error above noise that one must take away there to be fitted to all windows.
     ///
