@@ -193,11 +193,9 @@ impl<P: Progress> Trials<'_, P> {
         let first = few.of(bed);
         let nearly = follows_nearly(bed);
         let data = few.data();
-        // Coefficients of impact do nothing on a bed.
-        let is_effect = |a: &Addition| a.role().is_some_and(|role| !role.is_at_impacts());
-        let effects = candidates(self.experiment.wall.parameters()).into_iter().filter(is_effect);
+        let effects = self.effects_on_beds();
         let hypothesis = |additions: &[Addition]| self.hypothesis(&self.experiment.nuisances, additions);
-        let looked_at = seconds(&data, &first, &effects.collect::<Vec<_>>(), hypothesis);
+        let looked_at = seconds(&data, &first, &effects, hypothesis);
         let promised = looked_at.into_iter().flatten().take(BESIDE_BEDS);
         let mut starts = promised
             .map(|second| {
@@ -217,6 +215,12 @@ impl<P: Progress> Trials<'_, P> {
             })
         };
         starts.into_par_iter().filter_map(fit).collect()
+    }
+
+    /// Effects that may show beside joints that give: coefficients of impact do nothing on a bed.
+    pub(super) fn effects_on_beds(&self) -> Vec<Addition> {
+        let is_effect = |a: &Addition| a.role().is_some_and(|role| !role.is_at_impacts());
+        candidates(self.experiment.wall.parameters()).into_iter().filter(is_effect).collect()
     }
 
     /// Both joints with a bed each, from where one bed is: alike where both gave, else stiff at the other joint.

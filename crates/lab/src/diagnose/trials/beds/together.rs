@@ -3,19 +3,17 @@
 //! A stiff bed under a wall whose damper is missing, too, leaves nearly what a sharp edge leaves: no bed is asked for, and every
 //! single effect is as far off as another. About each bed a linear look tells which effect would take away most beside it.
 
-use super::may_be_named;
 use super::probe::set_bed;
-use super::{in_rounds, typical_error};
+use super::{in_rounds, may_be_named, typical_error};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Loss, WindowFit, nats};
-use crate::diagnose::hypothesis::{Addition, Hypothesis, beds, candidates};
+use crate::diagnose::hypothesis::{Addition, Hypothesis, beds};
 use crate::diagnose::trials::imitation::{Imitation, seconds};
 use crate::diagnose::trials::{Data, Few, FittedHypothesis, Trials};
 use crate::limits::{
     BED_DAMPING, BED_HALF_DECADES, BEDS_BESIDE_EFFECTS, BEDS_NEAR_BEST, BEDS_TOGETHER, BEDS_TOGETHER_TAKEN,
     BEDS_TOGETHER_WINDOWS, BEDS_WINDOWS,
 };
-use mrbd_kernel::model::Role;
 use rayon::prelude::*;
 
 impl<P: Progress> Trials<'_, P> {
@@ -55,11 +53,7 @@ impl<P: Progress> Trials<'_, P> {
     fn promised_together(&self, wall: &FittedHypothesis) -> Vec<Promise> {
         let few = Few::new(self.data.fit, BEDS_TOGETHER_WINDOWS, typical_error(wall));
         let data = few.data();
-        // Coefficients of impact do nothing on a bed.
-        let is_effect =
-            |a: &Addition| a.role().is_some_and(|role| !role.is_at_impacts() && role != Role::Bed);
-        let effects = candidates(self.experiment.wall.parameters()).into_iter().filter(is_effect);
-        let effects = effects.collect::<Vec<_>>();
+        let effects = self.effects_on_beds();
         let asked = beds().into_iter().flat_map(|bed| BED_HALF_DECADES.map(|k| (bed, k))).collect::<Vec<_>>();
         self.progress.begin("joints that give, looked at with effects", asked.len());
         let look = |(bed, stiffness_pa_per_m): &(Addition, f64)| {
