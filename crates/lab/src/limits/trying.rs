@@ -81,6 +81,15 @@ limits! {
     ANSWER_SHARES: [f64; 6] = [0.7, 0.87, 0.96, 1.04, 1.15, 1.4], "share";
     /// Shares of itself from which each number of a law outside the catalogue is fitted again.
     LAW_SHARES: [f64; 2] = [0.93, 1.07], "share";
+    /// Shares of its fitted distance from sharp edges from which the stiffness of joints that give is fitted again.
+    ///
+    /// Stiffness goes with the square of their inverse. Of two walls held at a wrong one, one left it from the second share, the other
+    /// from the last.
+    BED_SHARES: [f64; 4] = [0.87, 0.96, 1.04, 1.15], "share";
+    /// Places from which such fits of joints that give are ended.
+    ///
+    /// Of these two walls the most likely place of each round led on, and to end one takes a stiff bed twenty seconds.
+    BEDS_FINISHED: usize = 1, "";
     /// Gain below which two such fits have come to one place by their first steps, and go on as one.
     ///
     /// Where windows are linear; chosen below [`EQUIVALENT`](super::EQUIVALENT). States of some windows that differ part them by as much.

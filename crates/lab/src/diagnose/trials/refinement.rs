@@ -15,9 +15,10 @@ use super::search::{finish_begun, first_steps, shared_states};
 use super::{FittedHypothesis, Trials, against, kinds};
 use crate::Progress;
 use crate::diagnose::fit::{Fit, Problem, nats};
-use crate::diagnose::hypothesis::{Addition, Hypothesis};
+use crate::diagnose::hypothesis::{Addition, Hypothesis, Unknown};
 use crate::limits::{
-    ANSWER_FINISHED, ANSWER_ROUNDS, ANSWER_SHARES, LAW_SHARES, MOVED_IN_A_ROUND, ONE_PLACE, WORTH_A_ROUND,
+    ANSWER_FINISHED, ANSWER_ROUNDS, ANSWER_SHARES, BED_SHARES, LAW_SHARES, MOVED_IN_A_ROUND, ONE_PLACE,
+    WORTH_A_ROUND,
 };
 
 impl<P: Progress> Trials<'_, P> {
@@ -33,9 +34,22 @@ impl<P: Progress> Trials<'_, P> {
     ///
     /// A round that finds better states of windows and leaves the numbers where they are is the last: they do not hang on these.
     pub fn refined(&self, answer: FittedHypothesis) -> FittedHypothesis {
+        self.refined_while(answer, ANSWER_FINISHED, |_| true)
+    }
+
+    /// The same while the tests ask for it, so many places of a round ended.
+    pub(super) fn refined_while(
+        &self,
+        answer: FittedHypothesis,
+        finished: usize,
+        asks: impl Fn(&FittedHypothesis) -> bool,
+    ) -> FittedHypothesis {
         let mut best = answer;
         for _ in 0..ANSWER_ROUNDS {
-            let next = self.looked_about(self.once_more(&best));
+            if !asks(&best) {
+                break;
+            }
+            let next = self.looked_about(self.once_more(&best, finished));
             let gain = against(&self.data, &best) - against(&self.data, &next);
             let goes_on =
                 gain > WORTH_A_ROUND && likelihood_apart(&next.fit, &best.fit.values) > MOVED_IN_A_ROUND;
@@ -60,7 +74,7 @@ impl<P: Progress> Trials<'_, P> {
         again.filter(|next| against(&self.data, next) < against(&self.data, &found)).unwrap_or(found)
     }
 
-    fn once_more(&self, best: &FittedHypothesis) -> FittedHypothesis {
+    fn once_more(&self, best: &FittedHypothesis, finished: usize) -> FittedHypothesis {
         let (h, name) = (&best.hypothesis, best.hypothesis.name());
         let against = |tried: &FittedHypothesis| against(&self.data, tried);
         let starts = starts(best);
@@ -73,7 +87,7 @@ impl<P: Progress> Trials<'_, P> {
         };
         let mut begun = starts.into_par_iter().filter_map(begin).collect::<Vec<_>>();
         begun.push(best.fit.clone());
-        let places = come_together(&self.data.fit, h, begun);
+        let places = come_together(&self.data.fit, h, begun, finished);
         self.progress.begin("the answer, from where these came to", places.len());
         let finish = |begun: Fit| {
             let found = self
@@ -90,15 +104,15 @@ impl<P: Progress> Trials<'_, P> {
     }
 }
 
-/// Fits of a hypothesis, those that came to one place as one, with the better state of each window; the most likely places.
-fn come_together(problem: &Problem, h: &Hypothesis, mut begun: Vec<Fit>) -> Vec<Fit> {
+/// Fits of a hypothesis, those that came to one place as one, with the better state of each window; so many of the most likely places.
+fn come_together(problem: &Problem, h: &Hypothesis, mut begun: Vec<Fit>, finished: usize) -> Vec<Fit> {
     let against = |fit: &Fit| nats(&fit.windows) + 0.5 * h.prior_penalty(&fit.values);
     begun.sort_by(|a, b| against(a).total_cmp(&against(b)));
     let mut places: Vec<Fit> = Vec::new();
     for fit in begun {
         match places.iter().position(|place| is_at(place, &fit.values)) {
             Some(known) => places[known].take_better(fit),
-            None if places.len() < ANSWER_FINISHED => places.push(fit),
+            None if places.len() < finished => places.push(fit),
             None => {}
         }
     }
@@ -142,6 +156,9 @@ fn starts(best: &FittedHypothesis) -> Vec<Vec<f64>> {
     if h.additions.iter().all(|a| matches!(a, Addition::Formula(_))) {
         return starts_of_law(best);
     }
+    if h.unknowns.iter().any(Unknown::is_softness) {
+        return starts_of_beds(best);
+    }
     let of =
         |index: usize| (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index)).collect::<Vec<_>>();
     let together = |numbers: Vec<usize>| match numbers.len() {
@@ -170,9 +187,21 @@ fn starts_of_law(best: &FittedHypothesis) -> Vec<Vec<f64>> {
     (h.nuisances..h.unknowns.len()).flat_map(|i| LAW_SHARES.map(|share| moved(i, share))).collect()
 }
 
+/// The values with the stiffness of joints that give moved, of both joints together: their windows take long, and in them stiffness is
+/// what valleys hold.
+fn starts_of_beds(best: &FittedHypothesis) -> Vec<Vec<f64>> {
+    let h = &best.hypothesis;
+    let moved = |share: f64| {
+        let own = h.unknowns.iter().zip(&best.fit.values);
+        own.map(|(of, value)| if of.is_softness() { of.with_share(share, *value) } else { *value }).collect()
+    };
+    BED_SHARES.map(moved).to_vec()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::hypothesis::example::starter_with;
     use nalgebra::DMatrix;
 
     #[test]
@@ -184,5 +213,21 @@ mod tests {
         assert!(is_at(&place, &[1.0, 2.0]) && is_at(&place, &[1.0 + 1.8, 2.0 + 0.9]));
         assert!(!is_at(&place, &[1.0 + 1.8, 2.0 - 0.9]));
         assert!(!is_at(&Fit { covariance: None, ..place }, &[1.0, 2.0]));
+    }
+
+    #[test]
+    fn analytic_joints_that_give_start_again_from_other_stiffnesses_alone() {
+        let hypothesis = starter_with(&["compliant_joint.both", "viscous_damping"]);
+        let values = vec![hypothesis.unknowns[0].measure.value_of(7e9), 6e-4, 500.0];
+        let fit = Fit { values, windows: Vec::new(), cost: 0.0, covariance: None };
+        let best = FittedHypothesis { hypothesis, held_out: fit.clone(), fit };
+        let starts = starts(&best);
+        assert_eq!(starts.len(), BED_SHARES.len());
+        let softness = &best.hypothesis.unknowns[0];
+        for (values, share) in starts.iter().zip(BED_SHARES) {
+            let moved = (values[0] - softness.start) / (best.fit.values[0] - softness.start);
+            assert!((moved / share - 1.0).abs() < 1e-12, "{moved} of {share}");
+        }
+        assert!(starts.iter().all(|values| values[1..] == [6e-4, 500.0]));
     }
 }

@@ -78,7 +78,7 @@ impl BedsBeside {
         let is_other =
             |other: &&FittedHypothesis| names(other) != names(best) && comes_near(trials, best, other);
         let near = others.iter().filter(is_other).cloned().collect();
-        Some(Self { effect, alone, best: best.clone(), near })
+        Some(Self { effect, alone, best: trials.beds_refined(best.clone()), near })
     }
 
     /// The verdict where they follow to the noise, and no effect on sharp edges does nearly as well beside the same effect; or where

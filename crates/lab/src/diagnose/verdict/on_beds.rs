@@ -35,6 +35,7 @@ pub fn on_beds<P: Progress>(
         return None;
     }
     let OnBeds { best, mut near, pairs, rivals } = with_effect(trials, wall, &beds, pairs)?;
+    let best = trials.beds_refined(best);
     if Remainder::new(&trials.data, recalibrated, &best, &[])?.taken_held_out < REMAINDER_TAKEN {
         return None;
     }
@@ -87,16 +88,27 @@ pub fn on_beds_instead<P: Progress>(
     following_alone(trials, wall, &trials.beds_instead_of(named, wall), tried)
 }
 
-/// The verdict where the first of some beds follows the tests to their noise, or nearly, and is no other way to model a sharp edge.
+/// The verdict where the first of some beds, alone or with an effect beside it, follows the tests to their noise, or nearly, and is no other
+/// way to model a sharp edge.
 pub(super) fn following_alone<P: Progress>(
     trials: &Trials<P>,
     wall: &WallFits,
     beds: &[FittedHypothesis],
     tried: &[FittedHypothesis],
 ) -> Option<Found> {
-    let best = beds.first().filter(|best| does_something(best) && is_soft(best))?.clone();
-    let standing = Standing::of(trials, wall, &best, tried)?;
-    Some(standing.found(trials, wall, best, &[], [beds, tried].concat()))
+    let best = beds.first().filter(|best| does_something(best) && is_soft(best))?;
+    let alone = trials.beds_refined(best.clone());
+    let standing = Standing::of(trials, wall, &alone, tried)?;
+    let pairs = beside_beds(trials, wall, std::slice::from_ref(&alone));
+    let all = || [beds, &pairs, tried].concat();
+    if let Some((two, near)) = worth_it(trials, wall, &alone, &pairs) {
+        let two = trials.beds_refined(two);
+        if let Some(standing) = Standing::of(trials, wall, &two, tried) {
+            return Some(standing.found(trials, wall, two, &near, all()));
+        }
+    }
+    let tried = all();
+    Some(standing.found(trials, wall, alone, &[], tried))
 }
 
 /// Why joints that give, alone or with an effect, may be named.

@@ -135,8 +135,12 @@ impl<P: Progress> Trials<'_, P> {
 
     /// The best of what few windows promise, and what comes near it there, fitted to all; none where that is little.
     fn effects_beside(&self, bed: &FittedHypothesis) -> Vec<FittedHypothesis> {
-        let few = Few::new(self.data.fit, BESIDE_BEDS_WINDOWS, typical_error(bed));
         let nearly = follows_nearly(bed);
+        // What is missing beside a bed that nearly follows shows in the windows that it follows worst.
+        let few = match nearly {
+            true => Few::followed_worst(self.data.fit, BESIDE_BEDS_WINDOWS, &bed.fit),
+            false => Few::new(self.data.fit, BESIDE_BEDS_WINDOWS, typical_error(bed)),
+        };
         let mut promised = self.promised(&few, bed);
         let against = |tried: &FittedHypothesis| nats(&tried.fit.windows);
         let left = |tried: &FittedHypothesis| few.excess(&tried.fit);

@@ -138,14 +138,6 @@ mod tests {
     }
 
     #[test]
-    fn analytic_where_nothing_is_missing_no_bed_with_an_effect_goes_on() {
-        let twin = Twin::new(&wall_with(""), 1e-4);
-        let trials = twin.trials();
-        let wall = trials.wall_fits(None).expect("windows");
-        assert!(trials.beds_with_effects(&wall.before).is_empty());
-    }
-
-    #[test]
     fn analytic_of_each_bed_with_each_effect_the_best_goes_on() {
         let [one, two] = [0, 1].map(|i| vec![beds()[i], Addition::Placebo]);
         let promise = |additions: &[Addition], against: f64| Promise {
