@@ -9,6 +9,8 @@ use crate::Progress;
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{FittedHypothesis, Trials, WallFits, does_something, joint_error};
 use crate::limits::{BEDS_BESIDE_EFFECTS, EQUIVALENT, NARROW_GAP};
+use mrbd_kernel::model::Role;
+use std::ops::ControlFlow;
 
 /// Joints that give beside an effect that was tried on sharp edges, and is not enough there.
 pub struct BedsBeside {
@@ -136,6 +138,48 @@ impl<P: Progress> Gap<'_, P> {
     }
 }
 
+impl<P: Progress> Gap<'_, P> {
+    /// An answer with an indented corner, held against joints that give in the corner's place: in motion of about one size a bed turns a body
+    /// about a line within its edge, as an indented corner does. Where they say more that ends with them, and where they follow to the
+    /// noise they make a class with it: what another way to model a bed leaves may be more than what tells the two apart.
+    pub(super) fn beside_bed_in_place_of_corner(
+        &self,
+        answer: Answer,
+        tried: &[FittedHypothesis],
+    ) -> ControlFlow<Found, Answer> {
+        let Some(found) = self.bed_in_place_of_corner(&answer.after, tried) else {
+            return ControlFlow::Continue(answer);
+        };
+        if self.gain(&answer.after, &found.after) > EQUIVALENT {
+            return ControlFlow::Break(found);
+        }
+        if found.remainder.is_some() {
+            return ControlFlow::Continue(answer);
+        }
+        let of_both = names_of_all(&answer.after, [&found.after]);
+        let is_new = |name: &String| !answer.equivalent.contains(name);
+        let more = of_both.into_iter().filter(is_new).collect::<Vec<_>>();
+        let equivalent = [answer.equivalent.clone(), more].concat();
+        ControlFlow::Continue(Answer { verdict: Verdict::Class, equivalent, ..answer })
+    }
+
+    /// Joints that give with what else an answer with an indented corner has, if it has one and they may be named beside all other edges.
+    fn bed_in_place_of_corner(&self, named: &FittedHypothesis, tried: &[FittedHypothesis]) -> Option<Found> {
+        let has_corner =
+            |t: &FittedHypothesis| t.hypothesis.additions.iter().any(|a| a.role() == Some(Role::Corners));
+        if !has_corner(named) || !may_have_beds_beside(self.trials) {
+            return None;
+        }
+        let others = tried.iter().filter(|t| !has_corner(t)).cloned().collect::<Vec<_>>();
+        let mut beside = named.hypothesis.additions.iter().filter(|a| a.role() != Some(Role::Corners));
+        let Some(effect) = beside.next() else {
+            return following_alone(self.trials, &self.wall, &self.trials.beds_unasked(&self.wall), &others);
+        };
+        let part = self.trials.part_of(named, *effect)?;
+        BedsBeside::one_of(self.trials, &others, &[&part])?.leaving_little(self.trials, &self.wall, &others)
+    }
+}
+
 /// Whether an effect beside joints that give could be told: a strip whose top is held shows one moment, and a wall with beds of its own
 /// gets no others.
 fn may_have_beds_beside<P: Progress>(trials: &Trials<P>) -> bool {
@@ -210,5 +254,38 @@ mod tests {
         assert_eq!(verdict(-EQUIVALENT - 1.0), Some((Verdict::Named, Vec::new())), "the bed says more");
         let alone = gap.unless_pairs_do_better(on_beds(says(one, 0.0)), None).map(|found| found.verdict);
         assert_eq!(alone, Some(Verdict::Named));
+    }
+
+    #[test]
+    fn analytic_an_indented_corner_is_held_against_joints_that_give() {
+        const BED: &str = "[[effects]]\nkind = \"compliant_joint\"\njoint = \"ground\"\n\
+                           stiffness_pa_per_m = 7e7\ndamping_s = 1e-3\n";
+        let twin = Twin::new(&wall_with(BED), 3e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let error = joint_error(&wall.before).expect("windows");
+        let gap = Gap::new(&trials, wall.clone(), error);
+        let all = candidates(trials.experiment.wall.parameters());
+        let corner = all.into_iter().find(|a| a.name() == "corner_indentation.ground").expect("an effect");
+        // An answer that leaves so much of the squared noise in every window.
+        let leaving = |share: f64| {
+            let mut after = wall.recalibrated.clone();
+            after.hypothesis.additions = vec![corner];
+            for window in after.fit.windows.iter_mut().chain(&mut after.held_out.windows) {
+                window.squares = share * window.freedom;
+            }
+            gap.beside_bed_in_place_of_corner(Answer::of(Verdict::Named, after), &[])
+        };
+        match leaving(1.5) {
+            ControlFlow::Break(found) => assert_eq!(names(&found.after), ["compliant_joint"]),
+            ControlFlow::Continue(_) => panic!("the bed says more"),
+        }
+        match leaving(0.9) {
+            ControlFlow::Continue(answer) => {
+                assert_eq!(answer.verdict, Verdict::Class);
+                assert_eq!(answer.equivalent, ["corner_indentation", "compliant_joint"]);
+            }
+            ControlFlow::Break(_) => panic!("the corner says more"),
+        }
     }
 }

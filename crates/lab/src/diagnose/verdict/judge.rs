@@ -1,6 +1,7 @@
 //! From what was tried alone to the verdict: nothing missing, the wall's own numbers, one effect, two, or a place.
 
 use std::cell::OnceCell;
+use std::ops::ControlFlow;
 
 use super::at_impacts::{
     NamedBetween, is_near_other_impacts, named_between, only_impacts, worth_two_between,
@@ -245,6 +246,10 @@ impl<P: Progress> Gap<'_, P> {
             return found.unwrap_or_else(|| self.placed_by(discovered, None, tried));
         };
         let answer = Answer { after: self.trials.refined(answer.after), ..answer };
+        let answer = match self.beside_bed_in_place_of_corner(answer, &tried) {
+            ControlFlow::Break(found) => return found,
+            ControlFlow::Continue(answer) => answer,
+        };
         let other_law = OtherLaw::beside(&self.trials.data, &answer.after);
         if other_law.speaks() {
             return self.placed_without(&answer.after, other_law, tried);

@@ -139,6 +139,11 @@ impl<P: Progress> Trials<'_, P> {
         begun
     }
 
+    /// Joints that give, however little few windows ask for them.
+    pub fn beds_unasked(&self, WallFits { before, recalibrated }: &WallFits) -> Vec<FittedHypothesis> {
+        self.fitted_from(near_best(self.begun_under(&self.starts(before, recalibrated), None)))
+    }
+
     /// Joints that give in the place of an effect that closes a gap and leaves more than noise; none where they follow few windows
     /// no better.
     pub fn beds_instead_of(
