@@ -7,7 +7,9 @@ use super::remainder::is_soft;
 use super::{Verdict, names, names_of_all};
 use crate::Progress;
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{FittedHypothesis, Trials, WallFits, does_something, joint_error};
+use crate::diagnose::trials::{
+    FittedHypothesis, Trials, WallFits, does_something, first_of_each, joint_error,
+};
 use crate::limits::{BEDS_BESIDE_EFFECTS, EQUIVALENT, NARROW_GAP};
 use mrbd_kernel::model::Role;
 use std::ops::ControlFlow;
@@ -142,25 +144,28 @@ impl<P: Progress> Gap<'_, P> {
     /// An answer with an indented corner, held against joints that give in the corner's place: in motion of about one size a bed turns a body
     /// about a line within its edge, as an indented corner does. Where they say more that ends with them, and where they follow to the
     /// noise they make a class with it: what another way to model a bed leaves may be more than what tells the two apart.
+    ///
+    /// With everything tried.
     pub(super) fn beside_bed_in_place_of_corner(
         &self,
         answer: Answer,
-        tried: &[FittedHypothesis],
-    ) -> ControlFlow<Found, Answer> {
-        let Some(found) = self.bed_in_place_of_corner(&answer.after, tried) else {
-            return ControlFlow::Continue(answer);
+        tried: Vec<FittedHypothesis>,
+    ) -> ControlFlow<Found, (Answer, Vec<FittedHypothesis>)> {
+        let Some(found) = self.bed_in_place_of_corner(&answer.after, &tried) else {
+            return ControlFlow::Continue((answer, tried));
         };
-        if self.gain(&answer.after, &found.after) > EQUIVALENT {
-            return ControlFlow::Break(found);
+        let says_more = self.gain(&answer.after, &found.after) > EQUIVALENT;
+        let of_both = names_of_all(&answer.after, [&found.after]);
+        let tried = first_of_each(self.trials.ordered([found.tried.clone(), tried].concat()));
+        if says_more {
+            return ControlFlow::Break(Found { tried, ..found });
         }
         if found.remainder.is_some() {
-            return ControlFlow::Continue(answer);
+            return ControlFlow::Continue((answer, tried));
         }
-        let of_both = names_of_all(&answer.after, [&found.after]);
-        let is_new = |name: &String| !answer.equivalent.contains(name);
-        let more = of_both.into_iter().filter(is_new).collect::<Vec<_>>();
+        let more = of_both.into_iter().filter(|name| !answer.equivalent.contains(name)).collect::<Vec<_>>();
         let equivalent = [answer.equivalent.clone(), more].concat();
-        ControlFlow::Continue(Answer { verdict: Verdict::Class, equivalent, ..answer })
+        ControlFlow::Continue((Answer { verdict: Verdict::Class, equivalent, ..answer }, tried))
     }
 
     /// Joints that give with what else an answer with an indented corner has, if it has one and they may be named beside all other edges.
@@ -274,14 +279,15 @@ mod tests {
             for window in after.fit.windows.iter_mut().chain(&mut after.held_out.windows) {
                 window.squares = share * window.freedom;
             }
-            gap.beside_bed_in_place_of_corner(Answer::of(Verdict::Named, after), &[])
+            gap.beside_bed_in_place_of_corner(Answer::of(Verdict::Named, after), Vec::new())
         };
         match leaving(1.5) {
             ControlFlow::Break(found) => assert_eq!(names(&found.after), ["compliant_joint"]),
             ControlFlow::Continue(_) => panic!("the bed says more"),
         }
         match leaving(0.9) {
-            ControlFlow::Continue(answer) => {
+            ControlFlow::Continue((answer, tried)) => {
+                assert!(tried.iter().any(|t| names(t) == ["compliant_joint"]), "its numbers are told");
                 assert_eq!(answer.verdict, Verdict::Class);
                 assert_eq!(answer.equivalent, ["corner_indentation", "compliant_joint"]);
             }

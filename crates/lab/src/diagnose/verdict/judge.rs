@@ -246,9 +246,9 @@ impl<P: Progress> Gap<'_, P> {
             return found.unwrap_or_else(|| self.placed_by(discovered, None, tried));
         };
         let answer = Answer { after: self.trials.refined(answer.after), ..answer };
-        let answer = match self.beside_bed_in_place_of_corner(answer, &tried) {
+        let (answer, tried) = match self.beside_bed_in_place_of_corner(answer, tried) {
             ControlFlow::Break(found) => return found,
-            ControlFlow::Continue(answer) => answer,
+            ControlFlow::Continue(all) => all,
         };
         let other_law = OtherLaw::beside(&self.trials.data, &answer.after);
         if other_law.speaks() {
