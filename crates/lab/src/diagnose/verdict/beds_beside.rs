@@ -1,4 +1,5 @@
-//! Joints that give beside an effect, where that is not enough on sharp edges and windows did not ask for beds alone.
+//! Joints that give beside an effect, where that is not enough on sharp edges and windows did not ask for beds alone; and in the place of an
+//! indented corner, which they may look like.
 
 use super::found::Found;
 use super::judge::{Answer, Gap};
@@ -133,9 +134,7 @@ impl<P: Progress> Gap<'_, P> {
             return Some(on_beds);
         }
         let of_both = names_of_all(&on_beds.after, [&pair.after]);
-        let is_new = |name: &String| !on_beds.equivalent.contains(name);
-        let more = of_both.into_iter().filter(is_new).collect::<Vec<_>>();
-        let equivalent = [on_beds.equivalent, more].concat();
+        let equivalent = joined(on_beds.equivalent, of_both);
         Some(Found { verdict: Verdict::Class, equivalent, ..on_beds })
     }
 }
@@ -143,9 +142,8 @@ impl<P: Progress> Gap<'_, P> {
 impl<P: Progress> Gap<'_, P> {
     /// An answer with an indented corner, held against joints that give in the corner's place: in motion of about one size a bed turns a body
     /// about a line within its edge, as an indented corner does. Where they say more that ends with them, and where they follow to the
-    /// noise they make a class with it: what another way to model a bed leaves may be more than what tells the two apart.
-    ///
-    /// With everything tried.
+    /// noise they make a class with it: what another way to model a bed leaves may be more than what tells the two apart. With the answer
+    /// goes everything tried.
     pub(super) fn beside_bed_in_place_of_corner(
         &self,
         answer: Answer,
@@ -163,8 +161,7 @@ impl<P: Progress> Gap<'_, P> {
         if found.remainder.is_some() {
             return ControlFlow::Continue((answer, tried));
         }
-        let more = of_both.into_iter().filter(|name| !answer.equivalent.contains(name)).collect::<Vec<_>>();
-        let equivalent = [answer.equivalent.clone(), more].concat();
+        let equivalent = joined(answer.equivalent, of_both);
         ControlFlow::Continue((Answer { verdict: Verdict::Class, equivalent, ..answer }, tried))
     }
 
@@ -183,6 +180,12 @@ impl<P: Progress> Gap<'_, P> {
         let part = self.trials.part_of(named, *effect)?;
         BedsBeside::one_of(self.trials, &others, &[&part])?.leaving_little(self.trials, &self.wall, &others)
     }
+}
+
+/// Names, with those of some more that are new.
+fn joined(names: Vec<String>, more: Vec<String>) -> Vec<String> {
+    let new = more.into_iter().filter(|name| !names.contains(name)).collect::<Vec<_>>();
+    [names, new].concat()
 }
 
 /// Whether an effect beside joints that give could be told: a strip whose top is held shows one moment, and a wall with beds of its own
