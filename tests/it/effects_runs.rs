@@ -99,12 +99,10 @@ fn analytic_mirrored_effects_give_the_mirrored_answer_to_the_bit() {
 
 #[test]
 fn analytic_tolerance_bounds_the_error_with_kinks() {
-    // Of drawn walls at two tolerances; each takes five runs, two of them at 1e-12.
-    const RUNS: u64 = 75;
     let tolerances = [1e-4, 1e-7];
-    let mut well = [0_u64; 2];
+    let mut well = [0_u32; 2];
     let mut worst = [0.0_f64; 2];
-    for index in 0..RUNS {
+    for index in 0..150 {
         let (wall, shaking) = drawn(322, index);
         let difference = |a: &History, b: &History| largest_difference(&wall, a, b);
         let (_, exact) = run(&wall, &shaking, 1e-12);
@@ -121,9 +119,9 @@ fn analytic_tolerance_bounds_the_error_with_kinks() {
             }
         }
     }
-    eprintln!("{RUNS} runs at {tolerances:?}: well-conditioned {well:?}, worst error/tolerance {worst:?}");
+    eprintln!("150 runs at {tolerances:?}: well-conditioned {well:?}, worst error/tolerance {worst:?}");
     for k in 0..2 {
-        assert!(well[k] > RUNS * 3 / 5, "{well:?}");
+        assert!(well[k] > 90, "{well:?}");
         assert!(worst[k] <= 1.0, "{worst:?}");
     }
 }

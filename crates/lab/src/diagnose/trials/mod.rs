@@ -30,7 +30,9 @@ mod refinement;
 mod search;
 mod unfinished;
 
-pub use beds::{excess, in_order_of_likelihood, own_error, relieved, typical_error, widened};
+pub use beds::{
+    excess, follows_all_nearly, in_order_of_likelihood, own_error, relieved, typical_error, widened,
+};
 pub use between_impacts::BetweenImpacts;
 pub use effects::{FirstFits, WallFits};
 pub(super) use few::Few;

@@ -137,9 +137,7 @@ impl<P: Progress> Gap<'_, P> {
         let equivalent = joined(on_beds.equivalent, of_both);
         Some(Found { verdict: Verdict::Class, equivalent, ..on_beds })
     }
-}
 
-impl<P: Progress> Gap<'_, P> {
     /// An answer with an indented corner, held against joints that give in the corner's place: in motion of about one size a bed turns a body
     /// about a line within its edge, as an indented corner does. Where they say more that ends with them, and where they follow to the
     /// noise they make a class with it: what another way to model a bed leaves may be more than what tells the two apart. With the answer

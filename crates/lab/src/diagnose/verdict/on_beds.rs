@@ -15,7 +15,8 @@ use crate::diagnose::fit::{WindowFit, nats};
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{
     FittedHypothesis, Trials, WallFits, against, all_windows, closes, crushes, does_something, excess,
-    first_of_each, in_order_of_likelihood, is_noise, joint_error, relieved, typical_error,
+    first_of_each, follows_all_nearly, in_order_of_likelihood, is_noise, joint_error, relieved,
+    typical_error,
 };
 use crate::limits::{
     BED_OWN_ERROR, BESIDE_BEDS_ASKED_FOR, BESIDE_BEDS_FROM, BESIDE_BEDS_GAP, EQUIVALENT, REMAINDER_RIVAL,
@@ -297,8 +298,8 @@ fn is_clearly_worth_it<P: Progress>(
     alone: &FittedHypothesis,
     two: &FittedHypothesis,
 ) -> bool {
-    let nearly = |tried: &FittedHypothesis| joint_error(tried).is_some_and(|error| error < BESIDE_BEDS_GAP);
-    let is_more = leaves_more_than_another_model(wall, alone) || (nearly(two) && !nearly(alone));
+    let is_more = leaves_more_than_another_model(wall, alone)
+        || (follows_all_nearly(two) && !follows_all_nearly(alone));
     let takes_most = || Remainder::new(&trials.data, alone, two, &[]).is_some_and(|r| r.holds());
     let to_noise = || follows(trials, wall, two, &[]) && worth_two(&trials.data, alone, two);
     does_something(two) && ((is_more && takes_most()) || to_noise())

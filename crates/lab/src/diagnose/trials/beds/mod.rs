@@ -55,6 +55,11 @@ pub fn typical_error(tried: &FittedHypothesis) -> f64 {
     median(&reduced).unwrap_or(1.0).sqrt().max(1.0)
 }
 
+/// Whether a hypothesis leaves so little of all windows that these tell by likelihood what is missing.
+pub fn follows_all_nearly(tried: &FittedHypothesis) -> bool {
+    joint_error(tried).is_some_and(|error| error < BESIDE_BEDS_GAP)
+}
+
 /// What is left of windows beside an error, so many times the noise, in the noise's place.
 pub fn relieved(windows: &[WindowFit], error: f64) -> Vec<WindowFit> {
     windows.iter().map(|window| window.relieved(error)).collect()
@@ -94,16 +99,12 @@ impl<P: Progress> Trials<'_, P> {
     /// of a bed there, so that none shows before both are fitted.
     ///
     /// Those that are far behind a `rival` in few windows already, with the wall's own numbers fitted, go no further.
-    pub fn beds_in_narrow_gap(
-        &self,
-        WallFits { before, recalibrated }: &WallFits,
-        rival: &FittedHypothesis,
-    ) -> Vec<FittedHypothesis> {
-        if self.leaves_wide_gap(recalibrated) {
+    pub fn beds_in_narrow_gap(&self, wall: &WallFits, rival: &FittedHypothesis) -> Vec<FittedHypothesis> {
+        if self.leaves_wide_gap(&wall.recalibrated) {
             return Vec::new();
         }
         let few = Few::new(self.data.fit, BEDS_WINDOWS, 1.0);
-        let begun = near_best(self.begun_under(&self.starts(before, recalibrated), None));
+        let begun = near_best(self.begun_unasked(wall));
         let near = begun.into_par_iter().filter(|(h, fit)| self.comes_near(&few, rival, h, fit));
         self.fitted_from(near.collect())
     }
@@ -140,19 +141,20 @@ impl<P: Progress> Trials<'_, P> {
     }
 
     /// Joints that give, however little few windows ask for them.
-    pub fn beds_unasked(&self, WallFits { before, recalibrated }: &WallFits) -> Vec<FittedHypothesis> {
-        self.fitted_from(near_best(self.begun_under(&self.starts(before, recalibrated), None)))
+    pub fn beds_unasked(&self, wall: &WallFits) -> Vec<FittedHypothesis> {
+        self.fitted_from(near_best(self.begun_unasked(wall)))
+    }
+
+    /// The same as they are begun in few windows.
+    fn begun_unasked(&self, WallFits { before, recalibrated }: &WallFits) -> Vec<(Hypothesis, Fit)> {
+        self.begun_under(&self.starts(before, recalibrated), None)
     }
 
     /// Joints that give in the place of an effect that closes a gap and leaves more than noise; none where they follow few windows
     /// no better.
-    pub fn beds_instead_of(
-        &self,
-        named: &FittedHypothesis,
-        WallFits { before, recalibrated }: &WallFits,
-    ) -> Vec<FittedHypothesis> {
+    pub fn beds_instead_of(&self, named: &FittedHypothesis, wall: &WallFits) -> Vec<FittedHypothesis> {
         let left = nats(&Few::new(self.data.fit, BEDS_WINDOWS, 1.0).left(&named.fit));
-        let mut begun = self.begun_under(&self.starts(before, recalibrated), None);
+        let mut begun = self.begun_unasked(wall);
         begun.retain(|bed| nats(&bed.1.windows) < left);
         self.fitted_from(near_best(begun))
     }
@@ -209,10 +211,9 @@ impl<P: Progress> Trials<'_, P> {
     /// speak more against them than against the right law.
     ///
     /// Valleys of windows hold the numbers of a bed as they hold those of an effect: of two walls at 1e-4 rad stiffness was 12 and 21 %
-    /// off at 1.02 and 1.004 times the noise, far outside its interval, and 650 natural logarithms of likelihood from where it belongs.
+    /// off at 1.02 and 1.004 times the noise, far outside its interval, the latter 650 natural logarithms of likelihood from where it belongs.
     pub fn beds_refined(&self, found: FittedHypothesis) -> FittedHypothesis {
-        let nearly = joint_error(&found).is_some_and(|error| error < BESIDE_BEDS_GAP);
-        if self.is_held() || !nearly {
+        if self.is_held() || !follows_all_nearly(&found) {
             return found;
         }
         self.with_work(WORK_IN_ALL_WINDOWS)
