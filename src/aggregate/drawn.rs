@@ -125,23 +125,29 @@ impl Places {
         Ok(places)
     }
 
-    /// The intervals of the quantiles of a group: over façades and records, of one record over façades.
+    /// The intervals of the quantiles of some quantities of a group: over façades and records, of one record over façades.
+    /// `value` tells that of a quantity in a row.
     fn intervals(
         &self,
         group: &Group,
         by_record: bool,
-        value: impl Fn(usize) -> Option<Option<f64>>,
-    ) -> [Option<Interval>; 7] {
-        let run = |&row: &usize| {
-            let record = if by_record { 0 } else { self.records[row] };
-            Some(Drawn { value: value(row)?.unwrap_or(f64::INFINITY), record, facade: self.facades[row] })
-        };
+        quantities: usize,
+        value: impl Fn(usize, usize) -> Option<Option<f64>>,
+    ) -> Vec<[Option<Interval>; 7]> {
         let all = group.rows.iter().map(|&row| self.records[row] as usize + 1);
         let records = if by_record { 1 } else { all.max().unwrap_or(1) };
-        // A million runs: not half as much memory again, as a list that grows would take.
-        let mut runs = Vec::with_capacity(group.rows.len());
-        runs.extend(group.rows.iter().filter_map(run));
-        intervals(runs, records)
+        let of = |quantity: usize| {
+            let run = |&row: &usize| {
+                let record = if by_record { 0 } else { self.records[row] };
+                let value = value(quantity, row)?.unwrap_or(f64::INFINITY);
+                Some(Drawn { value, record, facade: self.facades[row] })
+            };
+            // A million runs: not half as much memory again, as a list that grows would take.
+            let mut runs = Vec::with_capacity(group.rows.len());
+            runs.extend(group.rows.iter().filter_map(run));
+            runs
+        };
+        intervals((0..quantities).map(of).collect(), records)
     }
 }
 
@@ -206,14 +212,15 @@ impl Told {
         let [ended, numbered, beyond_text] = self.ended;
         let ended = frame.texts(ended)?;
         let beyond = group.how_many(ended, beyond_text);
-        let one = |quantity: &Quantity| {
+        let value = |quantity: usize, row: usize| match ended.get(row) {
+            Some(text) if text == numbered => quantities[quantity].numbers.get(row).map(Some),
+            // Above all numbers.
+            Some(text) if text == beyond_text => Some(None),
+            _ => None,
+        };
+        let intervals = places.intervals(group, by_record, quantities.len(), value);
+        let one = |(quantity, intervals): (&Quantity, _)| {
             let numbers = group.sorted(&quantity.numbers, ended, numbered);
-            let value = |row: usize| match ended.get(row) {
-                Some(text) if text == numbered => quantity.numbers.get(row).map(Some),
-                // Above all numbers.
-                Some(text) if text == beyond_text => Some(None),
-                _ => None,
-            };
             Ok(Distribution {
                 variant: first.text("variant")?,
                 configuration: first.text("configuration")?,
@@ -231,10 +238,10 @@ impl Told {
                 failed: group.how_many(frame.texts("outcome")?, "failed"),
                 beyond,
                 quantiles: quantiles(&numbers, beyond as usize),
-                intervals: places.intervals(group, by_record, value),
+                intervals,
             })
         };
-        quantities.iter().map(one).collect()
+        quantities.iter().zip(intervals).map(one).collect()
     }
 }
 

@@ -13,8 +13,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::medians::{Case, Measure, Median, Middle, VariantNote};
-use super::quantile::quantiles;
+use super::medians::{Case, Measure, Median, Medians, Middle, VariantNote};
+use super::quantile::{median, quantiles};
 use super::stored::Row;
 use super::sweep::{CASE, case};
 use super::variants::MEMBER_OF;
@@ -194,19 +194,42 @@ impl Draws {
         self.records >= FEWEST_RECORDS
     }
 
-    /// The medians of a draw of so many records.
-    pub fn drawn(&self, draw: u64, records: usize) -> Vec<Median> {
+    /// A table of the medians of these cases, as they are before anything is drawn: of nothing.
+    pub fn table(&self) -> Medians {
+        let of = |case: &CaseRuns| Measure::ALL.map(|measure| case.nothing(measure));
+        Medians::new(Vec::new(), self.cases.iter().flat_map(of).collect())
+    }
+
+    /// Puts the medians of a draw of so many records into their [`Draws::table`].
+    pub fn draw_into(&self, draw: u64, records: usize, table: &mut Medians) {
+        let mut rows = table.rows_mut().iter_mut();
+        self.draw(draw, records, |drawn| {
+            for (standing, row) in drawn.standing.iter().zip(rows.by_ref()) {
+                (row.runs, row.collapsed, row.failed) = (drawn.runs, drawn.collapsed, drawn.failed);
+                row.quantiles = quantiles(standing, drawn.collapsed as usize);
+            }
+        });
+    }
+
+    /// Draws so many records; `each` sees what is drawn of one case after another.
+    fn draw(&self, draw: u64, records: usize, mut each: impl FnMut(&Drawn)) {
         let mut rng = rng_of(draw);
         let records: Vec<usize> = (0..records).map(|_| rng.random_range(0..self.records)).collect();
-        self.cases.iter().flat_map(|case| case.medians(&records, &mut rng)).collect()
+        let mut drawn = Drawn::default();
+        for case in &self.cases {
+            drawn.draw(case, &records, &mut rng);
+            each(&drawn);
+        }
     }
 
     /// The interval of each median over all draws, by case in their order and by measure; `None` where none could be drawn.
     pub(super) fn intervals(&self) -> Vec<(&Case, Measure, Option<[Middle; 2]>)> {
-        let drawn: Vec<Vec<Option<Middle>>> = (0..DRAWS)
-            .into_par_iter()
-            .map(|draw| self.drawn(draw, self.records).iter().map(Median::middle).collect())
-            .collect();
+        let middles = |draw| {
+            let mut middles = Vec::with_capacity(self.cases.len() * Measure::ALL.len());
+            self.draw(draw, self.records, |drawn| middles.extend(drawn.middles()));
+            middles
+        };
+        let drawn: Vec<Vec<Option<Middle>>> = (0..DRAWS).into_par_iter().map(middles).collect();
         let places = self.cases.iter().flat_map(|case| Measure::ALL.map(|measure| (&case.case, measure)));
         let of = |(place, (case, measure))| {
             (case, measure, interval(drawn.iter().filter_map(|draw: &Vec<_>| draw[place]), Middle::by_size))
@@ -227,34 +250,57 @@ pub(super) fn interval<T: Copy>(
 }
 
 impl CaseRuns {
-    /// The medians over some records, of each of which one member is drawn.
-    fn medians(&self, records: &[usize], rng: &mut ChaCha8Rng) -> Vec<Median> {
-        let mut standing: [Vec<f64>; 4] = std::array::from_fn(|_| Vec::with_capacity(records.len()));
-        let (mut runs, mut collapsed, mut failed) = (0, 0, 0);
-        for members in records.iter().map(|&record| &self.by_record[record]).filter(|m| !m.is_empty()) {
-            runs += 1;
+    /// The median of no run.
+    fn nothing(&self, measure: Measure) -> Median {
+        let (case, parameter_value) = (self.case.clone(), self.parameter_value);
+        let (runs, collapsed, failed) = (0, 0, 0);
+        Median {
+            case,
+            parameter_value,
+            measure,
+            runs,
+            collapsed,
+            failed,
+            quantiles: [None; 7],
+            interval: None,
+        }
+    }
+}
+
+/// The runs of a case that were drawn.
+#[derive(Debug, Default)]
+struct Drawn {
+    runs: u64,
+    collapsed: u64,
+    failed: u64,
+    /// Rotations of those that stand, increasing, by [`Measure::ALL`].
+    standing: [Vec<f64>; 4],
+}
+
+impl Drawn {
+    /// Takes one member of each of these records.
+    fn draw(&mut self, case: &CaseRuns, records: &[usize], rng: &mut ChaCha8Rng) {
+        (self.runs, self.collapsed, self.failed) = (0, 0, 0);
+        self.standing.iter_mut().for_each(Vec::clear);
+        for members in records.iter().map(|&record| &case.by_record[record]).filter(|m| !m.is_empty()) {
+            self.runs += 1;
             match members[rng.random_range(0..members.len())] {
                 Ended::Stood(rotations) => {
-                    standing.iter_mut().zip(rotations).for_each(|(of, rotation)| of.push(rotation));
+                    self.standing.iter_mut().zip(rotations).for_each(|(of, rotation)| of.push(rotation));
                 }
-                Ended::Collapsed => collapsed += 1,
-                Ended::Failed => failed += 1,
+                Ended::Collapsed => self.collapsed += 1,
+                Ended::Failed => self.failed += 1,
             }
         }
-        let median = |(measure, mut standing): (Measure, Vec<f64>)| {
-            standing.sort_unstable_by(f64::total_cmp);
-            Median {
-                case: self.case.clone(),
-                parameter_value: self.parameter_value,
-                measure,
-                runs,
-                collapsed,
-                failed,
-                quantiles: quantiles(&standing, collapsed as usize),
-                interval: None,
-            }
-        };
-        Measure::ALL.into_iter().zip(standing).map(median).collect()
+        self.standing.iter_mut().for_each(|of| of.sort_unstable_by(f64::total_cmp));
+    }
+
+    /// As [`Median::middle`], by measure.
+    fn middles(&self) -> [Option<Middle>; 4] {
+        let collapsed = (self.collapsed > 0).then_some(Middle::Collapsed);
+        self.standing
+            .each_ref()
+            .map(|standing| median(standing, self.collapsed as usize).map(Middle::Rotation).or(collapsed))
     }
 }
 
@@ -276,6 +322,13 @@ mod tests {
         let (records, members) = (by_record.len(), by_record[0].len());
         let cases = vec![CaseRuns { case, parameter_value: Some(0.5), by_record }];
         Draws { variant: "base".into(), records, members, cases }
+    }
+
+    /// The medians of a draw of so many records.
+    fn drawn(draws: &Draws, draw: u64, records: usize) -> Vec<Median> {
+        let mut table = draws.table();
+        draws.draw_into(draw, records, &mut table);
+        table.rows().to_vec()
     }
 
     fn interval_of(draws: &Draws) -> [Middle; 2] {
@@ -305,7 +358,7 @@ mod tests {
         // All records agree, and every second member collapses: the median of seven collapses in half of the draws.
         let draws = draws(vec![vec![stood(0.2), Ended::Collapsed]; 7]);
         assert_eq!(interval_of(&draws), [Middle::Rotation(0.2), Middle::Collapsed]);
-        let fell = (0..DRAWS).filter(|&draw| draws.drawn(draw, 7)[0].middle() == Some(Middle::Collapsed));
+        let fell = (0..DRAWS).filter(|&draw| drawn(&draws, draw, 7)[0].middle() == Some(Middle::Collapsed));
         // Three standard deviations of a share of a thousand tosses.
         let share = fell.count() as f64 / DRAWS as f64;
         assert!((share - 0.5).abs() < 3.0 * (0.25 / DRAWS as f64).sqrt(), "{share}");
@@ -314,14 +367,34 @@ mod tests {
     #[test]
     fn analytic_a_draw_depends_on_its_number_alone() {
         let draws = draws((1..=7).map(|i| vec![stood(f64::from(i)), stood(10.0 + f64::from(i))]).collect());
-        assert_eq!(draws.drawn(3, 7), draws.drawn(3, 7));
-        assert_ne!(draws.drawn(3, 7), draws.drawn(4, 7));
+        let of = |draw| drawn(&draws, draw, 7);
+        assert_eq!(of(3), of(3));
+        assert_ne!(of(3), of(4));
+        let mut table = draws.table();
+        [4, 3].into_iter().for_each(|draw| draws.draw_into(draw, 7, &mut table));
+        assert_eq!(table.rows(), of(3), "whatever was in its table before");
+    }
+
+    #[test]
+    fn analytic_middles_are_those_of_the_table() {
+        let fallen = vec![stood(0.1), Ended::Collapsed, Ended::Failed];
+        let draws = draws([vec![stood(0.3), stood(0.2)], fallen.clone(), fallen, vec![Ended::Failed]].into());
+        let mut seen = Vec::new();
+        for draw in 0..100 {
+            draws.draw(draw, 3, |of_case| seen.extend(of_case.middles()));
+            let of_table: Vec<Option<Middle>> = drawn(&draws, draw, 3).iter().map(Median::middle).collect();
+            assert_eq!(seen.split_off(seen.len() - 4), of_table, "draw {draw}");
+            seen.push(of_table[0]);
+        }
+        let told = |middle: fn(&Option<Middle>) -> bool| seen.iter().any(middle);
+        assert!(told(Option::is_none) && told(|m| *m == Some(Middle::Collapsed)), "{seen:?}");
+        assert!(told(|m| matches!(m, Some(Middle::Rotation(_)))), "{seen:?}");
     }
 
     #[test]
     fn regress_failed_runs_take_no_part() {
         let draws = draws(vec![vec![Ended::Failed], vec![stood(0.1)], vec![stood(0.1)]]);
-        let all: Vec<Median> = (0..100).flat_map(|draw| draws.drawn(draw, 3)).collect();
+        let all: Vec<Median> = (0..100).flat_map(|draw| drawn(&draws, draw, 3)).collect();
         assert!(all.iter().any(|median| median.failed > 0 && median.failed < 3));
         let middles = all.iter().filter(|median| median.failed < 3).map(Median::middle);
         assert!(middles.into_iter().all(|middle| middle == Some(Middle::Rotation(0.1))));

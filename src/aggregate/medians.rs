@@ -1,7 +1,6 @@
 //! The table of medians: what the tables and the findings are made from.
 
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 
 use super::draws::Draws;
 use super::quantile::MEDIAN;
@@ -202,7 +201,8 @@ pub struct Medians {
     /// What tells how sure the medians of each variant are, in the order of the variants.
     pub draws: Vec<Draws>,
     rows: Vec<Median>,
-    /// The rows of each variant; draws of medians are asked a thousand times over, so texts are compared once.
+    /// The rows of each variant: draws of medians are asked a thousand times over, so texts are compared once, and rows found by
+    /// their places.
     of_variants: Vec<OfVariant>,
     slendernesses: Vec<f64>,
 }
@@ -212,29 +212,50 @@ pub struct Medians {
 struct OfVariant {
     name: String,
     rows: Vec<usize>,
-    by_case: BTreeMap<Key, usize>,
+    /// The row at each [`place_of`].
+    at: Vec<Option<usize>>,
     /// Parameters under each floor, in the order of the rows.
     parameters: Vec<(Configuration, Parameter)>,
 }
 
-/// Slendernesses are inputs, so their bits identify them; positive floats order as their bits do.
-type Key = (Configuration, Parameter, Level, u64, Measure);
+/// What tells a row apart within a variant.
+type Key = (Configuration, Parameter, Level, f64, Measure);
+
+/// The place of a key among all that the slendernesses, increasing, allow; `None` of another slenderness.
+fn place_of(
+    (configuration, parameter, level, slenderness, measure): Key,
+    slendernesses: &[f64],
+) -> Option<usize> {
+    // Slendernesses are inputs, so their bits identify them.
+    let slenderness = slendernesses.binary_search_by(|other| other.total_cmp(&slenderness)).ok()?;
+    let case = (configuration as usize * Parameter::ALL.len() + parameter as usize) * Level::ALL.len()
+        + level.index();
+    Some((case * slendernesses.len() + slenderness) * Measure::ALL.len() + measure as usize)
+}
 
 impl OfVariant {
-    fn add(&mut self, row: usize, median: &Median) {
+    fn add(&mut self, row: usize, median: &Median, slendernesses: &[f64]) {
         let Case { configuration, parameter, level, slenderness, .. } = median.case;
         self.rows.push(row);
-        self.by_case.insert((configuration, parameter, level, slenderness.to_bits(), median.measure), row);
+        let key = (configuration, parameter, level, slenderness, median.measure);
+        if let Some(place) = place_of(key, slendernesses) {
+            self.at.resize(self.at.len().max(place + 1), None);
+            self.at[place] = Some(row);
+        }
         if self.parameters.last() != Some(&(configuration, parameter))
             && !self.parameters.contains(&(configuration, parameter))
         {
             self.parameters.push((configuration, parameter));
         }
     }
+
+    fn row(&self, key: Key, slendernesses: &[f64]) -> Option<usize> {
+        *self.at.get(place_of(key, slendernesses)?)?
+    }
 }
 
 /// The rows of each variant, in the order of the rows.
-fn of_variants(rows: &[Median]) -> Vec<OfVariant> {
+fn of_variants(rows: &[Median], slendernesses: &[f64]) -> Vec<OfVariant> {
     let mut all: Vec<OfVariant> = Vec::new();
     for (row, median) in rows.iter().enumerate() {
         let place = all.iter().rposition(|variant| variant.name == median.case.variant);
@@ -242,7 +263,7 @@ fn of_variants(rows: &[Median]) -> Vec<OfVariant> {
             all.push(OfVariant { name: median.case.variant.clone(), ..OfVariant::default() });
             all.len() - 1
         });
-        all[place].add(row, median);
+        all[place].add(row, median, slendernesses);
     }
     all
 }
@@ -253,7 +274,7 @@ impl Medians {
         let mut slendernesses: Vec<f64> = rows.iter().map(|row| row.case.slenderness).collect();
         slendernesses.sort_unstable_by(f64::total_cmp);
         slendernesses.dedup();
-        let of_variants = of_variants(&rows);
+        let of_variants = of_variants(&rows, &slendernesses);
         let (moved, draws) = (Vec::new(), Vec::new());
         Self { variants, moved, completeness: None, draws, rows, of_variants, slendernesses }
     }
@@ -291,6 +312,11 @@ impl Medians {
         &self.rows
     }
 
+    /// The same rows, whose cases and measures stay.
+    pub(super) fn rows_mut(&mut self) -> &mut [Median] {
+        &mut self.rows
+    }
+
     /// The row of a case; none if the study has no such case.
     pub fn get(&self, case: &Case, measure: Measure) -> Option<&Median> {
         self.place(case, measure).map(|row| &self.rows[row])
@@ -298,8 +324,8 @@ impl Medians {
 
     fn place(&self, case: &Case, measure: Measure) -> Option<usize> {
         let Case { configuration, parameter, level, slenderness, .. } = *case;
-        let key = (configuration, parameter, level, slenderness.to_bits(), measure);
-        self.of_variants.get(self.variant(&case.variant)?)?.by_case.get(&key).copied()
+        let key = (configuration, parameter, level, slenderness, measure);
+        self.of_variants.get(self.variant(&case.variant)?)?.row(key, &self.slendernesses)
     }
 
     /// The place of a variant among those that have rows.
@@ -314,8 +340,8 @@ impl Medians {
         (configuration, parameter, level): (Configuration, Parameter, Level),
         (slenderness, measure): (f64, Measure),
     ) -> Option<&Median> {
-        let key = (configuration, parameter, level, slenderness.to_bits(), measure);
-        self.of_variants[variant].by_case.get(&key).map(|&row| &self.rows[row])
+        let key = (configuration, parameter, level, slenderness, measure);
+        self.of_variants[variant].row(key, &self.slendernesses).map(|row| &self.rows[row])
     }
 
     /// The rows of the variant at a place.

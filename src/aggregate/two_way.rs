@@ -29,24 +29,32 @@ pub(super) struct Drawn {
     pub facade: u32,
 }
 
-/// Intervals of the quantiles at [`LEVELS`] of runs under so many records.
-pub(super) fn intervals(mut runs: Vec<Drawn>, records: usize) -> [Option<Interval>; 7] {
+/// Intervals of the quantiles at [`LEVELS`] of several quantities of the same runs, under so many records.
+///
+/// A draw takes the same façades and records for all quantities.
+pub(super) fn intervals(mut quantities: Vec<Vec<Drawn>>, records: usize) -> Vec<[Option<Interval>; 7]> {
     // What is no number stands at the end.
-    runs.sort_unstable_by(|a, b| a.value.total_cmp(&b.value));
-    let facades = runs.iter().map(|run| run.facade as usize + 1).max().unwrap_or(0);
+    quantities.par_iter_mut().for_each(|runs| runs.sort_unstable_by(|a, b| a.value.total_cmp(&b.value)));
+    let facades = quantities.iter().flatten().map(|run| run.facade as usize + 1).max().unwrap_or(0);
     let few_records = records > 1 && records < FEWEST_RECORDS;
     if facades < FEWEST_RECORDS || few_records {
-        return [None; 7];
+        return vec![[None; 7]; quantities.len()];
     }
-    let draws = ((MOST_LOOKS / runs.len()) as u64).clamp(FEWEST_DRAWS, DRAWS);
-    let draw = |number: u64| {
+    let most = quantities.iter().map(Vec::len).max().unwrap_or(0);
+    let draws = ((MOST_LOOKS / most) as u64).clamp(FEWEST_DRAWS, DRAWS);
+    let draw = |up_to: &mut Vec<u64>, number: u64| -> Vec<Option<[Option<f64>; 7]>> {
         let mut rng = rng_of(number);
         let of_records = counts(records, &mut rng);
         let of_facades = counts(facades, &mut rng);
-        weighted(&runs, |run| of_records[run.record as usize] * of_facades[run.facade as usize])
+        let weight = |run: &Drawn| of_records[run.record as usize] * of_facades[run.facade as usize];
+        quantities.iter().map(|runs| weighted(runs, weight, up_to)).collect()
     };
-    let drawn: Vec<[Option<f64>; 7]> = (0..draws).into_par_iter().filter_map(draw).collect();
-    std::array::from_fn(|level| interval(drawn.iter().map(|quantiles| quantiles[level]), by_size))
+    let drawn: Vec<_> = (0..draws).into_par_iter().map_init(Vec::new, draw).collect();
+    let of = |quantity: usize| {
+        let at = |level: usize| drawn.iter().filter_map(move |all| Some(all[quantity]?[level]));
+        std::array::from_fn(|level| interval(at(level), by_size))
+    };
+    (0..quantities.len()).map(of).collect()
 }
 
 /// How often each of some is drawn in as many draws.
@@ -56,18 +64,24 @@ pub(super) fn counts(of: usize, rng: &mut ChaCha8Rng) -> Vec<u64> {
     counts
 }
 
-/// The quantiles of runs in increasing order, each as often as its weight says; `None` where all weigh nothing.
+/// The quantiles of runs in increasing order, each as often as its weight says; `None` where all weigh nothing. `up_to` is room
+/// for how many they are up to each run.
 ///
 /// They are those of [`super::quantiles`] of the runs repeated.
-fn weighted(runs: &[Drawn], weight: impl Fn(&Drawn) -> u64) -> Option<[Option<f64>; 7]> {
-    let repeated_up_to = runs.iter().scan(0, |up_to, run| {
-        *up_to += weight(run);
-        Some(*up_to)
-    });
-    let repeated_up_to: Vec<u64> = repeated_up_to.collect();
-    let last = repeated_up_to.last()?.checked_sub(1)?;
+fn weighted(
+    runs: &[Drawn],
+    weight: impl Fn(&Drawn) -> u64,
+    up_to: &mut Vec<u64>,
+) -> Option<[Option<f64>; 7]> {
+    up_to.clear();
+    let mut all = 0;
+    up_to.extend(runs.iter().map(|run| {
+        all += weight(run);
+        all
+    }));
+    let last = all.checked_sub(1)?;
     let statistic = |rank: u64| {
-        let run = &runs[repeated_up_to.partition_point(|&up_to| up_to <= rank)];
+        let run = &runs[up_to.partition_point(|&up_to| up_to <= rank)];
         Some(run.value).filter(|value| value.is_finite())
     };
     Some(LEVELS.map(|level| {
@@ -119,29 +133,39 @@ mod tests {
             let repeated: Vec<Option<f64>> = repeated.collect();
             let standing: Vec<f64> = repeated.iter().flatten().copied().collect();
             let expected = quantiles(&standing, repeated.len() - standing.len());
-            let found = weighted(&runs, |run| weights[run.facade as usize]).expect("weights");
+            let found =
+                weighted(&runs, |run| weights[run.facade as usize], &mut Vec::new()).expect("weights");
             for (found, expected) in found.iter().zip(expected) {
                 // A sum and a product of numbers up to 100 may round otherwise.
                 let near = found.zip(expected).is_some_and(|(a, b)| (a - b).abs() < 1e-12);
                 assert!(near || (found.is_none() && expected.is_none()), "{found:?} for {expected:?}");
             }
         }
-        assert_eq!(weighted(&runs(3, 1, |_, _| Some(1.0)), |_| 0), None);
+        assert_eq!(weighted(&runs(3, 1, |_, _| Some(1.0)), |_| 0, &mut Vec::new()), None);
+    }
+
+    fn of_one(runs: Vec<Drawn>, records: usize) -> [Option<Interval>; 7] {
+        intervals(vec![runs], records)[0]
+    }
+
+    #[test]
+    fn analytic_quantities_side_by_side_are_as_alone() {
+        let root = |facade: u32, record: u32| Some(f64::from(facade * record).sqrt());
+        let fall = |facade: u32, record: u32| (facade + record < 12).then(|| f64::from(facade));
+        let both = [runs(8, 7, root), runs(8, 7, fall)];
+        let alone = both.clone().map(|runs| of_one(runs, 7));
+        assert_eq!(intervals(both.to_vec(), 7), alone);
     }
 
     #[test]
     fn analytic_runs_that_agree_leave_no_doubt_and_collapses_no_number() {
-        assert_eq!(intervals(runs(8, 7, |_, _| Some(0.2)), 7), [Some([Some(0.2); 2]); 7]);
-        assert_eq!(intervals(runs(8, 7, |_, _| None), 7), [Some([None; 2]); 7]);
-        let half = intervals(runs(8, 7, |facade, _| (facade % 2 == 0).then_some(0.2)), 7);
+        assert_eq!(of_one(runs(8, 7, |_, _| Some(0.2)), 7), [Some([Some(0.2); 2]); 7]);
+        assert_eq!(of_one(runs(8, 7, |_, _| None), 7), [Some([None; 2]); 7]);
+        let half = of_one(runs(8, 7, |facade, _| (facade % 2 == 0).then_some(0.2)), 7);
         assert_eq!(half[MEDIAN], Some([Some(0.2), None]), "four of eight façades fall");
-        assert_eq!(intervals(runs(8, 4, |_, _| Some(0.2)), 4), [None; 7], "four records are too few");
-        assert_eq!(intervals(runs(4, 7, |_, _| Some(0.2)), 7), [None; 7], "so are four façades");
-        assert_eq!(
-            intervals(runs(8, 1, |_, _| Some(0.2)), 1)[0],
-            Some([Some(0.2); 2]),
-            "one is all there is"
-        );
+        assert_eq!(of_one(runs(8, 4, |_, _| Some(0.2)), 4), [None; 7], "four records are too few");
+        assert_eq!(of_one(runs(4, 7, |_, _| Some(0.2)), 7), [None; 7], "so are four façades");
+        assert_eq!(of_one(runs(8, 1, |_, _| Some(0.2)), 1)[0], Some([Some(0.2); 2]), "one is all there is");
     }
 
     #[test]
@@ -155,7 +179,7 @@ mod tests {
             let runs = runs(30, 12, |facade, record| {
                 Some(of_facades[facade as usize] + of_records[record as usize])
             });
-            let [low, high] = intervals(runs, 12)[MEDIAN].expect("enough").map(|end| end.expect("a number"));
+            let [low, high] = of_one(runs, 12)[MEDIAN].expect("enough").map(|end| end.expect("a number"));
             hold += u32::from(low <= 0.0 && 0.0 <= high);
         }
         // 90 of 100, and three standard deviations of 3; a median of twelve records is held a little too seldom or often.

@@ -134,12 +134,12 @@ fn under(medians: &Medians, variant: &str) -> Conclusions {
 
 /// How sure each of [`FINDINGS`] is where a draw has so many records.
 pub fn sureness(draws: &Draws, records: usize) -> Vec<Sureness> {
-    let verdicts = |draw| {
-        let medians = Medians::new(Vec::new(), draws.drawn(draw, records));
-        let view = View::new(&medians, &draws.variant);
+    let verdicts = |table: &mut Medians, draw| -> Vec<Verdict> {
+        draws.draw_into(draw, records, table);
+        let view = View::new(table, &draws.variant);
         FINDINGS.iter().map(|finding: &Finding| finding.answer(&view).verdict).collect()
     };
-    let drawn: Vec<Vec<Verdict>> = (0..DRAWS).into_par_iter().map(verdicts).collect();
+    let drawn: Vec<_> = (0..DRAWS).into_par_iter().map_init(|| draws.table(), verdicts).collect();
     let share = |finding: usize, verdict: Verdict| {
         drawn.iter().filter(|verdicts| verdicts[finding] == verdict).count() as f64 / DRAWS as f64
     };

@@ -201,7 +201,8 @@ fn regress_a_stop_while_putting_together_loses_nothing() {
     let whole = standing(&output);
     // The first record is together, its blocks are still there; the second has a file that does not count yet,
     // and something half-written lies about.
-    output.write_part("record 1", whole.blocks.range(0..8).map(|(_, file)| file)).expect("written");
+    let part = output.write_part("record 1", whole.blocks.range(0..8).map(|(_, file)| file));
+    output.keep_part("record 1", part.expect("written")).expect("kept");
     let second = folder.path().join("runs/record=record%202");
     fs::create_dir_all(&second).expect("made");
     fs::write(second.join("part-1.parquet"), "half of a file").expect("written");

@@ -34,7 +34,9 @@ pub fn median(values: &[f64]) -> Option<f64> {
 pub fn censored_quantile(increasing: &[f64], above: usize, share: f64) -> Option<f64> {
     let last = (increasing.len() + above).checked_sub(1)?;
     let rank = share * last as f64;
-    let (below, weight) = (rank.floor() as usize, rank - rank.floor());
+    // Of what is not negative this cuts the fraction off, without the call of a library that `floor` is on older processors.
+    let below = rank as usize;
+    let weight = rank - below as f64;
     let lower = *increasing.get(below)?;
     // Without weight the next value need not be a number.
     let upper = if weight == 0.0 { lower } else { *increasing.get(below + 1)? };

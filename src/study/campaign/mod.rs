@@ -11,7 +11,7 @@ mod shard;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
-use std::sync::mpsc;
+use std::sync::{Mutex, PoisonError, mpsc};
 
 use super::batch::{Finished, Simulate, Tally};
 use super::plan::Plan;
@@ -20,6 +20,7 @@ use crate::error::{InputError, Result};
 use at_work::AtWork;
 use indicatif::ProgressBar;
 use rayon::ThreadPool;
+use rayon::prelude::*;
 pub use shard::{BLOCK_RUNS, Block, Layout, Shard};
 
 /// What is done. Everything counted here was read and agrees with its checksum.
@@ -86,13 +87,17 @@ impl Standing {
 pub fn compact(folder: &OutputFolder, standing: &Standing) -> Result<()> {
     let layout = Layout::of(folder.manifest());
     check_complete(folder, &layout, standing)?;
-    for (record, name) in layout.records().iter().enumerate() {
+    let checksums = &Mutex::new(());
+    layout.records().par_iter().enumerate().try_for_each(|(record, name)| {
         if !standing.parts.contains_key(&record) {
             let blocks = layout.of_record(record).filter_map(|block| standing.blocks.get(&block));
-            folder.write_part(name, blocks)?;
+            let part = folder.write_part(name, blocks)?;
+            // One file has the checksums of all.
+            let _one_at_a_time = checksums.lock().unwrap_or_else(PoisonError::into_inner);
+            folder.keep_part(name, part)?;
         }
-        folder.remove_blocks(name)?;
-    }
+        folder.remove_blocks(name)
+    })?;
     folder.remove_leftovers()
 }
 

@@ -107,17 +107,24 @@ impl OutputFolder {
         })
     }
 
-    /// Puts blocks together into the file of a record, in their order.
+    /// Puts blocks together into the file of a record, in their order; it counts once it is kept. Returns its checksum.
     ///
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses; the blocks stay.
-    pub fn write_part<'a>(&self, record: &str, blocks: impl Iterator<Item = &'a PathBuf>) -> Result<()> {
+    pub fn write_part<'a>(&self, record: &str, blocks: impl Iterator<Item = &'a PathBuf>) -> Result<String> {
         let folder = make(&self.path().join("runs").join(self.hive(record)))?;
         let mut part = self.begin(&folder, Pages::Small)?;
         for block in blocks {
             append(&mut part, block)?;
         }
-        let sha256 = part.finish_as(|_| self.part_path(record))?;
+        part.finish_as(|_| self.part_path(record))
+    }
+
+    /// Notes the checksum of the file of a record.
+    ///
+    /// # Errors
+    /// [`mrbd_files::Error::Io`] if the disk refuses; an input error for a `checksums.json` that is none.
+    pub fn keep_part(&self, record: &str, sha256: String) -> Result<()> {
         let mut checksums = read_checksums(self.path())?;
         checksums.insert(self.hive(record), sha256);
         write_checksums(self.path(), &checksums)
