@@ -5,6 +5,7 @@ use std::process::Command;
 
 use mrbd::fragility::Table;
 use mrbd_kernel::model::{Effect, ImpactLaw, WallParameters};
+use mrbd_lab::diagnose::{Experiment, check_data};
 use serde_json::Value;
 
 use crate::diagnose_twin::{damped_twin, diagnose, diagnosed, named_in_a_twin, write_twin, write_twins};
@@ -268,6 +269,19 @@ fn rejects_rotations_in_degrees_swapped_or_of_the_wrong_sign_are_refused() {
         let experiment = write_twins(folder.path(), &wall, [&wall; 3], [scale; 3], wrong);
         assert_refused(&experiment, word);
     }
+}
+
+#[test]
+fn regress_files_are_taken_as_they_are_where_the_experiment_says_so() {
+    let wall = table_wall(ImpactLaw::Contact);
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = write_twins(folder.path(), &wall, [&wall; 3], [2.2; 3], |[one, two]| [one, -two]);
+    let checked = || check_data(&Experiment::load(&path).expect("an experiment"));
+    let refused = checked().expect_err("a wrong sign").to_string();
+    assert!(refused.contains("as_read = true"), "{refused}");
+    let text = std::fs::read_to_string(&path).expect("written");
+    std::fs::write(&path, format!("as_read = true\n{text}")).expect("written");
+    checked().expect("the file as it is");
 }
 
 /// That a diagnosis ends with 2 and says so.

@@ -32,6 +32,8 @@ pub struct Experiment {
     pub nuisances: Vec<Nuisance>,
     /// Laws of the user's own, tried beside the catalogue.
     pub hypotheses: Vec<HypothesisTable>,
+    /// Whether the measured files are taken as they are.
+    pub as_read: bool,
     /// What was measured.
     pub tests: Vec<TestData>,
     /// The same tests, for the error over whole runs (Eq. 8).
@@ -72,6 +74,7 @@ impl Experiment {
         Ok(Self {
             path: path.to_path_buf(),
             hypotheses: file.hypotheses,
+            as_read: file.as_read,
             wall_path,
             wall,
             wall_table,
@@ -151,7 +154,7 @@ fn acting(key: &str) -> Option<usize> {
 
 type Misreading = (&'static str, fn(&mut TestData));
 
-/// Ways in which a measured file is wrong, and what puts it right.
+/// Ways in which a measured file is wrong, and what puts it right; those first that hardly show in a single test.
 const MISREADINGS: [Misreading; 5] = [
     ("theta1_rad and theta2_rad are swapped", |test| {
         test.theta_rad.iter_mut().for_each(|theta| theta.swap(0, 1));
@@ -171,6 +174,9 @@ const MISREADINGS: [Misreading; 5] = [
         test.noise_rad = test.noise_rad.map(f64::to_radians);
     }),
 ];
+
+/// So many of [`MISREADINGS`] are looked at over all tests too.
+const FOUND_TOGETHER: usize = 2;
 
 /// What is checked: a wall as given, and its tests as they were read, each with its number in the experiment.
 #[derive(Debug, Clone, Copy)]
@@ -208,12 +214,16 @@ impl Errors {
     }
 }
 
-/// Refuses tests whose files are wrong in a way that shows: swapped channels, wrong signs, small rotations in degrees.
+/// Refuses tests whose files are wrong in a way that shows: swapped channels, wrong signs, small rotations in degrees. Those of an
+/// experiment that says `as_read` are taken as they are.
 ///
 /// # Errors
 /// Input errors that name the test and what seems wrong with it.
 pub fn check_data(experiment: &Experiment) -> Result<()> {
-    let Experiment { path, wall, scales, tests, .. } = experiment;
+    let Experiment { path, wall, scales, tests, as_read, .. } = experiment;
+    if *as_read {
+        return Ok(());
+    }
     // Of a held strip one channel is measured: there is none to swap.
     let both = tests.iter().enumerate().filter(|(_, test)| !test.manner.top_held);
     check(&Readings { path, wall, scales, tests: &both.collect::<Vec<_>>() })
@@ -237,7 +247,7 @@ pub fn check_tests(path: &Path, wall: &Wall, tests: &[Test]) -> Result<()> {
         }
         readable.extend(TestData::new(test, &measured, table, wall).ok().map(|data| (number, data)));
     }
-    if readable.is_empty() || !wall.is_cracked() {
+    if file.as_read || readable.is_empty() || !wall.is_cracked() {
         return Ok(());
     }
     let (numbers, data): (Vec<usize>, Vec<TestData>) = readable.into_iter().unzip();
@@ -267,7 +277,8 @@ fn check(readings: &Readings) -> Result<()> {
             MISREADINGS[misreading].0,
             100.0 * share
         );
-        let allowed = "radians: theta1_rad of the lower and theta2_rad of the upper body, clockwise positive";
+        let allowed = "radians: theta1_rad of the lower and theta2_rad of the upper body, clockwise positive; \
+                       or as_read = true in the experiment, where they are right";
         Err(InputError::key(readings.path, key, found, allowed).into())
     };
     for (own, (number, test)) in errors.iter().zip(readings.tests) {
@@ -279,7 +290,7 @@ fn check(readings: &Readings) -> Result<()> {
     let together = |misreading: usize| {
         let shares = errors.iter().flatten().filter_map(|own| own.share(misreading)).collect::<Vec<_>>();
         let mean = shares.iter().map(|share| share.ln()).sum::<f64>() / shares.len() as f64;
-        (shares.len() >= MISREAD_LEAST_TESTS).then(|| mean.exp())
+        (misreading < FOUND_TOGETHER && shares.len() >= MISREAD_LEAST_TESTS).then(|| mean.exp())
     };
     match likeliest(together, MISREAD_TOGETHER) {
         Some(likeliest) => refuse("tests".to_owned(), "all tests".to_owned(), likeliest),

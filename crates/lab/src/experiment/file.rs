@@ -20,6 +20,9 @@ use mrbd_kernel::simulate::Accuracy;
 pub struct ExperimentFile {
     /// Wall file.
     pub wall: PathBuf,
+    /// Takes the measured files as they are where the wall would come nearer to them with channels swapped or of another sign.
+    #[serde(default)]
+    pub as_read: bool,
     /// Relative standard deviations of what was known before, by key of the wall file.
     #[serde(default)]
     pub prior: BTreeMap<String, f64>,

@@ -85,6 +85,7 @@ impl Twin {
         let (fit, held_out) = windows(&tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
         let wall = wall_with("");
         let experiment = Experiment {
+            as_read: false,
             path: PathBuf::new(),
             wall_path: PathBuf::new(),
             wall_table: toml::Table::new(),
