@@ -54,6 +54,10 @@ const BY_CAPACITY: Comparison = Comparison {
     compared: &["intensity"],
 };
 
+/// Runs that are listed for their intervals at once, of one quantity or of several: the lists of a million runs would take more memory
+/// than all else.
+const LISTED_AT_ONCE: usize = 200_000;
+
 /// Quantiles of the study of drawn façades in `folder`: over all records, and by record.
 ///
 /// # Errors
@@ -136,7 +140,7 @@ impl Places {
     ) -> Vec<[Option<Interval>; 7]> {
         let all = group.rows.iter().map(|&row| self.records[row] as usize + 1);
         let records = if by_record { 1 } else { all.max().unwrap_or(1) };
-        let of = |quantity: usize| {
+        let runs_of = |quantity: usize| {
             let run = |&row: &usize| {
                 let record = if by_record { 0 } else { self.records[row] };
                 let value = value(quantity, row)?.unwrap_or(f64::INFINITY);
@@ -147,7 +151,9 @@ impl Places {
             runs.extend(group.rows.iter().filter_map(run));
             runs
         };
-        intervals((0..quantities).map(of).collect(), records)
+        let at_once = (LISTED_AT_ONCE / group.rows.len().max(1)).max(1);
+        let some = |first: usize| (first..quantities.min(first + at_once)).map(runs_of).collect();
+        (0..quantities).step_by(at_once).flat_map(|first| intervals(some(first), records)).collect()
     }
 }
 

@@ -83,7 +83,9 @@ impl RunCommand {
         let folder = OutputFolder::prepare(&out, &manifest, &pipeline.text, self.earlier())?;
         self.run(&plan, &folder, shard.unwrap_or(Shard::WHOLE))?;
         if shard.is_none() {
-            return self.threads.pool()?.install(|| super::merge::merge_and_print(&folder));
+            // On the thread that stored the blocks: its memory serves again.
+            self.threads.take()?;
+            return super::merge::merge_and_print(&folder);
         }
         eprintln!("mrbd: `mrbd merge {}` puts the parts together when all are done", out.display());
         Ok(())

@@ -3,7 +3,7 @@
 use std::num::NonZero;
 
 use clap::Args;
-use rayon::{ThreadPool, ThreadPoolBuilder};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::error::{InputError, Result};
 
@@ -26,6 +26,21 @@ impl Threads {
     /// # Errors
     /// An input error if they are too many, or cannot be had.
     pub fn pool(&self) -> Result<ThreadPool, InputError> {
+        self.had(ThreadPoolBuilder::build)
+    }
+
+    /// Takes the threads for all that follows and does not say on which it runs. Once a program.
+    ///
+    /// # Errors
+    /// As [`Threads::pool`].
+    pub fn take(&self) -> Result<(), InputError> {
+        self.had(ThreadPoolBuilder::build_global)
+    }
+
+    fn had<T>(
+        &self,
+        build: impl FnOnce(ThreadPoolBuilder) -> Result<T, ThreadPoolBuildError>,
+    ) -> Result<T, InputError> {
         let processors = std::thread::available_parallelism().map_or(1, NonZero::get);
         let count = self.count.map_or(processors, NonZero::get);
         let most = FEW.max(MOST_A_PROCESSOR * processors);
@@ -36,7 +51,7 @@ impl Threads {
         if count > most {
             return Err(refuse(count.to_string()));
         }
-        ThreadPoolBuilder::new().num_threads(count).build().map_err(|e| refuse(e.to_string()))
+        build(ThreadPoolBuilder::new().num_threads(count)).map_err(|e| refuse(e.to_string()))
     }
 }
 

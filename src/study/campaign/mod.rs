@@ -76,6 +76,9 @@ impl Standing {
     }
 }
 
+/// Runs that are put together at once, of one record or of several: a file keeps its runs in memory until a group of rows is full.
+const WRITTEN_AT_ONCE: u64 = 50_000;
+
 /// Puts the blocks of every record together; records that are together already stay as they are.
 ///
 /// The blocks go in the order of the plan and by the same steps however they came about, so equal blocks give
@@ -88,7 +91,7 @@ pub fn compact(folder: &OutputFolder, standing: &Standing) -> Result<()> {
     let layout = Layout::of(folder.manifest());
     check_complete(folder, &layout, standing)?;
     let checksums = &Mutex::new(());
-    layout.records().par_iter().enumerate().try_for_each(|(record, name)| {
+    let put_together = |(record, name): (usize, &String)| {
         if !standing.parts.contains_key(&record) {
             let blocks = layout.of_record(record).filter_map(|block| standing.blocks.get(&block));
             let part = folder.write_part(name, blocks)?;
@@ -97,7 +100,12 @@ pub fn compact(folder: &OutputFolder, standing: &Standing) -> Result<()> {
             folder.keep_part(name, part)?;
         }
         folder.remove_blocks(name)
-    })?;
+    };
+    let records: Vec<(usize, &String)> = layout.records().iter().enumerate().collect();
+    let side_by_side = (WRITTEN_AT_ONCE / layout.runs_per_record().max(1)).max(1) as usize;
+    for some in records.chunks(side_by_side) {
+        some.par_iter().copied().try_for_each(put_together)?;
+    }
     folder.remove_leftovers()
 }
 

@@ -43,6 +43,11 @@ impl Layout {
         &self.records
     }
 
+    /// Runs of one record.
+    pub fn runs_per_record(&self) -> u64 {
+        self.runs_per_record
+    }
+
     /// Blocks of one record.
     pub fn blocks_per_record(&self) -> u64 {
         self.runs_per_record.div_ceil(self.block_runs)

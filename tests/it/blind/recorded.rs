@@ -10,7 +10,7 @@ use mrbd_lab::limits::HELD_OUT_ERROR;
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-const SETS: [(&str, Draw); 21] = [
+const SETS: [(&str, Draw); 22] = [
     ("fresh11", cases::draw::draw),
     ("fresh12", cases::draw::draw),
     ("beds3", cases::beds::draw),
@@ -25,6 +25,7 @@ const SETS: [(&str, Draw); 21] = [
     ("beds11", cases::beds::draw),
     ("beds12", cases::beds::draw),
     ("beds13", cases::beds::draw),
+    ("beds14", cases::beds::draw),
     ("impacts1", cases::impacts::draw),
     ("nulls5", cases::nulls::draw),
     ("nulls6", cases::nulls::draw),
