@@ -10,7 +10,7 @@ use mrbd_lab::limits::HELD_OUT_ERROR;
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-const SETS: [(&str, Draw); 22] = [
+const SETS: [(&str, Draw); 23] = [
     ("fresh11", cases::draw::draw),
     ("fresh12", cases::draw::draw),
     ("beds3", cases::beds::draw),
@@ -33,6 +33,7 @@ const SETS: [(&str, Draw); 22] = [
     ("nulls9", cases::nulls::draw),
     ("nulls10", cases::nulls::draw),
     ("nulls11", cases::nulls::draw),
+    ("nulls12", cases::nulls::draw),
 ];
 
 /// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.
