@@ -83,7 +83,7 @@ impl RunCommand {
         let folder = OutputFolder::prepare(&out, &manifest, &pipeline.text, self.earlier())?;
         self.run(&plan, &folder, shard.unwrap_or(Shard::WHOLE))?;
         if shard.is_none() {
-            // On the thread that stored the blocks: its memory serves again.
+            // From this thread, which stored the blocks: its memory serves again.
             self.threads.take()?;
             return super::merge::merge_and_print(&folder);
         }

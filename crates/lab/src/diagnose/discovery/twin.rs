@@ -85,12 +85,12 @@ impl Twin {
         let (fit, held_out) = windows(&tests).into_iter().partition(|w| w.purpose == Purpose::Fit);
         let wall = wall_with("");
         let experiment = Experiment {
-            as_read: false,
             path: PathBuf::new(),
             wall_path: PathBuf::new(),
             wall_table: toml::Table::new(),
             nuisances: nuisances(0.02).to_vec(),
             hypotheses: Vec::new(),
+            as_read: false,
             whole: Vec::new(),
             scales: Scales::of(&wall, &tests),
             inputs: Vec::new(),
