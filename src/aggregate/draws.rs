@@ -13,8 +13,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-use super::medians::{Case, Measure, Median, Medians, Middle, VariantNote};
-use super::quantile::{median, quantiles};
+use super::case_runs::{CaseRuns, Drawn, Ended};
+use super::medians::{Case, Measure, Medians, Middle, VariantNote};
+use super::quantile::quantiles;
 use super::stored::Row;
 use super::sweep::{CASE, case};
 use super::variants::MEMBER_OF;
@@ -38,23 +39,6 @@ pub(super) fn rng_of(draw: u64) -> ChaCha8Rng {
 
 /// Ends of the interval of a median.
 const INTERVAL: [f64; 2] = [0.05, 0.95];
-
-/// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Ended {
-    /// With these largest rotations, in the order of [`Measure::ALL`].
-    Stood([f64; 4]),
-    Collapsed,
-    Failed,
-}
-
-/// The runs of a case: by record those that answer for it.
-#[derive(Debug, Clone, PartialEq)]
-struct CaseRuns {
-    case: Case,
-    parameter_value: Option<f64>,
-    by_record: Vec<Vec<Ended>>,
-}
 
 /// The runs of a variant and of what answers for them.
 #[derive(Debug, Clone, PartialEq)]
@@ -249,64 +233,10 @@ pub(super) fn interval<T: Copy>(
     Some([drawn[(INTERVAL[0] * last).floor() as usize], drawn[(INTERVAL[1] * last).ceil() as usize]])
 }
 
-impl CaseRuns {
-    /// The median of no run.
-    fn nothing(&self, measure: Measure) -> Median {
-        let (case, parameter_value) = (self.case.clone(), self.parameter_value);
-        let (runs, collapsed, failed) = (0, 0, 0);
-        Median {
-            case,
-            parameter_value,
-            measure,
-            runs,
-            collapsed,
-            failed,
-            quantiles: [None; 7],
-            interval: None,
-        }
-    }
-}
-
-/// The runs of a case that were drawn.
-#[derive(Debug, Default)]
-struct Drawn {
-    runs: u64,
-    collapsed: u64,
-    failed: u64,
-    /// Rotations of those that stand, increasing, by [`Measure::ALL`].
-    standing: [Vec<f64>; 4],
-}
-
-impl Drawn {
-    /// Takes one member of each of these records.
-    fn draw(&mut self, case: &CaseRuns, records: &[usize], rng: &mut ChaCha8Rng) {
-        (self.runs, self.collapsed, self.failed) = (0, 0, 0);
-        self.standing.iter_mut().for_each(Vec::clear);
-        for members in records.iter().map(|&record| &case.by_record[record]).filter(|m| !m.is_empty()) {
-            self.runs += 1;
-            match members[rng.random_range(0..members.len())] {
-                Ended::Stood(rotations) => {
-                    self.standing.iter_mut().zip(rotations).for_each(|(of, rotation)| of.push(rotation));
-                }
-                Ended::Collapsed => self.collapsed += 1,
-                Ended::Failed => self.failed += 1,
-            }
-        }
-        self.standing.iter_mut().for_each(|of| of.sort_unstable_by(f64::total_cmp));
-    }
-
-    /// As [`Median::middle`], by measure.
-    fn middles(&self) -> [Option<Middle>; 4] {
-        let collapsed = (self.collapsed > 0).then_some(Middle::Collapsed);
-        self.standing
-            .each_ref()
-            .map(|standing| median(standing, self.collapsed as usize).map(Middle::Rotation).or(collapsed))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::aggregate::Median;
     use crate::study::pipeline::Parameter;
     use crate::study::plan::Level;
     use crate::survey::Configuration;

@@ -1,6 +1,7 @@
 //! From runs to medians: reads only the Parquet files of a study.
 
 mod by_record;
+mod case_runs;
 mod distributions;
 mod drawn;
 mod draws;

@@ -24,9 +24,9 @@ limits! {
     /// The same for the geometric mean over all tests, of channels swapped and of both signs.
     ///
     /// In 130 experiments of three to six tests the least was 0.90; all of them made wrong, both signs are found in 99 and a
-    /// swap in 37 of 100. One sign and degrees show in single tests, and are not looked for so: of 147 experiments, 133 of them on
-    /// joints that give, one on the softest bed lay at 0.59 for one sign, read as it should be, and was refused. In 17 of them made
-    /// wrong so the least single test left 0.39 at most.
+    /// swap in 37 of 100. One sign and degrees show in single tests, and are not looked for so: of 147 experiments, 133 of them of
+    /// sets of joints that give, one on soft beds lay at 0.59 for one sign, read as it should be, and was refused; the next lies at
+    /// 1.41. In 17 made wrong so the least single test left 0.39 at most.
     MISREAD_TOGETHER: f64 = 0.75, "share";
     /// Fewest tests that are looked at together.
     MISREAD_LEAST_TESTS: usize = 3, "";
