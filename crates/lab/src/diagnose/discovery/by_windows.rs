@@ -7,7 +7,6 @@ use super::fitted::Fitted;
 use super::guards::{holds_in_each_test, lies_inside};
 use super::kin::is_of_catalogue;
 use super::left_open::{least_in_tests_fitted, may_move};
-use super::points::Points;
 use super::refused::{Guard, Refused};
 use super::search::{Candidate, Searched, search};
 use super::stability::Stability;
@@ -103,8 +102,7 @@ impl Discovered {
 impl<P: Progress> Trials<'_, P> {
     /// Looks for a law outside the catalogue that closes a gap. `None` where points say nothing of one.
     pub fn discover(&self, gap: &OpenGap, asked: &impl AskedOfLaws) -> Option<Discovered> {
-        let wall = self.hypothesis(&self.experiment.nuisances, &[]);
-        let points = Points::new(self.data.fit.tests, &wall)?;
+        let points = self.points(gap.nearest)?;
         let searched = search(&points)?;
         let windows_choose = self.windows_choose(gap, &searched);
         if searched.most_evidence() < WORTH_WINDOWS && gap.kin.is_empty() && !windows_choose {
@@ -352,6 +350,7 @@ impl<P: Progress> Trials<'_, P> {
 #[cfg(test)]
 mod tests {
     use super::super::asked::Scope;
+    use super::super::points::Points;
     use super::super::twin::{AskedOfGain, DRAG, SPRING, Twin, drag_and_spring, open_gap, wall_with};
     use super::*;
     use crate::diagnose::hypothesis::Addition;

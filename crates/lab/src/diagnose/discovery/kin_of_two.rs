@@ -1,7 +1,7 @@
 //! One power of velocity in the place of friction and a damper: together these stand for any power between them. So does a spring that yields
 //! at once, which is friction.
 
-use super::kin::as_large;
+use super::kin::{Kin, as_large};
 use super::points::Points;
 use crate::Progress;
 use crate::diagnose::formula::{Atom, Law, Shape, Site};
@@ -20,7 +20,7 @@ impl<P: Progress> Trials<'_, P> {
         &self,
         named: &FittedHypothesis,
         points: &Points,
-    ) -> Option<Law> {
+    ) -> Option<Kin> {
         const FRICTION: [EffectKind; 2] = [EffectKind::CoulombFriction, EffectKind::YieldingSpring];
         let (friction, force_n) = coefficient(named, &FRICTION, "force_n")?;
         let (damper, n_s_m) = coefficient(named, &[EffectKind::ViscousDamping], "n_s_per_m")?;
@@ -44,8 +44,8 @@ impl<P: Progress> Trials<'_, P> {
         });
         let start = starts.min_by(|a, b| a.nats.total_cmp(&b.nats))?;
         let found = self.fitted_beside(named, start)?;
-        let law = found.hypothesis.laws(&found.fit.values).into_iter().next();
-        law.filter(|_| self.does_clearly_better(named, &found))
+        let laws = found.hypothesis.laws(&found.fit.values).into_iter().take(1).collect::<Vec<_>>();
+        (!laws.is_empty() && self.does_clearly_better(named, &found)).then_some(Kin { laws, fitted: found })
     }
 }
 

@@ -14,6 +14,7 @@
 //! | `alone` | a law of two atoms beside each of them alone |
 //! | `guards` | what refuses a law that fits |
 //! | `left_open` | numbers of a law that the tests fitted leave open, where those held out ask for others |
+//! | `brief` | joints that open too briefly for points |
 //! | `kin` | a name whose exponent, set free, does clearly better |
 //! | `kin_of_two` | a power of velocity that does clearly better than friction and a damper |
 //! | [`Guard`] | the same by name, with the laws that each refused |
@@ -26,6 +27,7 @@ mod alone;
 mod asked;
 mod beside_best;
 mod beyond;
+mod brief;
 mod by_few;
 mod by_windows;
 mod curve;
@@ -49,7 +51,7 @@ pub use asked::{AskedOfLaws, OpenGap, Scope};
 pub use by_windows::Discovered;
 pub use equals::law_of;
 pub use freed::freed;
-pub use kin::{exponent_of, is_of_catalogue};
+pub use kin::{Kin, exponent_of, is_of_catalogue};
 pub use points::Points;
 pub use refused::{Guard, Refused};
 pub use search::{Candidate, Searched, search};

@@ -22,6 +22,8 @@ pub struct Points {
     pub test: Vec<usize>,
     /// By site: largest displacement and velocity.
     pub reach: [[f64; 2]; 3],
+    /// By site: motion of joints in windows, where no stretch shows any.
+    brief: [Vec<[f64; 3]>; 3],
 }
 
 impl Points {
@@ -55,12 +57,41 @@ impl Points {
         };
         let test = stretches.iter().flat_map(|s| vec![s.test; s.rows()]).collect();
         Some(Self {
-            reach: Site::ALL.map(|site| reach(&stretches, site)),
+            reach: Site::ALL.map(|site| {
+                reach(stretches.iter().flat_map(|s| &s.samples).map(|s| s.motion[site as usize]))
+            }),
+            brief: Default::default(),
             stretches,
             missing: own,
             wall,
             test,
         })
+    }
+
+    /// Joints that turn in no stretch.
+    pub fn silent_joints(&self) -> impl Iterator<Item = Site> {
+        let is_silent = |site: &Site| self.reach[*site as usize][0] <= NOTHING;
+        [Site::Ground, Site::Crack].into_iter().filter(is_silent)
+    }
+
+    /// The same with how the ground's joint and the crack's turn in windows, where one turns in no stretch.
+    pub fn with_brief(mut self, motion: [Vec<[f64; 3]>; 2]) -> Self {
+        let silent = self.silent_joints().collect::<Vec<_>>();
+        for (site, motion) in [Site::Ground, Site::Crack].into_iter().zip(motion) {
+            if silent.contains(&site) {
+                self.reach[site as usize] = reach(motion.iter().copied());
+                self.brief[site as usize] = motion;
+            }
+        }
+        self
+    }
+
+    /// Joints that turn in no stretch and do in windows.
+    pub fn brief_joints(&self) -> impl Iterator<Item = Site> {
+        let turns = |site: &Site| {
+            !self.brief[*site as usize].is_empty() && self.reach[*site as usize][0] > NOTHING
+        };
+        Site::ALL.into_iter().filter(turns)
     }
 
     /// Rows of a law of one atom of size 1.
@@ -148,7 +179,8 @@ impl Points {
     /// Displacements and velocities at a site that were excited, with the largest displacements before.
     pub fn excited(&self, site: Site) -> impl Iterator<Item = [f64; 3]> {
         let samples = self.stretches.iter().flat_map(|stretch| &stretch.samples);
-        samples.map(move |sample| sample.motion[site as usize])
+        let measured = samples.map(move |sample| sample.motion[site as usize]);
+        measured.chain(self.brief[site as usize].iter().copied())
     }
 
     /// Least and largest displacement and velocity at a site.
@@ -160,11 +192,13 @@ impl Points {
     }
 }
 
-/// Largest displacement and velocity at a site.
-fn reach(stretches: &[WeakStretch], site: Site) -> [f64; 2] {
-    let samples = || stretches.iter().flat_map(|stretch| &stretch.samples);
+/// A rotation at which a joint does not turn: less than any sensor tells, rad.
+const NOTHING: f64 = 1e-9;
+
+/// Largest displacement and velocity of a motion.
+fn reach(motion: impl Iterator<Item = [f64; 3]> + Clone) -> [f64; 2] {
     [0, 1].map(|i| {
-        let largest = samples().map(|s| s.motion[site as usize][i].abs()).fold(0.0, f64::max);
+        let largest = motion.clone().map(|sample| sample[i].abs()).fold(0.0, f64::max);
         rounded(largest.max(f64::MIN_POSITIVE))
     })
 }

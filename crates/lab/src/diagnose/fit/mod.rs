@@ -16,6 +16,7 @@
 
 mod budget;
 mod descent;
+mod joint_motion;
 mod linear;
 mod linearised;
 mod loss;
@@ -27,6 +28,7 @@ use crate::experiment::{TestData, Window};
 use crate::limits::{LOOKED_ABOUT_SD, MOST_MISSED};
 pub use budget::Budget;
 use descent::{COARSE, FINE, FIRST, LAST, cost};
+pub use joint_motion::JointMotion;
 pub use linear::WindowSlopes;
 use linearised::Linearised;
 pub use loss::{Loss, more_poor_held_out_sd, nats, poor_share, windowed_error};

@@ -255,10 +255,9 @@ impl<P: Progress> Gap<'_, P> {
             return self.placed_without(&answer.after, other_law, tried);
         }
         // What is left at impacts is none of a law's: no exponent is to take it up.
-        let kin =
-            if answer.between_impacts { Vec::new() } else { self.trials.kin_of_wrong_name(&answer.after) };
-        if !kin.is_empty() {
-            return self.beyond_a_wrong_name(&answer.after, &kin, other_law, tried);
+        let kin = if answer.between_impacts { None } else { self.trials.kin_of_wrong_name(&answer.after) };
+        if let Some(kin) = kin {
+            return self.beyond_a_wrong_name(&answer.after, kin, other_law, tried);
         }
         let better = if answer.between_impacts { None } else { self.better_formula(&answer.after, &tried) };
         match better {

@@ -6,7 +6,7 @@ use super::judge::{Answer, Gap};
 use super::worth_naming::{held_out_ask_for, leaves_noise, place, worth_two};
 use super::{OtherLaw, Verdict};
 use crate::Progress;
-use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, OpenGap, Refused, Scope};
+use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, Kin, OpenGap, Refused, Scope};
 use crate::diagnose::force::{ForcePoint, acts_at_top, force_points, lie_along_top};
 use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Addition;
@@ -148,11 +148,14 @@ impl<P: Progress> Gap<'_, P> {
     pub(super) fn beyond_a_wrong_name(
         self,
         named: &FittedHypothesis,
-        kin: &[Law],
+        Kin { laws, fitted }: Kin,
         other_law: OtherLaw,
-        tried: Vec<FittedHypothesis>,
+        mut tried: Vec<FittedHypothesis>,
     ) -> Found {
-        let mut discovered = self.discovered(&tried, kin);
+        // The states of windows with which its exponent does better are those to begin from.
+        tried.push(fitted);
+        let mut discovered = self.discovered(&tried, &laws);
+        tried.pop();
         if let Some(discovered) = &mut discovered {
             let (better, others) =
                 discovered.equals.drain(..).partition(|law| self.gain(named, law) > WORTH_A_NAME);
