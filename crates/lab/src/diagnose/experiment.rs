@@ -10,7 +10,7 @@ use super::trials::{Data, untouched};
 use crate::experiment::file::{ExperimentFile, HypothesisTable, TestTable};
 use crate::experiment::test_data::check_radians;
 use crate::experiment::{Purpose, Test, TestData, load_tests, rest_offset_rad, windows};
-use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER, TOO_LARGE_RAD};
+use crate::limits::{MISREAD_LEAST_TESTS, MISREAD_TEST, MISREAD_TOGETHER, MOVES, TOO_LARGE_RAD};
 use mrbd_files::error::{InputError, Result};
 use mrbd_files::{FileNote, load_wall, toml_file};
 use mrbd_kernel::model::{Wall, WallParameters};
@@ -177,6 +177,12 @@ const MISREADINGS: [Misreading; 5] = [
 
 /// So many of [`MISREADINGS`] are looked at over all tests too.
 const FOUND_TOGETHER: usize = 2;
+/// Those in which one sign is wrong.
+const ONE_SIGN: std::ops::Range<usize> = 2..4;
+/// Noises within which two rotations are the same.
+const SAME: f64 = 3.0;
+/// So many times as often as one another's opposite are rotations the same that have their signs right, in so many samples at least.
+const AS_ONE: [usize; 2] = [2, 20];
 
 /// What is checked: a wall as given, and its tests as they were read, each with its number in the experiment.
 #[derive(Debug, Clone, Copy)]
@@ -206,7 +212,11 @@ impl Errors {
         };
         let as_it_stands = misfit(readings, test)?;
         let as_it_stands = read(without_gain).map_or(as_it_stands, |other| other.min(as_it_stands));
-        Some(Self { as_it_stands, put_right: MISREADINGS.map(|(_, put_right)| read(put_right)) })
+        let mut put_right = MISREADINGS.map(|(_, put_right)| read(put_right));
+        if moves_as_one(test) {
+            put_right[ONE_SIGN].fill(None);
+        }
+        Some(Self { as_it_stands, put_right })
     }
 
     fn share(&self, misreading: usize) -> Option<f64> {
@@ -296,6 +306,19 @@ fn check(readings: &Readings) -> Result<()> {
         Some(likeliest) => refuse("tests".to_owned(), "all tests".to_owned(), likeliest),
         None => Ok(()),
     }
+}
+
+/// Whether both bodies turn as one while the crack is shut, as they are read: then neither sign is wrong, whatever the wall as given does
+/// worse than under another sign. Bodies turn as one's opposite only in passing.
+fn moves_as_one(test: &TestData) -> bool {
+    let [lower, upper] = test.noise_rad;
+    let moves = |theta: &&[f64; 2]| theta[0].abs() > MOVES * lower && theta[1].abs() > MOVES * upper;
+    let moving = test.theta_rad.iter().filter(moves);
+    let near = |x: f64| x.abs() < SAME * lower.hypot(upper);
+    let count = |of: fn(&[f64; 2]) -> f64| moving.clone().filter(|theta| near(of(theta))).count();
+    let [same, opposite] = [count(|theta| theta[0] - theta[1]), count(|theta| theta[0] + theta[1])];
+    let [times, least] = AS_ONE;
+    same >= least && same > times * opposite
 }
 
 /// The upper channel over what it reads of the lower, in least squares.

@@ -163,6 +163,10 @@ limits! {
     ///
     /// Chosen: of stops on one side, on the other and on both, and what imitates them, a coarse fit may leave the right one last.
     SECONDS_FITTED_BEYOND: usize = 5, "";
+    /// Other laws that are fitted in the place of a damper named at a joint that opens too briefly for points.
+    ///
+    /// Chosen: those that few steps of the states of windows put first.
+    BRIEF_LAWS: usize = 3, "";
     /// Difference of two forces over what was excited from which a name with its exponent set free is another law, over the
     /// largest force.
     ///

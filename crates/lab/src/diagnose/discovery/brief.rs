@@ -4,9 +4,18 @@
 //! a test function, so points have no row in which the crack turns; windows go through impacts, and say up to 270 natural logarithms of
 //! another damper there than the catalogue's, for which its name was told. How a joint turns there is known from windows alone.
 
+use super::fitted::Start;
+use super::kin::{Kin, Power};
 use super::points::Points;
 use crate::Progress;
+use crate::diagnose::formula::{Atom, Law, Shape};
+use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{FittedHypothesis, Trials};
+use crate::limits::BRIEF_LAWS;
+use rayon::prelude::*;
+
+/// Sizes at which another law than a name's is tried, over the size of which its moments are as large.
+const SIZES: [f64; 3] = [0.3, 1.0, 3.0];
 
 impl<P: Progress> Trials<'_, P> {
     /// Points of the tests fitted under the wall, with how joints turn in windows under a hypothesis where no point shows it. `None` where
@@ -20,5 +29,104 @@ impl<P: Progress> Trials<'_, P> {
             Some(motion) => points.with_brief(motion.samples),
             None => points,
         })
+    }
+
+    /// A law of another shape in the place of a damper that is named at a joint which opens briefly, if it gains over the name what a name
+    /// must: points, which would tell a moment that goes with rotation from one that goes with velocity, have no row of it.
+    pub(super) fn other_at_brief_joint(
+        &self,
+        named: &FittedHypothesis,
+        power: &Power,
+        points: &Points,
+    ) -> Option<Kin> {
+        points.brief_joints().find(|site| *site == power.site)?;
+        let own = Law::of(power.atom(points.reach[power.site as usize]));
+        let others = others_at(&own.first, points);
+        self.progress.begin("other laws of a joint that opens briefly", others.len());
+        let look = |law: &Law| {
+            let mut additions = named.hypothesis.additions.clone();
+            additions[power.index] = Addition::Formula(*law);
+            let start = self.start_beside(named, &additions, (power.index, law), None);
+            self.progress.advance(1);
+            start
+        };
+        let mut starts = others.par_iter().filter_map(look).collect::<Vec<Start>>();
+        starts.sort_by(|a, b| a.nats.total_cmp(&b.nats));
+        starts.truncate(BRIEF_LAWS);
+        let found = starts.into_par_iter().filter_map(|start| self.fitted_beside(named, start));
+        let fitted = self.ordered(found.collect()).into_iter().next()?;
+        let law = *fitted.hypothesis.laws(&fitted.fit.values).first()?;
+        self.does_clearly_better(named, &fitted).then(|| Kin { laws: vec![law], fitted })
+    }
+}
+
+/// Laws of other shapes at a joint, with moments about as large over what was excited as those of an atom there.
+fn others_at(own: &Atom, points: &Points) -> Vec<Law> {
+    let squares = |atom: &Atom| {
+        points.forces(&Law::of(*atom), own.site).into_iter().map(|moment| moment * moment).sum::<f64>()
+    };
+    let of_own = squares(own);
+    let numbers = |shape: Shape| match shape {
+        Shape::Spring => &[1.0, 2.0][..],
+        Shape::Saturation | Shape::DragSaturation => &[0.1, 0.4][..],
+        _ => &[],
+    };
+    let atom = |(shape, number)| Atom { shape, numbers: [number, 0.0], size: 1.0, is_exact: false, ..*own };
+    let shapes = Shape::AT_JOINTS.into_iter().filter(|shape| *shape != own.shape);
+    let atoms = shapes.flat_map(|shape| numbers(shape).iter().map(move |n| (shape, *n))).map(atom);
+    let sized = atoms.flat_map(|atom| {
+        let as_large = (of_own / squares(&atom)).sqrt();
+        SIZES.map(|share| Law::of(Atom { size: share * as_large, ..atom }))
+    });
+    sized.filter(|law| law.first.size.is_normal()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::twin::{Twin, wall_with};
+    use super::*;
+    use crate::diagnose::formula::Site;
+    use crate::diagnose::trials::try_hypothesis;
+    use mrbd_kernel::model::EffectKind;
+
+    /// A law of the crack, with its coefficient in its unit.
+    fn of_crack(moment: &str, k: f64, unit: &str) -> String {
+        format!(
+            "[[effects]]\nkind = \"formula\"\nplace = \"crack\"\nmoment_n_m = \"{moment}\"\n\
+             [effects.parameters]\nk = {{ value = {k:?}, unit = \"{unit}\" }}\n"
+        )
+    }
+
+    /// What is told instead of a damper of the crack, fitted to the windows of a wall with effects.
+    fn instead_of_damper(effects: &str) -> Option<Law> {
+        let twin = Twin::opening_briefly(&wall_with(effects), 3e-5);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows").before;
+        let damper = EffectKind::JointDamping.variant(Some("crack")).expect("a damper of the crack");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(damper)]);
+        let named = try_hypothesis(&trials.data, h, &wall).expect("a wall");
+        let points = trials.points(&named).expect("points");
+        assert_eq!(points.brief_joints().collect::<Vec<_>>(), [Site::Crack]);
+        let [[least, most], _] = points.range(Site::Crack);
+        assert!(least < 0.0 && most > 0.0 && most.max(-least) < 1.1 * points.reach[Site::Crack as usize][0]);
+        trials.kin_of_wrong_name(&named).map(|kin| kin.laws[0])
+    }
+
+    #[test]
+    fn analytic_a_damper_of_another_exponent_at_a_joint_that_opens_briefly_keeps_no_name_of_a_viscous_one() {
+        let squared = instead_of_damper(&of_crack("-k*w*abs(w)", 3e4, "N*m*s**2")).expect("a law");
+        assert_eq!((squared.first.site, squared.first.shape), (Site::Crack, Shape::Drag));
+        // 1.99 by this noise.
+        assert!((squared.first.numbers[0] - 2.0).abs() < 0.05, "{squared:?}");
+        assert_eq!(instead_of_damper(&of_crack("-k*w", 500.0, "N*m*s")), None, "it is one");
+    }
+
+    #[test]
+    fn analytic_a_spring_at_a_joint_that_opens_briefly_is_no_damper() {
+        let spring = instead_of_damper(&of_crack("-k*phi", 2e4, "N*m")).expect("a law");
+        assert_eq!((spring.first.site, spring.first.shape), (Site::Crack, Shape::Spring));
+        assert!((spring.first.numbers[0] - 1.0).abs() < 0.01, "{spring:?}");
+        let stiffness = spring.first.size / spring.first.reach[0];
+        assert!((stiffness / 2e4 - 1.0).abs() < 0.02, "{stiffness} N m");
     }
 }

@@ -78,7 +78,7 @@ mod tests {
         let named = try_hypothesis(&trials.data, h, &wall).expect("a wall");
         let wall = trials.hypothesis(&trials.experiment.nuisances, &[]);
         let points = Points::new(trials.data.fit.tests, &wall).expect("points");
-        trials.one_for_friction_and_damper(&named, &points)
+        trials.one_for_friction_and_damper(&named, &points).map(|kin| kin.laws[0])
     }
 
     #[test]

@@ -88,9 +88,8 @@ impl Points {
 
     /// Joints that turn in no stretch and do in windows.
     pub fn brief_joints(&self) -> impl Iterator<Item = Site> {
-        let turns = |site: &Site| {
-            !self.brief[*site as usize].is_empty() && self.reach[*site as usize][0] > NOTHING
-        };
+        let turns =
+            |site: &Site| !self.brief[*site as usize].is_empty() && self.reach[*site as usize][0] > NOTHING;
         Site::ALL.into_iter().filter(turns)
     }
 

@@ -64,7 +64,15 @@ pub struct Twin {
 impl Twin {
     /// Two tests to fit. The wall is known but for its effects, which are hidden.
     pub fn new(hidden: &Wall, noise_rad: f64) -> Self {
-        let mut tests = tests_of(hidden, noise_rad);
+        Self::of_first_two(tests_of(hidden, noise_rad))
+    }
+
+    /// The same shaken so fast that the crack opens at impacts, and shuts before a stretch between these tells of it.
+    pub fn opening_briefly(hidden: &Wall, noise_rad: f64) -> Self {
+        Self::of_first_two(shaken(hidden, noise_rad, [[3.0, 3.0], [4.0, 4.0], [3.0, 4.0], [5.0, 4.0]]))
+    }
+
+    fn of_first_two(mut tests: Vec<TestData>) -> Self {
         tests.remove(2);
         tests[2].purpose = Purpose::HoldOut;
         Self::of(tests)
@@ -119,6 +127,11 @@ impl Twin {
 
 /// Four tests of a wall, read with white noise.
 pub fn tests_of(wall: &Wall, noise_rad: f64) -> Vec<TestData> {
+    shaken(wall, noise_rad, [[1.3, 1.0], [1.6, 1.3], [1.4, 0.8], [2.0, 1.6]])
+}
+
+/// The same under sweeps about these amplitudes (m/s²) and frequencies (Hz).
+fn shaken(wall: &Wall, noise_rad: f64, sweeps: [[f64; 2]; 4]) -> Vec<TestData> {
     let one = |(seed, [amplitude_m_s2, frequency_hz]): (u64, [f64; 2])| {
         let record = swept(amplitude_m_s2, frequency_hz);
         let shaking = Shaking { horizontal: Some(record), vertical: None, tail_s: TAIL_S };
@@ -146,7 +159,7 @@ pub fn tests_of(wall: &Wall, noise_rad: f64) -> Vec<TestData> {
             manner: Manner::default(),
         }
     };
-    (1..).zip([[1.3, 1.0], [1.6, 1.3], [1.4, 0.8], [2.0, 1.6]]).map(one).collect()
+    (1..).zip(sweeps).map(one).collect()
 }
 
 /// Points of these tests under the wall as it is known.
