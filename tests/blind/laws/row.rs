@@ -166,9 +166,11 @@ impl LawRow {
         !self.shares.is_empty() && self.shares.iter().all(|share| *share > RIGHT_FUNCTION)
     }
 
-    /// Whether the force is the true one.
+    /// Whether the force is the true one: where tests were fitted, or in the one held out where nothing moved at its place in those, as at a
+    /// crack that opens at impacts alone.
     pub fn function_right(&self) -> bool {
-        self.function_error.is_some_and(|error| error < RIGHT_FUNCTION)
+        let error = self.function_error.or(self.function_error_held_out);
+        error.is_some_and(|error| error < RIGHT_FUNCTION)
     }
 
     /// Whether the formula is the true one.

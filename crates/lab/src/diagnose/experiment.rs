@@ -362,3 +362,22 @@ fn error_in(tests: &[TestData], wall: &Wall, scales: &Scales) -> Option<f64> {
 fn misfit(readings: &Readings, test: &TestData) -> Option<f64> {
     error_in(std::slice::from_ref(test), readings.wall, readings.scales)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::discovery::twin::{tests_of, wall_with};
+    use super::*;
+
+    #[test]
+    fn analytic_bodies_that_turn_as_one_have_their_signs_right() {
+        for test in tests_of(&wall_with(""), 3e-5) {
+            assert!(moves_as_one(&test));
+            let mut wrong = test.clone();
+            wrong.theta_rad.iter_mut().for_each(|theta| theta[1] = -theta[1]);
+            assert!(!moves_as_one(&wrong), "one sign");
+            // A crack that is open tells neither.
+            wrong.theta_rad.iter_mut().for_each(|theta| theta[1] *= 3.0);
+            assert!(!moves_as_one(&wrong));
+        }
+    }
+}
