@@ -177,14 +177,29 @@ pub fn kinds(tried: &FittedHypothesis) -> Option<Vec<EffectKind>> {
 /// chance, and by a size that matters.
 pub fn does_something(tried: &FittedHypothesis) -> bool {
     let h = &tried.hypothesis;
-    let acts = |i: usize| {
+    let acts = |i: usize, own: &[usize]| {
         let unknown = &h.unknowns[i];
         let size = (tried.fit.values[i] - unknown.start).abs();
-        let sd = tried.fit.covariance.as_ref().map_or(f64::INFINITY, |c| c[(i, i)].max(0.0).sqrt());
-        size > SIGNIFICANT_SD * sd && size > LEAST_SIZE * unknown.scale
+        size > SIGNIFICANT_SD * sd_of(tried, i, own) && size > LEAST_SIZE * unknown.scale
     };
-    let all = h.nuisances..h.unknowns.len();
-    (0..h.additions.len()).all(|index| all.clone().any(|i| h.unknowns[i].belongs_to(index) && acts(i)))
+    let acts_by_one = |index: usize| {
+        let own = (h.nuisances..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
+        let own = own.collect::<Vec<_>>();
+        own.iter().any(|i| acts(*i, &own))
+    };
+    (0..h.additions.len()).all(acts_by_one)
+}
+
+/// Standard deviation of a number of an addition with these numbers; of the size of a law with the numbers of its shape as they are. A law
+/// that gains a thousand natural logarithms at 3e-4 rad may have a size and a width that the tests tell only together.
+fn sd_of(tried: &FittedHypothesis, number: usize, own: &[usize]) -> f64 {
+    let Some(covariance) = &tried.fit.covariance else { return f64::INFINITY };
+    let h = &tried.hypothesis;
+    let of_shape = own.iter().copied().filter(|i| h.is_size(number) && !h.is_size(*i)).collect::<Vec<_>>();
+    let shape = covariance.select_rows(&of_shape).select_columns(&of_shape);
+    let with_size = covariance.select_columns([&number]).select_rows(&of_shape);
+    let told = shape.cholesky().map_or(0.0, |shape| with_size.dot(&shape.solve(&with_size)));
+    (covariance[(number, number)] - told).max(0.0).sqrt()
 }
 
 /// The first of hypotheses in order that is an answer and does something.
@@ -192,4 +207,34 @@ pub fn best_answer<'t>(
     tried: impl IntoIterator<Item = &'t FittedHypothesis>,
 ) -> Option<&'t FittedHypothesis> {
     tried.into_iter().find(|t| kinds(t).is_some() && does_something(t))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::discovery::twin::{Twin, drag, wall_with};
+    use nalgebra::DMatrix;
+
+    #[test]
+    fn analytic_a_law_does_something_where_its_size_does_with_its_shape_as_it_is() {
+        let twin = Twin::new(&wall_with(""), 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows").recalibrated;
+        let (hypothesis, values) = trials.law_beside(&wall, &drag(1.7, 300.0));
+        let size = hypothesis.nuisances;
+        // Size and exponent told to half of themselves, and their sum to a hundredth.
+        let correlated = |share: f64| {
+            let mut covariance = DMatrix::identity(values.len(), values.len());
+            let sd = [0.5 * values[size], 0.5 * values[size + 1]];
+            for (i, k) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let correlation = if i == k { 1.0 } else { -share };
+                covariance[(size + i, size + k)] = correlation * sd[i] * sd[k];
+            }
+            let fit = Fit { values: values.clone(), covariance: Some(covariance), ..wall.fit.clone() };
+            FittedHypothesis { hypothesis: hypothesis.clone(), fit, ..wall.clone() }
+        };
+        // √(1 − 0.99²) is 0.14: the size is fourteen of the deviations that are left, or two.
+        assert!(does_something(&correlated(0.99)));
+        assert!(!does_something(&correlated(0.0)));
+    }
 }
