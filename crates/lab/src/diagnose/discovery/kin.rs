@@ -35,8 +35,8 @@ pub struct Kin {
 
 impl<P: Progress> Trials<'_, P> {
     /// Laws beside a name of which an effect is clearly a wrong case: its exponent set free, in the windows, gains what a
-    /// name must and makes another force, and the tests held out are followed no worse; or one in the place of two effects. `None` where
-    /// the name stands.
+    /// name must and makes another force, and the tests held out are followed no worse; or one in the place of two effects, or
+    /// of another shape at a joint that opens briefly. `None` where the name stands.
     pub fn kin_of_wrong_name(&self, named: &FittedHypothesis) -> Option<Kin> {
         let powers = (0..named.hypothesis.additions.len()).filter_map(|index| power(named, index));
         let powers = powers.collect::<Vec<_>>();
@@ -71,12 +71,12 @@ impl<P: Progress> Trials<'_, P> {
             self.start_beside(named, &additions, (power.index, start), steps.as_ref())
         };
         let found = all.par_iter().filter_map(|one| Some((one.0.first.numbers[0], look(one)?)));
-        let found = found.collect::<Vec<_>>().into_iter();
+        let found = found.collect::<Vec<_>>();
         // Where a joint opens briefly a first look tells little of an exponent, and a fit ends in a valley of the windows near where it began.
-        let opens_briefly = points.brief_joints().any(|site| site == power.site);
+        let opens_briefly = points.opens_briefly(power.site);
         let starts = match opens_briefly {
-            true => found.map(|(_, start)| start).collect(),
-            false => nearest_on_either_side(power.exponent, found.collect()),
+            true => found.into_iter().map(|(_, start)| start).collect(),
+            false => nearest_on_either_side(power.exponent, found),
         };
         let fit = |start: Start| self.fitted_beside(named, start);
         let found = starts.into_par_iter().filter_map(fit).collect::<Vec<_>>();

@@ -86,11 +86,9 @@ impl Points {
         self
     }
 
-    /// Joints that turn in no stretch and do in windows.
-    pub fn brief_joints(&self) -> impl Iterator<Item = Site> {
-        let turns =
-            |site: &Site| !self.brief[*site as usize].is_empty() && self.reach[*site as usize][0] > NOTHING;
-        Site::ALL.into_iter().filter(turns)
+    /// Whether a joint turns in no stretch, and does in windows.
+    pub fn opens_briefly(&self, site: Site) -> bool {
+        !self.brief[site as usize].is_empty() && self.reach[site as usize][0] > NOTHING
     }
 
     /// Rows of a law of one atom of size 1.

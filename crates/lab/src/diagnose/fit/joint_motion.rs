@@ -11,18 +11,15 @@ const SHARES: [f64; 2] = [0.5, 1.0];
 
 /// Rotations (rad) and velocities (rad/s) of the ground's joint and of the crack's, with a zero for the largest rotation so far, which is
 /// told at the top alone.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct JointMotion {
-    /// Ground, crack.
-    pub samples: [Vec<[f64; 3]>; 2],
-}
+#[derive(Debug, Default)]
+struct JointMotion([Vec<[f64; 3]>; 2]);
 
 impl Observer for JointMotion {
     fn moved(&mut self, _: f64, _: Contact, motion: &Quintic) {
         for share in SHARES {
             let ([lower, upper], [of_lower, of_upper]) = (motion.position(share), motion.velocity(share));
-            self.samples[0].push([lower, of_lower, 0.0]);
-            self.samples[1].push([upper - lower, of_upper - of_lower, 0.0]);
+            self.0[0].push([lower, of_lower, 0.0]);
+            self.0[1].push([upper - lower, of_upper - of_lower, 0.0]);
         }
     }
 
@@ -32,13 +29,14 @@ impl Observer for JointMotion {
 }
 
 impl Problem<'_> {
-    /// The motion of joints in the windows that a fit follows. `None` if it has no wall.
-    pub fn joint_motion(&self, h: &Hypothesis, fit: &Fit) -> Option<JointMotion> {
+    /// Rotation (rad) and velocity (rad/s) of the ground's joint and of the crack's along the windows that a fit follows, with a zero for the
+    /// largest rotation so far. `None` if it has no wall.
+    pub fn joint_motion(&self, h: &Hypothesis, fit: &Fit) -> Option<[Vec<[f64; 3]>; 2]> {
         let replay = self.replay(&h.physics(&fit.values)?);
         let mut motion = JointMotion::default();
         for (window, state) in self.windows.iter().zip(&fit.windows).filter(|(_, state)| !state.is_poor()) {
             replay.run(window, &state.x, &mut motion);
         }
-        Some(motion)
+        Some(motion.0)
     }
 }

@@ -28,7 +28,6 @@ use crate::experiment::{TestData, Window};
 use crate::limits::{LOOKED_ABOUT_SD, MOST_MISSED};
 pub use budget::Budget;
 use descent::{COARSE, FINE, FIRST, LAST, cost};
-pub use joint_motion::JointMotion;
 pub use linear::WindowSlopes;
 use linearised::Linearised;
 pub use loss::{Loss, more_poor_held_out_sd, nats, poor_share, windowed_error};
