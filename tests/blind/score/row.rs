@@ -11,6 +11,9 @@ use super::recorded::Recorded;
 use mrbd_lab::diagnose::answer::{BeforeAfter, FoundEffect, Summary};
 use mrbd_lab::experiment_file::Purpose;
 
+/// Laws that joints follow which give.
+const GIVING: [&str; 3] = ["compliant_joint", "trilinear_joint", "crushing_joint"];
+
 /// A diagnosed case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Row {
@@ -164,6 +167,20 @@ impl Row {
     pub fn tells(&self, effect: &str) -> bool {
         let in_class = || self.named.iter().chain(&self.equivalent).any(|named| named == effect);
         self.names(effect) || (self.verdict == "class" && in_class())
+    }
+
+    /// Whether what was hidden is told but for the law that joints follow which give: named, or in a class of such laws alone.
+    pub fn tells_beside_joints(&self) -> bool {
+        let beside = |names: &[String]| {
+            let mut names = names.iter().filter(|name| !GIVING.contains(&name.as_str())).collect::<Vec<_>>();
+            names.sort();
+            names.dedup();
+            names.into_iter().cloned().collect::<Vec<_>>()
+        };
+        let all = [&self.named[..], &self.equivalent].concat();
+        let gives = all.iter().any(|name| GIVING.contains(&name.as_str()));
+        let is_told = beside(&self.named) == beside(&self.hidden) && beside(&all) == beside(&self.hidden);
+        matches!(self.verdict.as_str(), "named" | "class") && gives && is_told
     }
 
     /// Share of the squared windowed error above noise that is taken away in the tests held out; `None` where there is none.

@@ -120,6 +120,11 @@ fn lines_of_beds(rows: &[Row], add: &mut impl FnMut(&str, &str, String)) {
         "≥ 85 %",
         Counted::of(&beside, |row| row.exact()).told(),
     );
+    add(
+        "– what is beside them named, whichever law of the joint",
+        "≥ 85 %",
+        Counted::of(&beside, |row| row.tells_beside_joints()).told(),
+    );
     add("– wrong name", "", Counted::of(&beside, |row| row.wrong()).told());
     let alone = on_beds.iter().filter(|row| row.hidden.len() == 1).collect::<Vec<_>>();
     add("joints that give alone: wrong name", "", Counted::of(&alone, |row| row.wrong()).told());

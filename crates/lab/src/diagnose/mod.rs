@@ -73,7 +73,7 @@ pub fn findings<'e>(experiment: &'e Experiment, progress: &impl Progress) -> Res
     let answered = flow.with_windows_opened(&answered).unwrap_or(answered);
     let (windows, found) = flow.with_shared_windows(&answered).unwrap_or(answered);
     let found = found.or_unknown();
-    let own = flow.trials(&windows).own_hypotheses(&found.before);
+    let own = flow.trials(&windows).own_hypotheses(&found.before, &found.after);
     let freed = flow.with_exponents_free(&windows, &found);
     let unfinished = flow.unfinished.all();
     Ok(Findings { experiment, tests: flow.tests, windows, found, freed, own, unfinished })

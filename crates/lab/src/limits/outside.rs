@@ -132,6 +132,10 @@ limits! {
     AT_BOUND: f64 = 0.005, "share of the range";
     /// Distance of an exponent from 0, ½, 1, 3/2, 2, 3 ... within which the law with that exponent is tried too.
     EXACT_WITHIN: f64 = 0.2, "";
+    /// Gain of a law with its round exponents free, from which both are fitted again from about themselves.
+    EXPONENT_SEEMS: f64 = 5.0, "ln of likelihood";
+    /// Gain of a law with its round exponents free once both are fitted again, from which these are told and not the round ones.
+    EXPONENT_SHOWS: f64 = 10.0, "ln of likelihood";
     /// Windows held out that a formula may miss before their first impact.
     ///
     /// No impact that the noise decides lies there; in one the contact may change by less than the noise. Chosen: thirteen right laws of

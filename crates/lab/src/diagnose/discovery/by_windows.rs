@@ -158,6 +158,7 @@ impl<P: Progress> Trials<'_, P> {
             tried.extend(pairs.iter().map(|fitted| fitted.law.clone()));
         }
         let equals = simplest_of_equals(&self.data, &points, self.in_order(closing));
+        let equals = self.with_exponents_that_show(gap, &searched, equals, asked);
         let moved = equals.first().and_then(|one| one.moved.clone());
         let equals = equals.into_iter().map(|one| one.law).collect::<Vec<_>>();
         let mut tried = self.ordered(tried);
@@ -294,7 +295,7 @@ impl<P: Progress> Trials<'_, P> {
     ///
     /// What is left over is asked only where nothing else speaks against it, or one thing alone and that not the windows fitted:
     /// a guard counts where no other refuses the law.
-    fn guards(
+    pub(super) fn guards(
         &self,
         gap: &OpenGap,
         searched: &Searched,

@@ -253,7 +253,7 @@ pub(super) struct Start {
 }
 
 /// The law of a fitted hypothesis with exact exponents, where all of them are near such.
-fn exact_law(tried: &FittedHypothesis) -> Option<Law> {
+pub(super) fn exact_law(tried: &FittedHypothesis) -> Option<Law> {
     let h = &tried.hypothesis;
     let sd = |i: usize| tried.fit.covariance.as_ref().map_or(0.0, |c| c[(i, i)].max(0.0).sqrt());
     let deviations = (h.nuisances..h.unknowns.len()).map(sd).collect::<Vec<_>>();

@@ -37,7 +37,7 @@ impl<P: Progress> Trials<'_, P> {
 
     /// A law with numbers fitted to all tests together; `None` where those that were fitted alone lose more by it than laws that cannot be
     /// told apart differ by, or where no test is held out.
-    fn moved_in_what_is_open(&self, law: &FittedHypothesis) -> Option<FittedHypothesis> {
+    pub(super) fn moved_in_what_is_open(&self, law: &FittedHypothesis) -> Option<FittedHypothesis> {
         let Data { fit, held_out } = self.data;
         if held_out.windows.is_empty() {
             return None;

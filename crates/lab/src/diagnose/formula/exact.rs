@@ -37,6 +37,17 @@ pub fn nearest_exact(law: &Law, deviations: &[f64]) -> Option<Law> {
     any.then_some(exact)
 }
 
+/// Whether intervals of the numbers of a law (in the order of [`Law::slots`]) leave open which exact exponent one of its is.
+pub fn leaves_exponents_open(law: &Law, intervals: &[[f64; 2]]) -> bool {
+    let atoms = law.atoms().collect::<Vec<_>>();
+    let is_open = |(slot, [low, high]): (LawSlot, &[f64; 2])| {
+        let is_exponent =
+            matches!(slot, LawSlot::Number(a, i) if atoms[a].meaning(i) == Meaning::Exponent);
+        is_exponent && EXACT.iter().filter(|exact| (low..=high).contains(exact)).count() > 1
+    };
+    law.slots().into_iter().zip(intervals).any(is_open)
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::law::Atom;
@@ -62,5 +73,12 @@ mod tests {
         assert_eq!(of(0.46, 0.01), Some(0.5));
         assert_eq!(of(1.76, 0.01), None);
         assert_eq!(of(2.45, 0.2), Some(2.0));
+    }
+
+    #[test]
+    fn analytic_an_exponent_is_open_where_more_than_one_exact_one_lies_in_its_interval() {
+        let open = |interval: [f64; 2]| leaves_exponents_open(&drag(4.0), &[[0.0, 9.0], interval]);
+        assert!(open([2.7, 7.0]) && open([1.5, 2.0]));
+        assert!(!open([1.6, 2.4]) && !open([2.1, 2.9]));
     }
 }

@@ -16,7 +16,7 @@ mod text;
 mod written;
 
 pub use curve::{BOTH, Curve, Part, SIDE};
-pub use exact::nearest_exact;
+pub use exact::{leaves_exponents_open, nearest_exact};
 pub use law::{Atom, Law, LawSlot};
 pub use shape::{Meaning, Shape, ShapeNumber, Side};
 pub use written::{Written, WrittenParameter, WrittenState};

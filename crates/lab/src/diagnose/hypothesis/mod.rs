@@ -53,11 +53,16 @@ pub struct Hypothesis {
     pub nuisances: usize,
     /// A force without a formula, as it was found over points.
     pub curve: Option<Curve>,
+    /// What the user calls a law of his own.
+    own_name: Option<String>,
 }
 
 impl Hypothesis {
-    /// What is added to the wall; empty where nothing is.
+    /// What is added to the wall, or what the user calls his own law; empty where nothing is.
     pub fn name(&self) -> String {
+        if let Some(name) = &self.own_name {
+            return name.clone();
+        }
         self.additions.iter().map(Addition::name).collect::<Vec<_>>().join(" + ")
     }
 
@@ -85,6 +90,7 @@ impl Hypothesis {
             unknowns,
             nuisances: count,
             curve: None,
+            own_name: None,
         }
     }
 
@@ -111,9 +117,11 @@ impl Hypothesis {
         base: &WallParameters,
         scales: &Scales,
         nuisances: &[Nuisance],
+        name: &str,
         formula: &Formula,
     ) -> Self {
         let mut hypothesis = Self::new(base, scales, nuisances, &[]);
+        hypothesis.own_name = Some(name.to_owned());
         hypothesis.base.formulas.push(formula.clone());
         let written = formula.parameters().iter().enumerate();
         hypothesis.unknowns.extend(written.map(|(i, parameter)| Unknown::of_formula(i, parameter)));
@@ -123,8 +131,8 @@ impl Hypothesis {
     /// Walls whose numbers are sought elsewhere.
     pub fn of_walls(base: &WallParameters, walls: Arc<dyn Walls>, unknowns: Vec<Unknown>) -> Self {
         let nuisances = unknowns.len();
-        let base = base.clone();
-        Self { base, walls: Some(walls), additions: Vec::new(), unknowns, nuisances, curve: None }
+        let (base, walls) = (base.clone(), Some(walls));
+        Self { base, walls, additions: Vec::new(), unknowns, nuisances, curve: None, own_name: None }
     }
 
     /// Where the search starts.
