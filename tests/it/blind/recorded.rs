@@ -10,7 +10,7 @@ use mrbd_lab::limits::HELD_OUT_ERROR;
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-const SETS: [(&str, Draw); 24] = [
+const SETS: [(&str, Draw); 25] = [
     ("fresh11", cases::draw::draw),
     ("fresh12", cases::draw::draw),
     ("beds3", cases::beds::draw),
@@ -35,6 +35,7 @@ const SETS: [(&str, Draw); 24] = [
     ("nulls10", cases::nulls::draw),
     ("nulls11", cases::nulls::draw),
     ("nulls12", cases::nulls::draw),
+    ("nulls13", cases::nulls::draw),
 ];
 
 /// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.

@@ -49,11 +49,7 @@ impl<P: Progress> Trials<'_, P> {
 
     /// A law with other exponents, where the tests fitted leave open which of the round ones it has and those held out do not: round ones if
     /// these are near. Its numbers are of the tests fitted.
-    fn with_exponents_of_held_out(
-        &self,
-        told: &FittedHypothesis,
-        free: &FittedHypothesis,
-    ) -> Option<Fitted> {
+    fn with_exponents_of_held_out(&self, told: &FittedHypothesis, free: &FittedHypothesis) -> Option<Fitted> {
         let intervals = intervals(&self.data, free);
         let own = &intervals[free.hypothesis.nuisances..];
         if !leaves_exponents_open(&law_of(free)?, own) {
@@ -68,8 +64,7 @@ impl<P: Progress> Trials<'_, P> {
             return None;
         }
         let (h, values) = self.law_beside(&all, &law);
-        let found =
-            self.within_budget(&law.name(), values.len(), |data| refit(data, h, &all, &values))?;
+        let found = self.within_budget(&law.name(), values.len(), |data| refit(data, h, &all, &values))?;
         (self.gain(told, &found) > EQUIVALENT).then(|| Fitted::new(found))
     }
 
@@ -129,7 +124,8 @@ mod tests {
         let width = |noise_rad: f64| {
             let twin = Twin::new(&wall_with(DRAG), noise_rad);
             let trials = twin.trials();
-            let free = trials.with_exponents_free(&told(&trials, drag(2.0, DRAG_N))).expect("a round exponent");
+            let free =
+                trials.with_exponents_free(&told(&trials, drag(2.0, DRAG_N))).expect("a round exponent");
             let n = free.hypothesis.unknowns.len() - 1;
             let [low, high] = intervals(&trials.data, &free)[n];
             assert!((low..=high).contains(&2.0), "{low} to {high} at {noise_rad} rad");

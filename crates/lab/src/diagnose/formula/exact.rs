@@ -41,8 +41,7 @@ pub fn nearest_exact(law: &Law, deviations: &[f64]) -> Option<Law> {
 pub fn leaves_exponents_open(law: &Law, intervals: &[[f64; 2]]) -> bool {
     let atoms = law.atoms().collect::<Vec<_>>();
     let is_open = |(slot, [low, high]): (LawSlot, &[f64; 2])| {
-        let is_exponent =
-            matches!(slot, LawSlot::Number(a, i) if atoms[a].meaning(i) == Meaning::Exponent);
+        let is_exponent = matches!(slot, LawSlot::Number(a, i) if atoms[a].meaning(i) == Meaning::Exponent);
         is_exponent && EXACT.iter().filter(|exact| (low..=high).contains(exact)).count() > 1
     };
     law.slots().into_iter().zip(intervals).any(is_open)

@@ -60,3 +60,34 @@ impl<P: Progress> Trials<'_, P> {
         Some(if closes { self.refined(best) } else { best })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::discovery::twin::{Twin, wall_with};
+    use crate::diagnose::trials::with_values;
+
+    /// A spring that goes with the square of displacement.
+    const POWER: &str = "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-k*sign(x)*abs(x)**n\"\n\
+                         [effects.parameters]\nk = { value = 2e5, unit = \"N/m**n\" }\nn = { value = 2.0, unit = \"1\" }\n";
+
+    #[test]
+    fn analytic_a_law_is_followed_no_worse_than_with_the_numbers_that_are_written_and_right() {
+        let hidden = wall_with(POWER);
+        let written = &hidden.parameters().formulas[0];
+        let twin = Twin::new(&hidden, 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let (base, scales) = (trials.experiment.wall.parameters(), &trials.experiment.scales);
+        let h = Hypothesis::of_formula(base, scales, &trials.experiment.nuisances, "power", written);
+        let own = trials.own_hypothesis(h.clone(), &wall.before, &wall.recalibrated).expect("a fit");
+        let right = with_values(&trials.data, h.clone(), &wall.before, &h.start()).expect("a wall");
+        let afar = try_hypothesis(&trials.data, h, &wall.before).expect("a fit");
+        let [own_nats, right, afar] = [&own, &right, &afar].map(|tried| against(&trials.data, tried));
+        assert!(own_nats <= right, "{own_nats}, {right} as written");
+        assert!(own_nats < afar, "a search from afar alone ends in other valleys");
+        let n = own.fit.values[own.hypothesis.unknowns.len() - 1];
+        assert!((n - 2.0).abs() < 0.1, "{n}");
+        assert_eq!(own.hypothesis.name(), "power");
+    }
+}
