@@ -53,12 +53,12 @@ pub struct Hypothesis {
     pub nuisances: usize,
     /// A force without a formula, as it was found over points.
     pub curve: Option<Curve>,
-    /// What the user calls a law of his own.
+    /// What the user calls a law of their own.
     own_name: Option<String>,
 }
 
 impl Hypothesis {
-    /// What is added to the wall, or what the user calls his own law; empty where nothing is.
+    /// What is added to the wall, or what the user calls a law of their own; empty where nothing is.
     pub fn name(&self) -> String {
         if let Some(name) = &self.own_name {
             return name.clone();
