@@ -15,7 +15,6 @@ use crate::diagnose::certainty::intervals;
 use crate::diagnose::formula::{Atom, Law, leaves_exponents_open};
 use crate::diagnose::trials::{FittedHypothesis, Trials, against, refit};
 use crate::limits::{EQUIVALENT, EXPONENT_SEEMS, EXPONENT_SHOWS};
-use rayon::prelude::*;
 
 impl<P: Progress> Trials<'_, P> {
     /// Laws that hold, the simplest first: that with its exponents free where these show, and the others that cannot be told from it then.
@@ -32,7 +31,7 @@ impl<P: Progress> Trials<'_, P> {
         let Some(free) = free.filter(holds) else { return equals };
         let limit = against(&self.data, &free.law) + EQUIVALENT;
         let others = equals.into_iter().skip(1).filter(|one| against(&self.data, one.judged()) < limit);
-        std::iter::once(free.clone()).chain(others).collect()
+        std::iter::once(free).chain(others).collect()
     }
 
     /// A law with its round exponents free where windows say so: that seems to do better, and does once both are fitted again; or with those
@@ -42,9 +41,9 @@ impl<P: Progress> Trials<'_, P> {
         if self.gain(told, &free) < EXPONENT_SEEMS {
             return self.with_exponents_of_held_out(told, &free);
         }
-        let both = [told.clone(), free].into_par_iter().map(|law| self.refined(law)).collect::<Vec<_>>();
-        let shows = self.gain(&both[0], &both[1]) > EXPONENT_SHOWS;
-        shows.then(|| Fitted { is_refined: true, ..Fitted::new(both[1].clone()) })
+        let (round, free) = rayon::join(|| self.refined(told.clone()), || self.refined(free));
+        let shows = self.gain(&round, &free) > EXPONENT_SHOWS;
+        shows.then(|| Fitted { is_refined: true, ..Fitted::new(free) })
     }
 
     /// A law with other exponents, where the tests fitted leave open which of the round ones it has and those held out do not: round ones if
