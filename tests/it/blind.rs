@@ -11,12 +11,12 @@ mod compliant;
 mod diagnose;
 #[allow(dead_code)]
 #[path = "../blind/laws/mod.rs"]
-mod laws;
-mod recorded;
+pub(crate) mod laws;
+pub(crate) mod recorded;
 mod said;
 #[allow(dead_code)]
 #[path = "../blind/score/mod.rs"]
-mod score;
+pub(crate) mod score;
 #[allow(dead_code)]
 #[path = "../blind/twins/mod.rs"]
 mod twins;

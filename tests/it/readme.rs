@@ -3,6 +3,7 @@
 //! Marked blocks, `<!-- made by make readme: NAME -->` … `<!-- end -->`, hold them. `make readme` writes them anew.
 
 mod beds;
+mod blind;
 mod block;
 mod conclusions;
 mod fragility;
@@ -41,6 +42,7 @@ fn regress_the_readme_is_what_the_program_gives() {
         fragility::blocks(page);
         beds::conclusion_block(page);
         beds::collapse_block(page);
+        blind::block(page);
     });
 }
 

@@ -51,6 +51,7 @@ pub fn table(rows: &[LawRow]) -> String {
         "≥ 65 %",
         told(&high_seen, LawRow::right),
     );
+    add("– the force within 10 %", "", told(&high_seen, LawRow::function_right));
     if tells_round {
         add(with_round, "", told(&high_seen, LawRow::right_or_holds_it));
         let is_none = |row: &&LawRow| !row.spelled && !row.spelled_in_class;

@@ -58,6 +58,12 @@ pub fn table(rows: &[Row]) -> String {
     let outside: Vec<&Row> = rows.iter().filter(|row| row.hides_other_law()).collect();
     let honest = |row: &&&Row| matches!(row.verdict.as_str(), "place_only" | "unknown");
     add("another law: place_only or unknown", "≥ 80 %", Counted::of(&outside, honest).told());
+    // Whether that is the right law is counted where laws are hidden.
+    let as_law = |row: &&&Row| matches!(row.verdict.as_str(), "formula" | "formula_class" | "curve");
+    if outside.iter().any(|row| as_law(&row)) {
+        let either = |row: &&&Row| honest(row) || as_law(row);
+        add("– or a law outside the catalogue", "", Counted::of(&outside, either).told());
+    }
     add("– wrong name", "≤ 10 %", Counted::of(&outside, |row| row.wrong()).told());
     let errors: Vec<f64> = rows.iter().filter_map(|row| row.parameter_error).collect();
     let error = median(errors.iter().copied());

@@ -131,7 +131,7 @@ impl RockingWall {
         self.regime = regime;
         let laws = piecewise_laws.laws(&regime);
         let held = piecewise_laws.rubs() && regime.slides == Side::Between;
-        self.motions.iter_mut().for_each(|motion| motion.set_laws(laws, held));
+        self.motions_mut().iter_mut().for_each(|motion| motion.set_laws(laws, held));
         self.formulas.slide(regime.slides);
         self.formulas.remember(regime.grows, regime.largest_m);
         self.share_branches();
@@ -182,9 +182,10 @@ impl RockingWall {
     /// The same wall under a further force at the top, N.
     pub(crate) fn with_top_force(&self, force_n: f64) -> Self {
         let mut pushed = self.clone();
-        let mut laws = self.piecewise_laws.map_or_else(|| *self.motions[0].laws(), |r| r.laws(&self.regime));
+        let mut laws =
+            self.piecewise_laws.map_or_else(|| *self.motion(Contact::REST).laws(), |r| r.laws(&self.regime));
         laws.spring_offset_n += force_n;
-        pushed.motions.iter_mut().for_each(|motion| motion.set_laws(laws, false));
+        pushed.motions_mut().iter_mut().for_each(|motion| motion.set_laws(laws, false));
         pushed
     }
 

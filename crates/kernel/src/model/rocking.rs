@@ -1,5 +1,7 @@
 //! The nine contact states of one wall, each with its arms and equations of motion.
 
+use std::sync::Arc;
+
 use fearless_simd::Level;
 
 use super::bed::{Branch, JointLaw};
@@ -29,12 +31,15 @@ pub struct State {
 }
 
 /// A wall ready to move.
+///
+/// A copy shares what is large with its model until it is put into another branch of its laws: short runs would copy for as long as they
+/// take.
 #[derive(Debug, Clone)]
 pub struct RockingWall {
-    wall: Wall,
+    wall: Arc<Wall>,
     pub(super) masses: Masses,
-    pub(super) arms: [Arms; 9],
-    pub(super) motions: [Motion; 9],
+    pub(super) arms: Arc<[Arms; 9]>,
+    pub(super) motions: Arc<[Motion; 9]>,
     /// The same wall on sharp edges, where joints give: whose impacts stiff beds have.
     pub(super) edges: Option<Box<RockingWall>>,
     /// Laws of the joints in place of sharp edges, with what they remember ...
@@ -78,8 +83,8 @@ impl RockingWall {
             least_speed_m_s: 0.0,
             regime: Regime::default(),
             masses: Masses::new(wall, laws.carriage_mass_kg),
-            arms: Contact::ALL.map(|contact| Arms::new(wall, contact)),
-            motions: Contact::ALL.map(|contact| Motion::new(wall, contact, laws)),
+            arms: Arc::new(Contact::ALL.map(|contact| Arms::new(wall, contact))),
+            motions: Arc::new(Contact::ALL.map(|contact| Motion::new(wall, contact, laws))),
             capture_rad_s: p.restitution.capture_velocity_rad_s,
             edges: wall.gives().then(|| Box::new(Self::new(&wall.with_sharp_edges(&wall.joint_laws)))),
             joint_laws: wall.joint_laws,
@@ -88,7 +93,7 @@ impl RockingWall {
             per_width: [0.0; 2],
             slimness: 0.0,
             whole_impacts: [None; 2],
-            wall: wall.clone(),
+            wall: Arc::new(wall.clone()),
         };
         rocking.per_weight = 1.0 / rocking.weight_n();
         rocking.per_width = [Joint::Ground, Joint::Crack].map(|joint| 1.0 / rocking.width_m(joint));
@@ -103,7 +108,7 @@ impl RockingWall {
 
     /// Moves by these vector instructions, which change nothing but the time it takes.
     pub(crate) fn set_level(&mut self, level: Level) {
-        self.motions.iter_mut().for_each(|motion| motion.level = level);
+        self.motions_mut().iter_mut().for_each(|motion| motion.level = level);
         self.edges.iter_mut().for_each(|edges| edges.set_level(level));
     }
 
@@ -115,6 +120,11 @@ impl RockingWall {
     #[inline]
     pub(crate) fn motion(&self, contact: Contact) -> &Motion {
         &self.motions[contact.index()]
+    }
+
+    /// Those of all contact states, to be changed in this copy alone.
+    pub(super) fn motions_mut(&mut self) -> &mut [Motion; 9] {
+        Arc::make_mut(&mut self.motions)
     }
 
     #[inline(always)]

@@ -99,7 +99,7 @@ impl RockingWall {
                 let memory = TopMemory { plastic_m, ..TopMemory::default() };
                 piecewise_laws.laws(&piecewise_laws.regime_at(x_c_m, v_c_m_s, memory))
             }
-            None => *self.motions[0].laws(),
+            None => *self.motion(Contact::REST).laws(),
         };
         let named_n = laws.spring_force_n(x_c_m) + laws.damping_force_n(v_c_m_s);
         match self.formulas.is_empty() {
@@ -110,6 +110,6 @@ impl RockingWall {
 
     /// m_dp with what effects add to it, kg.
     pub fn carriage_mass_kg(&self) -> f64 {
-        self.motions[0].laws().carriage_mass_kg
+        self.motion(Contact::REST).laws().carriage_mass_kg
     }
 }

@@ -18,7 +18,7 @@ impl RockingWall {
         let remembers = self.joint_laws[joint as usize] != Some(law);
         (self.joint_laws[joint as usize], self.branches[joint as usize]) = (Some(law), branch);
         let width_m = self.wall().width_m[joint as usize];
-        for (contact, motion) in Contact::ALL.into_iter().zip(&mut self.motions) {
+        for (contact, motion) in Contact::ALL.into_iter().zip(self.motions_mut()) {
             motion.reshape(joint, JointShape::new(Some(&law), width_m, contact.at(joint), branch));
         }
         let sharp = remembers.then(|| self.wall().with_sharp_edges(&self.joint_laws));

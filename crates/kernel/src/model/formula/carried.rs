@@ -300,7 +300,7 @@ impl RockingWall {
     /// Puts the carried states, in every contact state.
     pub(crate) fn put_carried(&mut self, carried: &CarriedStates) {
         self.formulas.put_carried(carried);
-        self.motions.iter_mut().for_each(|motion| motion.formulas.put_carried(carried));
+        self.motions_mut().iter_mut().for_each(|motion| motion.formulas.put_carried(carried));
     }
 
     /// How fast the carried states change.
@@ -333,7 +333,7 @@ impl RockingWall {
 
     /// The equations of a contact state, to be moved with other states.
     pub(crate) fn motion_mut(&mut self, contact: Contact) -> &mut Motion {
-        &mut self.motions[contact.index()]
+        &mut self.motions_mut()[contact.index()]
     }
 
     /// What a unit of each carried state turns the wall by, over its rotations of size α.

@@ -1,5 +1,7 @@
 //! The switches of formulas as a wall moves: what is left to them, and on which side they are.
 
+use std::sync::Arc;
+
 use mrbd_formula::{Branch, MOST_STATES, Switch, SwitchAt};
 
 use super::super::contact::Contact;
@@ -214,7 +216,8 @@ impl RockingWall {
     pub(in crate::model) fn share_branches(&mut self) {
         if !self.formulas.is_empty() {
             let formulas = &self.formulas;
-            self.motions.iter_mut().for_each(|motion| motion.formulas.take_branches(formulas));
+            let motions = Arc::make_mut(&mut self.motions);
+            motions.iter_mut().for_each(|motion| motion.formulas.take_branches(formulas));
         }
     }
 
