@@ -146,3 +146,44 @@ fn analytic_windows_side_by_side_are_seen_as_alone_to_the_bit() {
         }
     }
 }
+
+#[test]
+fn analytic_the_motion_of_runs_that_keep_no_account_is_that_of_others() {
+    let runs = anything(120);
+    // Every other one keeps none, in the same lanes as those that do.
+    let simulator = |(index, (wall, shaking, accuracy)): (usize, &(Wall, Shaking, Accuracy))| {
+        let simulator = Simulator::new(wall, shaking, *accuracy);
+        if index % 2 == 0 { simulator.without_accounts() } else { simulator }
+    };
+    let simulators = runs.iter().enumerate().map(simulator).collect::<Vec<_>>();
+    let mut histories = simulators.iter().map(|_| History::new(0.013)).collect::<Vec<_>>();
+    let mut told = vec![None; runs.len()];
+    let mut waiting = simulators.iter().zip(&mut histories).enumerate();
+    let mut next = || {
+        let (index, (simulator, history)) = waiting.next()?;
+        Some((index, simulator.watched_from(&simulator.release(), simulator.end_s(), history)))
+    };
+    simulate_watched_side_by_side(&mut next, &mut |index, response| told[index] = Some(response));
+    let mut struck = 0;
+    for (index, (wall, shaking, accuracy)) in runs.iter().enumerate() {
+        let mut history = History::new(0.013);
+        let simulator = Simulator::new(wall, shaking, *accuracy);
+        let expected = simulator.run(&mut history);
+        let mut found = told[index].take().expect("told once");
+        assert_eq!(histories[index].rows, history.rows, "run {index}");
+        if index % 2 == 0 {
+            let Response { theta_max_rad, top_displacement_m, energy, demand, .. } = &found;
+            let numbers = [theta_max_rad[0].value, theta_max_rad[1].time_s, top_displacement_m.value];
+            let ledger = [energy.initial_j, energy.final_j, energy.ground_work_j, energy.residual()];
+            let forces = demand.map(|demand| demand.friction + demand.compression_n);
+            assert!(numbers.iter().chain(&ledger).chain(&forces).all(|number| number.is_nan()), "{found:?}");
+            let Response { theta_max_rad, top_displacement_m, crack_displacement_m, energy, demand, .. } =
+                expected.clone();
+            found =
+                Response { theta_max_rad, top_displacement_m, crack_displacement_m, energy, demand, ..found };
+            struck += expected.impacts.table2.iter().sum::<u64>();
+        }
+        assert_eq!(found, expected, "run {index}");
+    }
+    assert!(struck > 1000, "{struck} impacts of runs without accounts");
+}

@@ -87,6 +87,8 @@ pub struct Simulator {
     ground: GroundPath,
     /// Steps that a run may try, kept or not.
     pub(super) most_steps: u64,
+    /// Whether anybody asks for largest values, forces and energy.
+    pub(super) accounts: bool,
 }
 
 /// A start moved onto its contact state.
@@ -107,7 +109,8 @@ impl Simulator {
     /// Another wall under the same shaking, whose samples are shared and not copied.
     #[must_use]
     pub fn with_wall(&self, wall: &Wall, accuracy: Accuracy) -> Self {
-        Self::over(wall, self.record.clone(), accuracy).with_most_steps(self.most_steps)
+        let (most_steps, accounts) = (self.most_steps, self.accounts);
+        Self { most_steps, accounts, ..Self::over(wall, self.record.clone(), accuracy) }
     }
 
     fn over(wall: &Wall, record: GroundPath, accuracy: Accuracy) -> Self {
@@ -130,6 +133,7 @@ impl Simulator {
             record,
             ground,
             most_steps: u64::MAX,
+            accounts: true,
         }
     }
 
@@ -138,6 +142,13 @@ impl Simulator {
     #[must_use]
     pub fn with_most_steps(self, most_steps: u64) -> Self {
         Self { most_steps, ..self }
+    }
+
+    /// The same, whose runs keep no account of largest values, forces and energy, which their responses then tell as no number:
+    /// for those who look at the motion alone. It is the same to the bit.
+    #[must_use]
+    pub fn without_accounts(self) -> Self {
+        Self { accounts: false, ..self }
     }
 
     /// The wall, ready to move.

@@ -32,17 +32,25 @@ impl<O: Observer> Run<O> {
         }
     }
 
+    fn settle_energy(&mut self) {
+        let final_j = self.wall.energy_j(self.contact, &self.state());
+        // A wall that falls from rest by its own weight turns one energy into another, with no work from outside.
+        let halted = State { omega: [0.0; 2], ..self.state() };
+        let kinetic_j = final_j - self.wall.energy_j(self.contact, &halted);
+        let energy = &mut self.totals.energy;
+        energy.final_j = final_j;
+        energy.passed_through_j = energy.passed_through_j.max(kinetic_j);
+    }
+
     fn response(mut self, outcome: Outcome) -> Response {
         let end_time_s = match outcome {
             Outcome::Stood => self.ground.end_s(),
             Outcome::Collapsed { time_s } | Outcome::Failed { time_s, .. } => time_s,
         };
-        self.totals.energy.final_j = self.wall.energy_j(self.contact, &self.state());
-        // A wall that falls from rest by its own weight turns one energy into another, with no work from outside.
-        let halted = State { omega: [0.0; 2], ..self.state() };
-        let kinetic_j = self.totals.energy.final_j - self.wall.energy_j(self.contact, &halted);
-        let passed_j = &mut self.totals.energy.passed_through_j;
-        *passed_j = passed_j.max(kinetic_j);
+        match self.totals.accounts {
+            true => self.settle_energy(),
+            false => self.totals = std::mem::take(&mut self.totals).untold(),
+        }
         self.observer.ended(end_time_s, self.contact, self.now.position);
         let wall = self.wall.wall();
         let lower = self.totals.theta_max[0];

@@ -18,8 +18,10 @@ use mrbd_kernel::simulate::{
 };
 use nalgebra::DVector;
 
-/// Accuracy of windows: far below any noise, over a second.
-const ACCURACY: Accuracy = Accuracy { tolerance: 1e-6 };
+/// Accuracy of windows: far below any noise, over a second. Of 2 100 windows of five diagnoses, on sharp edges and on beds, at noises
+/// from 1e-5 rad on, half are off by less than 1e-5 of the noise, 98 of a hundred by less than 0.005, and the worst by 0.02, whose
+/// impacts magnify what is there before them. A hundred times as strict takes 1.05 to 2 times the steps.
+const ACCURACY: Accuracy = Accuracy { tolerance: 1e-4 };
 
 /// Steps that a window may try before it stays where it is. Of ten million windows of twelve diagnoses, with laws of every kind and
 /// with beds, the longest took 57 000. A damper that goes with the 4.3rd power of velocity, tried in the place of a spring, took
@@ -52,7 +54,7 @@ impl<'a> Replay<'a> {
     pub fn new(tests: &'a [TestData], physics: &Physics) -> Self {
         let simulator = |test: &TestData| {
             let shaking = shaken(&test.shaking, physics.reversed_ratio);
-            Simulator::new(&physics.wall, &shaking, ACCURACY).with_most_steps(MOST_STEPS)
+            Simulator::new(&physics.wall, &shaking, ACCURACY).without_accounts().with_most_steps(MOST_STEPS)
         };
         let simulators = tests.iter().map(simulator).collect::<Vec<_>>();
         let pasts = tests.iter().map(|test| TopPast::new(test, physics)).collect();
@@ -344,6 +346,25 @@ pub(super) mod tests {
         assert!(matches!(run.outcome, Outcome::Failed { .. }), "{:?}", run.outcome);
         let left = replay.residual(window, &window.measured);
         assert!(left.iter().all(|r| r.is_finite()) && left.norm() > 100.0, "{}", left.norm());
+    }
+
+    #[test]
+    fn analytic_windows_are_followed_far_more_accurately_than_they_were_measured() {
+        let (test, physics) = swaying();
+        let tests = [test];
+        let replay = Replay::new(&tests, &physics);
+        let strict = Accuracy { tolerance: 1e-11 };
+        let strictly = Replay {
+            simulators: replay.simulators.iter().map(|s| s.with_wall(&physics.wall, strict)).collect(),
+            ..Replay::new(&tests, &physics)
+        };
+        let mut most = 0.0_f64;
+        for window in &crate::experiment::windows(&tests) {
+            let [r, exact] = [&replay, &strictly].map(|replay| replay.residual(window, &window.measured));
+            most = most.max((r - exact).amax());
+        }
+        // The spring yields and the wall strikes; a hundredth of the noise moves no sum of squares by a natural logarithm.
+        assert!(most > 0.0 && most < 0.01, "{most}");
     }
 
     #[test]
