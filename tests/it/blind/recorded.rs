@@ -10,10 +10,11 @@ use mrbd_lab::limits::HELD_OUT_ERROR;
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-pub(crate) const SETS: [(&str, Draw); 27] = [
+pub(crate) const SETS: [(&str, Draw); 30] = [
     ("fresh11", cases::draw::draw),
     ("fresh12", cases::draw::draw),
     ("fresh13", cases::draw::draw),
+    ("fresh14", cases::draw::draw),
     ("beds3", cases::beds::draw),
     ("nulls3", cases::nulls::draw),
     ("beds4", cases::beds::draw),
@@ -38,6 +39,8 @@ pub(crate) const SETS: [(&str, Draw); 27] = [
     ("nulls11", cases::nulls::draw),
     ("nulls12", cases::nulls::draw),
     ("nulls13", cases::nulls::draw),
+    ("nulls14", cases::nulls::draw),
+    ("nulls15", cases::nulls::draw),
 ];
 
 /// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.

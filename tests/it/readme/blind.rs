@@ -19,13 +19,14 @@ const KINDS: [Kind; 4] = [
     Kind {
         title: "[nothing, by four formulations of a contact](docs/diagnosis-blind.md#joints-that-give)",
         prefix: "nulls",
-        sets: 5,
+        // As many as hold a hundred of each formulation.
+        sets: 7,
         figures: &["a name where", "– own", "– compliant", "– corners", "– springs"],
     },
     Kind {
         title: "[an effect of the catalogue](docs/diagnosis-blind.md#effects-of-the-catalogue)",
         prefix: "fresh",
-        sets: 1,
+        sets: 2,
         figures: &[
             "a name where",
             "right name or class",
