@@ -256,7 +256,7 @@ impl Row {
             }
         }
         let rises = told & rise;
-        if self.accounts && rises.any_true() {
+        if rises.any_true() {
             self.landed.store_motion(landed);
             self.raise_rotations(rises.to_bitmask());
         }
@@ -304,10 +304,7 @@ impl Row {
         // On sharp edges, walls that turn as one have a closed crack, or none. Others have the ground closed, or nothing.
         let closed = if as_one { landed.reactions.crack } else { landed.reactions.ground };
         let (corner_force, stays) = self.limits.corner_force(closed);
-        match self.accounts {
-            true => (corner_force, stays & self.limits.same_tension(self.normals(landed))),
-            false => (corner_force, stays),
-        }
+        (corner_force, stays & self.limits.same_tension(self.normals(landed)))
     }
 
     /// Normal forces through the ground and the crack, 0 where there is none.
@@ -321,14 +318,11 @@ impl Row {
     /// Adds the steps of some lanes up.
     #[inline(always)]
     pub fn account<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>, h: F<S>) {
-        SumRow::add(done, &mut self.sums.steps, F::splat(h.simd, 1.0));
-        SumRow::add(done, &mut self.sums.pattern_time_s, h);
-        if !self.accounts {
-            return;
-        }
         let normals = self.normals(landed);
         let (simd, sums, ground) = (h.simd, &mut self.sums, &self.ground);
         let start_s = from_row(simd, &ground.start_s) + from_row(simd, &ground.offset_s);
+        SumRow::add(done, &mut sums.steps, F::splat(simd, 1.0));
+        SumRow::add(done, &mut sums.pattern_time_s, h);
         sums.top(done, landed.reactions.top[0], start_s + h);
         sums.force(done, 0, [landed.reactions.ground[0], normals[0]]);
         sums.force(done, 1, [landed.reactions.crack[0], normals[1]]);
@@ -344,9 +338,6 @@ impl Row {
         landed: &Landed<S>,
         h: F<S>,
     ) {
-        if !self.accounts {
-            return;
-        }
         let (simd, now) = (h.simd, landed.reactions.top[1]);
         let before = from_row(simd, &self.limits.top_velocity_m_s);
         let most_m = landed.reactions.top[0].abs() + (before.abs() + now.abs()) * 2.0 * h;

@@ -239,7 +239,7 @@ impl Row {
         let on_time = late_s.abs().simd_le(step_s * SHORT)
             & h.simd_ge(step_s * PROGRESS)
             & offset_s.simd_lt(of(&self.ground.length_s))
-            & (outdone | F::splat(simd, f64::from(u8::from(self.accounts))).simd_eq(0.0))
+            & outdone
             & falls_back.simd_lt(0.0);
         let reactions = ReactionLanes { top, ..landed.reactions };
         (Reached { landed: Landed { position, velocity, reactions, ..*landed }, h, offset_s }, on_time)
@@ -292,7 +292,7 @@ impl Row {
         let upper = if AS_ONE { lower } else { bound(&self.moving.path(1, landed, scale)) };
         let rises = |i: usize, size: F<S>| size.simd_gt(from_row(h.simd, &self.limits.theta_max_rad[i]));
         let rises = gone & (rises(0, lower) | rises(1, upper));
-        if self.accounts && rises.any_true() {
+        if rises.any_true() {
             self.landed.store_motion(landed);
             self.raise_rotations(rises.to_bitmask());
         }

@@ -36,8 +36,6 @@ pub(super) struct Row {
     pub impacts: ImpactRow,
     pub sums: SumRow,
     pub landed: LandedRow,
-    /// Whether any run that boarded keeps account of largest values, forces and energy.
-    pub accounts: bool,
     /// Whether the runs are watched, the times in s up to which their motion need not be shown, the bits of the lanes whose last step
     /// is to be shown, and where and when these were before it.
     pub watched: bool,

@@ -102,7 +102,7 @@ impl<O: Observer> Run<O> {
             contact_rad: f64::EPSILON * simulator.wall.wall().alpha_rad(),
             controller: simulator.controller,
             most_steps: simulator.most_steps,
-            totals: Totals::new(simulator.wall.joints().count(), simulator.accounts),
+            totals: simulator.totals(),
             observer,
             contact,
             carried: carried.map(Box::new),
@@ -218,9 +218,9 @@ impl<O: Observer> Run<O> {
         if self.totals.accounts {
             self.totals.energy.initial_j = self.wall.energy_j(released, &self.state());
             self.totals.energy.passed_through_j = self.totals.energy.initial_j.abs();
-            self.totals.rotations(start_s, &Quintic::new(&self.now, &self.now, 0.0));
-            self.totals.top(self.wall.top_displacement_m(released, self.now.position), start_s);
         }
+        self.totals.rotations(start_s, &Quintic::new(&self.now, &self.now, 0.0));
+        self.totals.top(self.wall.top_displacement_m(released, self.now.position), start_s);
         if (0..2).any(|i| self.now.position[i].abs() >= self.collapse_rad[i]) {
             return Err(Stop::Collapsed { time_s: start_s });
         }
@@ -355,13 +355,10 @@ impl<O: Observer> Run<O> {
     fn keep(&mut self, start_s: f64, step: &Step, motion: &Quintic, reactions: &Reactions) {
         self.totals.work.steps += 1;
         self.totals.pattern_time_s[self.contact.index()] += step.h;
-        if self.totals.accounts {
-            self.totals.rotations(start_s, motion);
-            self.top_displacement(start_s, motion, reactions);
-            self.totals.forces(&reactions.forces);
-            self.totals.energy(step.quadrature);
-        }
-        self.top_velocity_m_s = reactions.top_velocity_m_s;
+        self.totals.rotations(start_s, motion);
+        self.top_displacement(start_s, motion, reactions);
+        self.totals.forces(&reactions.forces);
+        self.totals.energy(step.quadrature);
         self.observer.moved(start_s, self.contact, motion);
         self.keep_states();
         self.now = step.end;
@@ -377,6 +374,7 @@ impl<O: Observer> Run<O> {
     fn top_displacement(&mut self, start_s: f64, motion: &Quintic, reactions: &Reactions) {
         self.totals.top(reactions.top_displacement_m, start_s + motion.h());
         let (before, now) = (self.top_velocity_m_s, reactions.top_velocity_m_s);
+        self.top_velocity_m_s = now;
         // Twice as far from the end as at both speeds together is farther than it gets.
         let most_m = reactions.top_displacement_m.abs() + 2.0 * (before.abs() + now.abs()) * motion.h();
         if before * now < 0.0 && most_m > self.totals.top_max.value.abs() {

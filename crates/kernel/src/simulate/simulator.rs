@@ -6,6 +6,7 @@ use super::response::Response;
 use super::rest::RestLimits;
 use super::run::Run;
 use super::side_by_side::Prepared;
+use super::totals::Totals;
 use super::{Accuracy, Shaking};
 use crate::model::{
     CarriedStates, Contact, Joint, Pivot, RockingWall, State, TopMemory, Vector, Wall, opening,
@@ -88,7 +89,7 @@ pub struct Simulator {
     /// Steps that a run may try, kept or not.
     pub(super) most_steps: u64,
     /// Whether anybody asks for largest values, forces and energy.
-    pub(super) accounts: bool,
+    accounts: bool,
 }
 
 /// A start moved onto its contact state.
@@ -149,6 +150,12 @@ impl Simulator {
     #[must_use]
     pub fn without_accounts(self) -> Self {
         Self { accounts: false, ..self }
+    }
+
+    /// What a run begins with.
+    pub(super) fn totals(&self) -> Totals {
+        let joints = self.wall.joints().count();
+        if self.accounts { Totals::new(joints) } else { Totals::without_accounts(joints) }
     }
 
     /// The wall, ready to move.

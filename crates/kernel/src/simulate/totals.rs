@@ -1,7 +1,7 @@
 //! Keeping account of a run while it goes: maxima, pattern times, friction, tension, energy.
 
 use super::response::{EnergyLedger, Impacts, JointDemand, Openings, Peak, Work};
-use crate::model::{Contact, Impact, JointForce, JointForces};
+use crate::model::{Contact, Impact, JointForces};
 use crate::solver::{Bernstein, Quintic};
 
 /// A change of forces over times of 1e-7 of a sample step, with room: over such a time they change by some 1e-7.
@@ -52,8 +52,38 @@ fn raise(peak: &mut Peak, start_s: f64, theta: &Bernstein<6>, h: f64) {
 
 impl Totals {
     /// Nothing yet, for a wall with this many joints.
-    pub fn new(joints: usize, accounts: bool) -> Self {
-        Self { joints, accounts, ..Self::default() }
+    pub fn new(joints: usize) -> Self {
+        Self { joints, accounts: true, ..Self::default() }
+    }
+
+    /// The same where nobody asks for largest values: nothing ever exceeds these, so none is looked for.
+    pub fn without_accounts(joints: usize) -> Self {
+        let all = f64::INFINITY;
+        let peak = Peak { value: all, time_s: 0.0 };
+        let demand = JointDemand { friction: all, compression_n: all, tensions: 0 };
+        Self {
+            accounts: false,
+            theta_max: [peak; 2],
+            top_max: peak,
+            demand: [demand; 2],
+            ..Self::new(joints)
+        }
+    }
+
+    /// No number in the place of all that was not asked for.
+    pub fn untold(self) -> Self {
+        let none = f64::NAN;
+        let peak = Peak { value: none, time_s: none };
+        let demand = JointDemand { friction: none, compression_n: none, tensions: 0 };
+        let energy = EnergyLedger {
+            initial_j: none,
+            final_j: none,
+            ground_work_j: none,
+            impact_loss_j: none,
+            effect_loss_j: none,
+            passed_through_j: none,
+        };
+        Self { theta_max: [peak; 2], top_max: peak, demand: [demand; 2], energy, ..self }
     }
 
     /// Raises the largest rotations by what happens inside a step.
@@ -86,17 +116,15 @@ impl Totals {
         }
     }
 
-    /// Whether forces, and all that differ from them by little, raise no largest one that is asked for and leave no pivot under
-    /// tension.
+    /// Whether forces, and all that differ from them by little, raise no largest one and leave no pivot under tension.
     #[inline]
     pub fn surely_outdo(&self, forces: &JointForces) -> bool {
-        let outdo = |(i, force): (usize, &JointForce)| {
+        [forces.ground, forces.crack].iter().enumerate().take(self.joints).all(|(i, force)| {
             let (demand, normal) = (&self.demand[i], force.normal * (1.0 + LITTLE));
             !self.in_tension[i]
                 && force.shear.abs() * (1.0 + LITTLE) < demand.friction * force.normal
                 && normal < demand.compression_n
-        };
-        !self.accounts || [forces.ground, forces.crack].iter().enumerate().take(self.joints).all(outdo)
+        })
     }
 
     /// Adds the work of the ground and the losses of effects over a step.
@@ -105,23 +133,6 @@ impl Totals {
         self.energy.ground_work_j += work_j;
         self.energy.effect_loss_j += loss_j;
         self.energy.passed_through_j += work_j.abs() + loss_j.abs();
-    }
-
-    /// No number in the place of all that was not asked for.
-    pub fn untold(mut self) -> Self {
-        let none = f64::NAN;
-        let peak = Peak { value: none, time_s: none };
-        let demand = JointDemand { friction: none, compression_n: none, tensions: 0 };
-        (self.theta_max, self.top_max, self.demand) = ([peak; 2], peak, [demand; 2]);
-        self.energy = EnergyLedger {
-            initial_j: none,
-            final_j: none,
-            ground_work_j: none,
-            impact_loss_j: none,
-            effect_loss_j: none,
-            passed_through_j: none,
-        };
-        self
     }
 
     /// Counts an impact and its loss.

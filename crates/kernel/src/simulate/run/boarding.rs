@@ -2,7 +2,7 @@
 
 use super::super::bed_events::keeps_contact_between;
 use super::super::history::Observer;
-use super::super::row::{Row, SumRow, put};
+use super::super::row::{Row, put};
 use super::{Run, Stop};
 use crate::model::{Contact, Joint, Kink, Regime};
 use crate::solver::{Point, STAGES};
@@ -32,7 +32,6 @@ impl<O: Observer> Run<O> {
 
     /// Puts all that the next step needs in a lane.
     pub fn board(&self, row: &mut Row, i: usize) {
-        row.accounts |= self.totals.accounts;
         row.errors.put(i, &self.controller);
         self.board_ground(row, i);
         self.board_kinks(row, i);
@@ -101,7 +100,9 @@ impl<O: Observer> Run<O> {
         row.errors.put(i, &self.controller);
         row.motions.put_formulas(i, self.wall.motion(self.contact));
         self.board_task(row, i);
-        let limits = &mut row.limits;
+        let (limits, totals) = (&mut row.limits, &self.totals);
+        limits.put_rotations(i, &totals.theta_max);
+        put(&mut limits.tension, i, totals.in_tension.map(|tension| f64::from(u8::from(tension))));
         limits.corner_force[i] = self.corner_force.unwrap_or_default();
         limits.top_velocity_m_s[i] = self.top_velocity_m_s;
         if self.wall.piecewise_laws().is_some() {
@@ -116,27 +117,18 @@ impl<O: Observer> Run<O> {
             }
         }
         let sums = &mut row.sums;
-        sums.pattern_time_s[i] = self.totals.pattern_time_s[self.contact.index()];
-        (sums.steps[i], sums.tolerance_steps[i], sums.rejected_steps[i]) = (0.0, 0.0, 0.0);
-        sums.most_steps[i] = self.steps_left() as f64;
-        if self.totals.accounts {
-            self.board_accounts(row, i);
-        }
-        self.board_strikes(row, i);
-    }
-
-    fn board_accounts(&self, row: &mut Row, i: usize) {
-        let (limits, sums, totals) = (&mut row.limits, &mut row.sums, &self.totals);
-        limits.put_rotations(i, &totals.theta_max);
-        put(&mut limits.tension, i, totals.in_tension.map(|tension| f64::from(u8::from(tension))));
         sums.theta_max[i] = totals.theta_max;
         sums.top_m[i] = totals.top_max.value;
         sums.top_time_s[i] = totals.top_max.time_s;
+        sums.pattern_time_s[i] = totals.pattern_time_s[self.contact.index()];
         put(&mut sums.friction, i, totals.demand.map(|demand| demand.friction));
         put(&mut sums.compression_n, i, totals.demand.map(|demand| demand.compression_n));
         sums.ground_work_j[i] = totals.energy.ground_work_j;
         sums.effect_loss_j[i] = totals.energy.effect_loss_j;
         sums.passed_through_j[i] = totals.energy.passed_through_j;
+        (sums.steps[i], sums.tolerance_steps[i], sums.rejected_steps[i]) = (0.0, 0.0, 0.0);
+        sums.most_steps[i] = self.steps_left() as f64;
+        self.board_strikes(row, i);
     }
 
     /// Shows whoever watches the step that was kept in a lane. False where they have seen enough; the run has alighted
@@ -179,17 +171,11 @@ impl<O: Observer> Run<O> {
         self.corner_force = self.corner_force.map(|_| row.limits.corner_force[i]);
         self.top_velocity_m_s = row.limits.top_velocity_m_s[i];
         self.stalled = 0;
-        self.totals.pattern_time_s[self.contact.index()] = row.sums.pattern_time_s[i];
-        if self.totals.accounts {
-            self.take_over_accounts(&row.sums, i);
-        }
-    }
-
-    fn take_over_accounts(&mut self, sums: &SumRow, i: usize) {
-        let totals = &mut self.totals;
+        let (sums, totals) = (&row.sums, &mut self.totals);
         totals.theta_max = sums.theta_max[i];
         totals.top_max.value = sums.top_m[i];
         totals.top_max.time_s = sums.top_time_s[i];
+        totals.pattern_time_s[self.contact.index()] = sums.pattern_time_s[i];
         for (j, demand) in totals.demand.iter_mut().enumerate() {
             demand.friction = sums.friction[j][i];
             demand.compression_n = sums.compression_n[j][i];
