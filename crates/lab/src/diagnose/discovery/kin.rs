@@ -54,8 +54,8 @@ impl<P: Progress> Trials<'_, P> {
         let one = one.or_else(|| self.one_for_friction_and_damper(named, &points));
         // A damper with its exponent free may do better than a name in the place of a spring, and the spring better still.
         let other = powers.iter().find_map(|power| self.other_at_brief_joint(named, power, &points));
-        let against = |kin: &Kin| against(&self.data, &kin.fitted);
-        one.into_iter().chain(other).min_by(|a, b| against(a).total_cmp(&against(b)))
+        let nats = |kin: &Kin| against(&self.data, &kin.fitted);
+        one.into_iter().chain(other).min_by(|a, b| nats(a).total_cmp(&nats(b)))
     }
 
     /// The laws that do better than one effect of a name, if its exponent set free does.

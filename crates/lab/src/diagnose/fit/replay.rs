@@ -363,7 +363,7 @@ pub(super) mod tests {
             let [r, exact] = [&replay, &strictly].map(|replay| replay.residual(window, &window.measured));
             most = most.max((r - exact).amax());
         }
-        // The spring yields and the wall strikes; a hundredth of the noise moves no sum of squares by a natural logarithm.
+        // The spring yields and the wall strikes; a hundredth of the noise moves no window by a natural logarithm.
         assert!(most > 0.0 && most < 0.01, "{most}");
     }
 
