@@ -363,8 +363,8 @@ pub(super) mod tests {
             let [r, exact] = [&replay, &strictly].map(|replay| replay.residual(window, &window.measured));
             most = most.max((r - exact).amax());
         }
-        // The spring yields and the wall strikes; a hundredth of the noise moves no window by a natural logarithm.
-        assert!(most > 0.0 && most < 0.01, "{most}");
+        // The spring yields and the wall strikes. By tolerances of 1e-6, 1e-4 and 1e-3 it is 3e-6, 7e-5 and 3e-4.
+        assert!(most > 0.0 && most < 2e-4, "{most}");
     }
 
     #[test]
