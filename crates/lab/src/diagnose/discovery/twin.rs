@@ -141,7 +141,9 @@ fn shaken(wall: &Wall, noise_rad: f64, sweeps: [[f64; 2]; 4]) -> Vec<TestData> {
         Simulator::new(wall, &shaking, Accuracy::default()).run(&mut sampled);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut noise = || -> f64 { StandardNormal.sample(&mut random) };
-        let read = sampled.rows().iter().map(|(theta, _)| theta.map(|t| t + noise_rad * noise()));
+        let gain = wall.reading().gain;
+        let mut read = |theta: [f64; 2]| [0, 1].map(|i| gain[i] * theta[i] + noise_rad * noise());
+        let read = sampled.rows().iter().map(|(theta, _)| read(*theta));
         let theta_rad = read.collect::<Vec<_>>();
         let largest_rad = theta_rad.iter().flatten().fold(0.0, |most, t: &f64| t.abs().max(most));
         assert!((0.003..0.05).contains(&largest_rad), "rocks and stands: {largest_rad} rad in test {seed}");

@@ -16,7 +16,7 @@ use crate::limits::{GAINED_BY_OPENING, GAINED_ON_BEDS, READS_CLOSED, WORTH_OPENI
 use mrbd_kernel::model::{EffectKind, Pair};
 use rayon::prelude::*;
 
-/// The gain of each channel that the best single effect names, where taking it out could change how a pattern is read.
+/// The gain of each channel that the best effect names, where taking it out could change how a pattern is read.
 pub fn gain_misread(tests: &[TestData], best: &FittedHypothesis) -> Option<Pair> {
     let gain = best.hypothesis.physics(&best.fit.values)?.wall.reading().gain;
     let shows = |test: &TestData| {
@@ -36,11 +36,13 @@ pub fn set_gain(tests: &mut [TestData], gain: Pair) -> Pair {
 
 /// Whether the best single effect is a gain again, and leaves less of its windows than it left of those before.
 pub fn reads_better(before: &[FittedHypothesis], after: &[FittedHypothesis]) -> bool {
-    let is_gain = |t: &FittedHypothesis| {
-        t.hypothesis.additions.iter().any(|a| a.kind() == Some(EffectKind::SensorGain))
-    };
     let [Some(before), Some(after)] = [before, after].map(<[FittedHypothesis]>::first) else { return false };
-    is_gain(after) && left(after) < left(before)
+    has_gain(after) && left(after) < left(before)
+}
+
+/// Whether a sensor reads with a gain.
+pub fn has_gain(tried: &FittedHypothesis) -> bool {
+    tried.hypothesis.additions.iter().any(|a| a.kind() == Some(EffectKind::SensorGain))
 }
 
 /// What speaks against it, by window: the windows are others once patterns are read anew.
