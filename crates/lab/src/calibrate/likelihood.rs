@@ -127,7 +127,6 @@ pub(super) fn by_likelihood(experiment: &Experiment, starts: &[Vec<f64>]) -> Opt
     let whole = whole_tests(&tests).and_then(|whole| likelihood.fitted(whole, &all));
     let whole = whole.filter(|whole| whole.found.followed && whole.is_near(&short));
     Some(match whole {
-        Some(whole) if whole.tells_what(&short) => whole.found,
         Some(whole) => whole.with_intervals_of(short),
         None => short.found,
     })
@@ -177,16 +176,6 @@ impl Fitted {
         let apart = values.map(|(own, theirs)| (own - theirs).powi(2));
         let widest = self.variances.iter_mut().zip(&other.variances).zip(apart);
         widest.for_each(|((own, theirs), apart)| *own = own.max(theirs + apart));
-    }
-
-    /// Whether every number that leaves a trace in another fit leaves one in this.
-    ///
-    /// Over a long test the motion changes with a number too steeply for any slope to be told.
-    fn tells_what(&self, other: &Self) -> bool {
-        self.variances
-            .iter()
-            .zip(&other.variances)
-            .all(|(own, theirs)| own.is_finite() || theirs.is_infinite())
     }
 
     /// These values with the intervals of another fit, widened to hold them.
@@ -352,7 +341,7 @@ impl Likelihood<'_> {
 
     fn found(&self, over: Over, tried: &FittedHypothesis, spread: &Spread) -> ByLikelihood {
         let interval = |(i, value): (usize, &f64)| {
-            let half = half_width(over, spread, i, *value);
+            let half = half_width(spread, i, *value);
             let unknown = &self.hypothesis.unknowns[i];
             [(value - half).max(unknown.lower), (value + half).min(unknown.upper)]
         };

@@ -324,8 +324,7 @@ mod tests {
             all.find(|a| a.name() == name).expect("of the catalogue")
         };
         let pair = vec![named("cubic_stiffness"), named("sensor_gain.upper")];
-        let tried =
-            flow.trials(&windows).try_all("a pair", &experiment.nuisances, &[&wall.before], &[pair]);
+        let tried = flow.trials(&windows).try_all("a pair", &experiment.nuisances, &[&wall.before], &[pair]);
         // A closed crack that reads as open: windows start in patterns the wall was not in, and no gain follows them.
         assert!(tried[0].fit_error() > 2.0, "{:?}", tried[0].errors());
         let found = |verdict: Verdict| Found {
@@ -334,7 +333,10 @@ mod tests {
         };
         assert!(flow.with_gain_beside(&(windows.clone(), found(Verdict::Named))).is_none());
         let (_, told) = flow.with_gain_beside(&(windows, found(Verdict::PlaceOnly))).expect("a gain");
-        assert_eq!((told.verdict, verdict::names(&told.after)), (Verdict::Named, vec!["sensor_gain".to_owned()]));
+        assert_eq!(
+            (told.verdict, verdict::names(&told.after)),
+            (Verdict::Named, vec!["sensor_gain".to_owned()])
+        );
         let gain = told.after.hypothesis.physics(&told.after.fit.values).expect("a wall").wall.reading().gain;
         assert!(gain[0] == 1.0 && (gain[1] - 0.93).abs() < 1e-3, "{gain:?}");
     }
