@@ -205,8 +205,8 @@ fn regress_the_readme_has_the_tallies_of_the_recorded_laws() {
     }
 }
 
-/// Sets of twins by which calibrations were judged, in order: `make blind-calibrations SET=twins4` goes on from there.
-const SETS_OF_TWINS: [&str; 2] = ["twins2", "twins4"];
+/// Sets of twins by which calibrations were judged, in order: `make blind-calibrations SET=twins6` goes on from there.
+const SETS_OF_TWINS: [&str; 3] = ["twins2", "twins4", "twins6"];
 
 fn calibrated_twins(set: &str) -> Vec<twins::row::Row> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/blind/recorded/{set}.jsonl"));
