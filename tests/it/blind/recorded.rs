@@ -244,3 +244,22 @@ fn regress_the_documentation_has_the_tables_of_the_calibrated_twins() {
         assert!(text.contains(&table), "docs/calibration.md lacks the table of {set}:\n\n{table}");
     }
 }
+
+#[test]
+fn regress_the_readme_has_the_tallies_of_the_last_calibrated_twins() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let text = std::fs::read_to_string(path).expect("the README");
+    let [.., last] = SETS_OF_TWINS;
+    let rows = calibrated_twins(last);
+    let tally = |is_in: fn(&twins::row::Row) -> bool| {
+        let group = rows.iter().filter(|row| is_in(row)).flat_map(|row| &row.numbers);
+        let held = group.filter(|n| n.identified).filter_map(twins::row::Number::holds).collect::<Vec<_>>();
+        format!("{} of {}", held.iter().filter(|holds| **holds).count(), held.len())
+    };
+    let [all, other] = [tally(|_| true), tally(|row| row.simulator == "compliant")];
+    let told = format!(
+        "on {} blind twins of two simulators {all} intervals of 95 % that are called identified hold the truth, {other} on the simulator",
+        rows.len()
+    );
+    assert!(text.contains(&told), "the README lacks: {told}");
+}
