@@ -1,5 +1,6 @@
 //! Stopping on request: Ctrl-C, and the signals a scheduler sends before it ends a job.
 
+use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -27,8 +28,8 @@ pub(super) fn end_on_signals(last_words: impl FnOnce() -> String + Send + 'stati
         .map_err(|e| Error::io("watch for signals", Path::new("process"), e))?;
     std::thread::spawn(move || {
         if signals.forever().next().is_some() {
-            // The line of a bar may stand there.
-            eprintln!("\nmrbd: stopped; {}", last_words());
+            // The line of a bar may stand there. Where nobody reads any more, the process ends all the same.
+            let _ = writeln!(std::io::stderr(), "\nmrbd: stopped; {}", last_words());
             std::process::exit(STOPPED);
         }
     });

@@ -243,31 +243,54 @@ fn published_the_findings_of_figure_9_hold_in_most_cases() {
     }
 }
 
+/// A calibration at work, long enough to be interrupted.
+#[cfg(unix)]
+fn at_work(experiment: &Path, out: &Path) -> std::process::Child {
+    let child = Command::new(env!("CARGO_BIN_EXE_mrbd"))
+        .args(["calibrate", text(experiment), "--out", text(out)])
+        .stderr(Stdio::piped())
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("mrbd starts");
+    while !std::fs::metadata(out.join("journal.tsv")).is_ok_and(|m| m.len() > 0) {
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+    child
+}
+
+#[cfg(unix)]
+fn send(signal: &str, child: &std::process::Child) {
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-s", signal, &id]).status().expect("kill").success());
+}
+
 #[cfg(unix)]
 #[test]
 fn regress_an_interrupt_says_how_to_go_on_and_ends_with_1() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    // Long enough to be interrupted.
     let experiment = Twin { settings: "replicates = 40\n".into(), ..quick() }.write(folder.path());
     for signal in ["INT", "TERM"] {
         let out = folder.path().join(signal);
-        let child = Command::new(env!("CARGO_BIN_EXE_mrbd"))
-            .args(["calibrate", text(&experiment), "--out", text(&out)])
-            .stderr(Stdio::piped())
-            .stdout(Stdio::null())
-            .spawn()
-            .expect("mrbd starts");
-        while !std::fs::metadata(out.join("journal.tsv")).is_ok_and(|m| m.len() > 0) {
-            std::thread::sleep(std::time::Duration::from_millis(2));
-        }
-        let id = child.id().to_string();
-        assert!(Command::new("kill").args(["-s", signal, &id]).status().expect("kill").success());
+        let child = at_work(&experiment, &out);
+        send(signal, &child);
         let output = child.wait_with_output().expect("ends");
         let message = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{message}");
         let again = format!("to go on: mrbd calibrate {} --out {} --resume", text(&experiment), text(&out));
         assert!(message.contains(&again), "{message}");
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn regress_an_interrupt_ends_a_process_whose_words_nobody_reads() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let experiment = Twin { settings: "replicates = 40\n".into(), ..quick() }.write(folder.path());
+    let mut child = at_work(&experiment, &folder.path().join("out"));
+    drop(child.stderr.take());
+    send("TERM", &child);
+    // One that goes on ends with 0.
+    assert_eq!(child.wait().expect("ends").code(), Some(1));
 }
 
 #[test]
