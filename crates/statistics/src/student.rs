@@ -4,8 +4,8 @@ use statrs::distribution::{Continuous, ContinuousCDF, StudentsT};
 
 use crate::normal::NINETY_FIVE_PERCENT;
 
-/// Degrees of freedom from which on the first terms of the expansion about the normal distribution are exact to 1e-12, and above which, at
-/// some 1e7, the library's inverse no longer converges.
+/// Degrees of freedom above which the first terms of the expansion about the normal distribution are exact to 1e-11. The library's inverse
+/// no longer converges from some 1e7 on.
 const MANY: f64 = 1e4;
 
 /// Half width of the interval about the mean that holds 95 %, in estimated standard deviations.

@@ -25,7 +25,7 @@ pub(super) fn variance(spread: &Spread, i: usize, value: f64) -> f64 {
 ///
 /// The curvature rests on the noise, which is known. How far tests pull is known from as many windows as tell the number: Student's t.
 /// On a hundred twins whose errors are known the curvature alone is what those of this formulation scatter by (1.0 of it), and a
-/// third of what those of another do; both added, by Student's t, held 99.5 % of the truths.
+/// third of what those of another do; both added, by Student's t, held 99 % of the truths.
 pub(super) fn half_width(spread: &Spread, i: usize, value: f64) -> f64 {
     let by_noise = NINETY_FIVE_PERCENT * spread.covariance[(i, i)].sqrt();
     let by_tests = student::ninety_five_percent(spread.told_by[i]) * spread.scatter[(i, i)].sqrt();

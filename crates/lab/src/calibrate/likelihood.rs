@@ -78,10 +78,11 @@ pub struct ByLikelihood {
     pub followed: bool,
     /// Values, in the order of `parameters`.
     pub values: Vec<f64>,
-    /// 95 % intervals from the curvature and from how far single tests pull; all of its bounds for a number without a trace.
+    /// 95 % intervals from the curvature, or from how far single tests pull where that says more; all of its bounds for a number without
+    /// a trace.
     pub interval_95: Vec<[f64; 2]>,
     /// How many windows tell each number; null where what was known before tells it alone. Of few, one that errs is not
-    /// found out: the fewer, the wider an interval is.
+    /// found out: the fewer, the more their pulls count.
     #[serde(default)]
     pub told_by: Vec<Option<f64>>,
     /// Correlations; null where a number leaves no trace.
