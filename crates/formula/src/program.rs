@@ -109,6 +109,23 @@ impl Program {
         self.rates[index].tape.run(moving(state, rates), branches).rate
     }
 
+    /// How fast a carried state changes, and how fast that does where the variables change at these rates.
+    pub fn state_rate_and_its_rate(
+        &self,
+        index: usize,
+        state: State,
+        rates: State,
+        branches: &Branches,
+    ) -> [f64; 2] {
+        let Moving { value, rate } = self.rates[index].tape.run(moving(state, rates), branches);
+        [value, rate]
+    }
+
+    /// Whether the carried states of another change as its own.
+    pub fn changes_as(&self, other: &Self) -> bool {
+        self.rates == other.rates
+    }
+
     /// Its switches; [`Branches`] counts them in this order. An argument depends on switches before it only.
     pub fn switches(&self) -> &[Switch] {
         &self.switches

@@ -43,7 +43,7 @@ use mrbd_kernel::model::Pair;
 use shared::{as_fitted, keeps_what_was_fitted, shared_windows};
 use trials::{
     Data, FirstFits, FittedHypothesis, Trials, Unfinished, WallFits, gain_misread, has_gain, misses_windows,
-    opened_as_given, opened_enough, opened_windows, reads_better, set_gain, typical_error,
+    opened_as_given, opened_enough, opened_windows, reads_better, reads_far_better, set_gain, typical_error,
 };
 pub use verdict::Verdict;
 use verdict::{Found, beside_beds, judge, judge_laws, judge_laws_beyond, leaves_noise, on_beds};
@@ -96,7 +96,7 @@ impl<P: Progress> Flow<'_, P> {
             return Ok(answer);
         }
         let mut first_fits = self.trials(&windows).first_fits(wall);
-        if let Some(before) = first_fits.singles.first().and_then(|best| self.read_again(best)) {
+        if let Some((before, _)) = first_fits.singles.first().and_then(|best| self.read_again(best)) {
             // No window to fit, or effects that follow no better: the reading before stands.
             let better = |anew: &FirstFits| reads_better(&first_fits.singles, &anew.singles);
             let anew = self.try_first_fits().ok().filter(|(_, fits)| better(fits));
@@ -120,12 +120,13 @@ impl<P: Progress> Flow<'_, P> {
     }
 
     /// The answer, and its windows, with patterns read without the gain of a sensor that stands beside another effect in the best pair,
-    /// where nothing is told without that. `None` where nothing is told so either, or nothing with a gain in it: the reading before
-    /// stands.
+    /// where nothing is told without that and the pair follows what is read so far better. `None` where it does not, nothing is told so
+    /// either, or nothing with a gain in it: the reading before stands.
     fn with_gain_beside(&mut self, (_, found): &Answered) -> Option<Answered> {
         let best = found.tried.first().filter(|best| best.hypothesis.additions.len() > 1)?;
-        let before = if found.verdict.is_left_open() { self.read_again(best)? } else { return None };
-        let anew = self.try_first_fits().and_then(|(windows, fits)| self.judged(windows, fits)).ok();
+        let (before, pair) = if found.verdict.is_left_open() { self.read_again(best)? } else { return None };
+        let try_anew = || self.try_first_fits().and_then(|(windows, fits)| self.judged(windows, fits)).ok();
+        let anew = if reads_far_better(best, &pair) { try_anew() } else { None };
         let told = anew.filter(|(_, anew)| !anew.verdict.is_left_open() && has_gain(&anew.after));
         if told.is_none() {
             set_gain(&mut self.tests, before);
@@ -199,9 +200,9 @@ impl<P: Progress> Flow<'_, P> {
     }
 
     /// Reads the tests without the gain of a sensor, where the best effect is one or has one beside it, and again without what is left
-    /// of it once it is fitted to the windows that this makes; the gain that they were read with before, where they are read anew. A
-    /// gain that leaves no window to fit is none of a sensor: another effect looks like it.
-    fn read_again(&mut self, best: &FittedHypothesis) -> Option<Pair> {
+    /// of it once it is fitted to the windows that this makes; the gain that they were read with before and the effect in the last of
+    /// these, where they are read anew. A gain that leaves no window to fit is none of a sensor: another effect looks like it.
+    fn read_again(&mut self, best: &FittedHypothesis) -> Option<(Pair, FittedHypothesis)> {
         let mut best = best.clone();
         let mut before = None;
         for _ in 0..READ_AGAIN {
@@ -219,7 +220,7 @@ impl<P: Progress> Flow<'_, P> {
             let Some(next) = fitted.into_iter().next() else { break };
             best = next;
         }
-        before
+        before.map(|before| (before, best))
     }
 
     /// The windows with both bodies free where a wall on beds follows them so, if it nearly follows the tests and these are enough. What
@@ -306,9 +307,10 @@ mod tests {
         };
         // Noise a hundred times as large, once it is taken out, hides every pattern.
         let [hides_all, small] = [0.01, 1.02].map(first_fits);
-        assert_eq!(flow.read_again(&hides_all.singles[0]), None);
+        assert!(flow.read_again(&hides_all.singles[0]).is_none());
         assert!(flow.tests.iter().all(|test| test.read_gain == [1.0; 2]), "as they were read");
-        assert_eq!(flow.read_again(&small.singles[0]), Some([1.0; 2]), "read anew");
+        let anew = flow.read_again(&small.singles[0]).map(|(before, _)| before);
+        assert_eq!(anew, Some([1.0; 2]), "read anew");
     }
 
     #[test]

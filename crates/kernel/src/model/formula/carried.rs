@@ -145,6 +145,17 @@ impl FormulaLaws {
         self.laws.iter().any(|law| law.states() > 0)
     }
 
+    /// Whether the states of others start as these, change as fast and are as bounded.
+    fn carry_as(&self, other: &Self) -> bool {
+        let of = |laws: &Self| laws.laws.iter().filter(|law| law.states() > 0).count();
+        let [own, others] = [self, other].map(|laws| laws.laws.iter().filter(|law| law.states() > 0));
+        let start = |law: &FormulaLaw| (law.carried.now, law.carried.range);
+        let is_same = |(one, two): (&FormulaLaw, &FormulaLaw)| {
+            one.program.changes_as(&two.program) && start(one) == start(two)
+        };
+        of(self) == of(other) && own.zip(others).all(is_same)
+    }
+
     /// Every state, by its law and its number there.
     fn each(&self) -> impl Iterator<Item = (&FormulaLaw, usize)> {
         self.laws.iter().flat_map(|law| (0..law.states()).map(move |i| (law, i)))
@@ -243,19 +254,27 @@ impl FormulaLaw {
             let share = (f64::from(part) + 0.5) / f64::from(TopMove::PARTS);
             let x = top.from_m + share * (top.to_m - top.from_m);
             let state = [x, v, top.largest_m.max(x.abs()), states[0], states[1]];
-            let rates = self.program.state_rates(state, &Branches::FREE);
             for i in 0..self.states() {
                 let mut by = [0.0; 5];
                 by[3 + i] = 1.0;
-                let slope = h * self.program.rate_of_state_rate(i, state, by, &Branches::FREE);
-                // (e^s - 1)/s, which is 1 where nothing decays.
-                let lasts =
-                    if slope.is_finite() && slope.abs() > 1e-9 { libm::expm1(slope) / slope } else { 1.0 };
+                let [rate, slope] = self.program.state_rate_and_its_rate(i, state, by, &Branches::FREE);
                 let [least, most] = self.carried.range[i];
-                states[i] = (states[i] + h * rates[i] * lasts).clamp(least, most);
+                states[i] = (states[i] + h * rate * lasting(h * slope)).clamp(least, most);
             }
         }
         states
+    }
+}
+
+/// (e^s - 1)/s, by its series where that is as accurate; 1 where nothing decays.
+fn lasting(s: f64) -> f64 {
+    // The next term is below 2e-16.
+    if s.abs() < 0.01 {
+        1.0 + s / 2.0 * (1.0 + s / 3.0 * (1.0 + s / 4.0 * (1.0 + s / 5.0 * (1.0 + s / 6.0))))
+    } else if s.is_finite() {
+        libm::expm1(s) / s
+    } else {
+        1.0
     }
 }
 
@@ -315,6 +334,11 @@ impl RockingWall {
         let mut carried = [0.0; MOST_CARRIED];
         carried.iter_mut().zip(start).for_each(|(own, start)| *own = start);
         carried
+    }
+
+    /// Whether the formulas of another wall carry the same states along the same displacement of the top, from their start on.
+    pub fn carries_as(&self, other: &Self) -> bool {
+        self.formulas.carry_as(&other.formulas)
     }
 
     /// The carried states after a displacement of the top, such as a measured one between two samples; `before` it they are these.

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 const OPENINGS: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, 2.0], [2.0, 1.0], [2.0, 2.0]];
 /// Exponents from which that of a name is looked for: near impacts that the noise decides a fit from that of the name may
 /// stay in its valley.
-const EXPONENTS: [f64; 4] = [0.5, 1.5, 2.0, 4.0];
+pub(super) const EXPONENTS: [f64; 4] = [0.5, 1.5, 2.0, 4.0];
 
 /// Steps of an exponent about that of a law, from which it is fitted again.
 const ABOUT: [f64; 4] = [-0.5, -0.25, 0.25, 0.5];
@@ -54,8 +54,9 @@ impl<P: Progress> Trials<'_, P> {
         let one = one.or_else(|| self.one_for_friction_and_damper(named, &points));
         // A damper with its exponent free may do better than a name in the place of a spring, and the spring better still.
         let other = powers.iter().find_map(|power| self.other_at_brief_joint(named, power, &points));
+        let elsewhere = powers.iter().find_map(|power| self.spring_of_ground(named, power, &points));
         let nats = |kin: &Kin| against(&self.data, &kin.fitted);
-        one.into_iter().chain(other).min_by(|a, b| nats(a).total_cmp(&nats(b)))
+        one.into_iter().chain(other).chain(elsewhere).min_by(|a, b| nats(a).total_cmp(&nats(b)))
     }
 
     /// The laws that do better than one effect of a name, if its exponent set free does.

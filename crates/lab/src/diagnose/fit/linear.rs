@@ -186,7 +186,7 @@ impl Problem<'_> {
         sides: Sides,
     ) -> Option<Vec<Linear>> {
         let replay = self.replay(&h.physics(&fit.values)?);
-        let neighbours = |(i, change): (usize, &f64)| self.sides(h, fit, i, *change);
+        let neighbours = |(i, change): (usize, &f64)| both_sides(h, fit, &replay, (i, *change));
         let neighbours = changes.iter().enumerate().map(neighbours).collect::<Option<Vec<_>>>()?;
         let linear = |these: &[(InState, Option<DMatrix<f64>>)]| {
             let (states, chords): (Vec<_>, Vec<_>) =
@@ -209,26 +209,36 @@ impl Problem<'_> {
         };
         Some(in_chunks(these, linear))
     }
+}
 
-    /// The wall to either side of a value; at a bound, by the whole and by half of the change.
-    fn sides(&self, h: &Hypothesis, fit: &Fit, i: usize, change: f64) -> Option<[Neighbour<'_>; 2]> {
-        let Unknown { lower, upper, .. } = h.unknowns[i];
-        let inside = |by: &f64| (lower..=upper).contains(&(fit.values[i] + by));
-        let at = |by: f64| Some(by).filter(inside).and_then(|by| self.neighbour(h, fit, i, by));
-        match (at(change), at(-change)) {
-            (Some(after), Some(before)) => Some([after, before]),
-            (Some(far), None) => Some([far, self.neighbour(h, fit, i, 0.5 * change)?]),
-            (None, Some(far)) => Some([far, self.neighbour(h, fit, i, -0.5 * change)?]),
-            (None, None) => None,
-        }
+/// The wall to either side of a value; at a bound, by the whole and by half of the change.
+fn both_sides<'t>(
+    h: &Hypothesis,
+    fit: &Fit,
+    replay: &Replay<'t>,
+    (i, change): (usize, f64),
+) -> Option<[Neighbour<'t>; 2]> {
+    let Unknown { lower, upper, .. } = h.unknowns[i];
+    let inside = |by: &f64| (lower..=upper).contains(&(fit.values[i] + by));
+    let at = |by: f64| Some(by).filter(inside).and_then(|by| neighbour(h, fit, replay, (i, by)));
+    match (at(change), at(-change)) {
+        (Some(after), Some(before)) => Some([after, before]),
+        (Some(far), None) => Some([far, neighbour(h, fit, replay, (i, 0.5 * change))?]),
+        (None, Some(far)) => Some([far, neighbour(h, fit, replay, (i, -0.5 * change))?]),
+        (None, None) => None,
     }
+}
 
-    fn neighbour(&self, h: &Hypothesis, fit: &Fit, i: usize, change: f64) -> Option<Neighbour<'_>> {
-        let mut values = fit.values.clone();
-        values[i] += change;
-        let replay = self.replay(&h.physics(&values)?);
-        Some(Neighbour { replay, change, coefficient: h.coefficient_of(i) })
-    }
+fn neighbour<'t>(
+    h: &Hypothesis,
+    fit: &Fit,
+    replay: &Replay<'t>,
+    (i, change): (usize, f64),
+) -> Option<Neighbour<'t>> {
+    let mut values = fit.values.clone();
+    values[i] += change;
+    let replay = replay.near(&h.physics(&values)?);
+    Some(Neighbour { replay, change, coefficient: h.coefficient_of(i) })
 }
 
 /// Whether the slopes to either side of a value are of no straight line, in a window that changes much with it.

@@ -21,6 +21,7 @@ mod linear;
 mod linearised;
 mod loss;
 mod replay;
+mod top_past;
 mod window_fit;
 
 use super::hypothesis::{Hypothesis, Physics};
@@ -32,7 +33,8 @@ pub use linear::WindowSlopes;
 use linearised::Linearised;
 pub use loss::{Loss, more_poor_held_out_sd, nats, poor_share, windowed_error};
 use nalgebra::DMatrix;
-pub use replay::{Replay, TopPast, largest_so_far_m, shaken, top_path};
+pub use replay::{Replay, shaken};
+pub use top_past::{TopPast, largest_so_far_m, top_path};
 use window_fit::{
     At, InState, LITTLE, fit_windows_by, in_chunks, other_valleys, owned, state_jacobians, step_of,
     take_steps,

@@ -44,7 +44,7 @@ pub use fitted_hypothesis::{
 pub use friction::{FRICTION, giving_friction, kind_of};
 pub(super) use imitation::taken_by;
 pub use joint_laws::crushes;
-pub use patterns::{gain_misread, has_gain, reads_better, set_gain};
+pub use patterns::{gain_misread, has_gain, reads_better, reads_far_better, set_gain};
 pub use patterns::{opened_as_given, opened_enough, opened_under, opened_windows};
 pub use refinement::follow_few;
 #[cfg(test)]

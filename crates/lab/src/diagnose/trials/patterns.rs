@@ -12,7 +12,7 @@ use crate::diagnose::experiment::Experiment;
 use crate::diagnose::fit::{Fit, Problem, Replay, WindowFit, fit_windows, nats};
 use crate::diagnose::hypothesis::{Hypothesis, Physics};
 use crate::experiment::{Freedom, TestData, Window};
-use crate::limits::{GAINED_BY_OPENING, GAINED_ON_BEDS, READS_CLOSED, WORTH_OPENING};
+use crate::limits::{GAINED_BY_OPENING, GAINED_ON_BEDS, READ_ANEW_LEAVES, READS_CLOSED, WORTH_OPENING};
 use mrbd_kernel::model::{EffectKind, Pair};
 use rayon::prelude::*;
 
@@ -38,6 +38,11 @@ pub fn set_gain(tests: &mut [TestData], gain: Pair) -> Pair {
 pub fn reads_better(before: &[FittedHypothesis], after: &[FittedHypothesis]) -> bool {
     let [Some(before), Some(after)] = [before, after].map(<[FittedHypothesis]>::first) else { return false };
     has_gain(after) && left(after) < left(before)
+}
+
+/// Whether a hypothesis leaves far less of windows that are read anew than of those before.
+pub fn reads_far_better(before: &FittedHypothesis, anew: &FittedHypothesis) -> bool {
+    left(anew) < READ_ANEW_LEAVES * left(before)
 }
 
 /// Whether a sensor reads with a gain.
