@@ -107,10 +107,9 @@ mod tests {
     use super::super::asked::Scope;
     use super::super::twin::{DRAG, DRAG_N, OPENING, Twin, drag, open_gap, wall_with};
     use super::*;
-    use crate::diagnose::formula::Shape;
-    use crate::diagnose::hypothesis::Addition;
-    use crate::diagnose::trials::{against, refit};
+    use crate::diagnose::trials::{refit, try_hypothesis};
     use crate::limits::COARSE_WINDOWS;
+    use mrbd_kernel::model::EffectKind;
 
     #[test]
     fn analytic_a_law_of_the_top_that_is_fitted_at_the_ground_alone_is_found_at_the_top() {
@@ -160,5 +159,29 @@ mod tests {
         assert!(start(&law).is_some() && start(&there).is_some());
         let spring = Atom { shape: Shape::Spring, numbers: [3.0, 0.0], ..there.first };
         assert!(start(&Law::of(spring)).is_none());
+    }
+
+    /// What is told instead of a cubic spring of the top, fitted to the windows of a wall with effects.
+    fn instead_of_cubic(effects: &str) -> Option<Law> {
+        let twin = Twin::new(&wall_with(effects), 1e-5);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows").before;
+        let cubic = EffectKind::CubicStiffness.variant(None).expect("a kind without variants");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(cubic)]);
+        let named = try_hypothesis(&trials.data, h, &wall).expect("a wall");
+        trials.kin_of_wrong_name(&named).map(|kin| kin.laws[0])
+    }
+
+    #[test]
+    fn analytic_a_spring_of_the_ground_is_no_cubic_one_of_the_top() {
+        let of_ground = "[[effects]]\nkind = \"formula\"\nplace = \"ground\"\n\
+                         moment_n_m = \"-k*sign(phi)*abs(phi)**2.45\"\n[effects.parameters]\n\
+                         k = { value = 4e7, unit = \"N*m\" }\n";
+        let law = instead_of_cubic(of_ground).expect("a law");
+        assert_eq!((law.first.site, law.first.shape), (Site::Ground, Shape::Spring), "{law:?}");
+        // By its own interval some 0.01.
+        assert!((law.first.numbers[0] - 2.45).abs() < 0.05, "{law:?}");
+        let cubic = "[[effects]]\nkind = \"cubic_stiffness\"\ncoefficient_n_per_m3 = 2e6\n";
+        assert_eq!(instead_of_cubic(cubic), None, "it is one");
     }
 }

@@ -35,28 +35,24 @@ pub struct Kin {
 
 impl<P: Progress> Trials<'_, P> {
     /// Laws beside a name of which an effect is clearly a wrong case: its exponent set free, in the windows, gains what a
-    /// name must and makes another force, and the tests held out are followed no worse; or one in the place of two effects, or
-    /// of another shape at a joint that opens briefly. `None` where the name stands.
+    /// name must and makes another force, and the tests held out are followed no worse; or one in the place of two effects, of
+    /// another shape at a joint that opens briefly, or at the ground. `None` where the name stands.
     pub fn kin_of_wrong_name(&self, named: &FittedHypothesis) -> Option<Kin> {
-        let powers = (0..named.hypothesis.additions.len()).filter_map(|index| power(named, index));
-        let powers = powers.collect::<Vec<_>>();
+        let all = 0..named.hypothesis.additions.len();
+        let powers = all.filter_map(|index| power(named, index)).collect::<Vec<_>>();
         if powers.is_empty() {
             return None;
         }
         let points = self.points(named)?;
         self.progress.begin("the name with its exponent free", powers.len());
-        let kin = |power: &Power| {
-            let freed = self.freed(named, power, &points);
-            self.progress.advance(1);
-            freed
-        };
-        let one = powers.iter().find_map(kin);
+        let freed = powers.iter().map(|power| self.freed(named, power, &points));
+        let one = freed.inspect(|_| self.progress.advance(1)).find_map(|kin| kin);
         let one = one.or_else(|| self.one_for_friction_and_damper(named, &points));
         // A damper with its exponent free may do better than a name in the place of a spring, and the spring better still.
         let other = powers.iter().find_map(|power| self.other_at_brief_joint(named, power, &points));
-        let elsewhere = powers.iter().find_map(|power| self.spring_of_ground(named, power, &points));
+        let of_ground = powers.iter().find_map(|power| self.spring_of_ground(named, power, &points));
         let nats = |kin: &Kin| against(&self.data, &kin.fitted);
-        one.into_iter().chain(other).chain(elsewhere).min_by(|a, b| nats(a).total_cmp(&nats(b)))
+        [one, other, of_ground].into_iter().flatten().min_by(|a, b| nats(a).total_cmp(&nats(b)))
     }
 
     /// The laws that do better than one effect of a name, if its exponent set free does.

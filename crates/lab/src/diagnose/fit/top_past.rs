@@ -217,4 +217,34 @@ mod tests {
         let none = memory.memory(60, &RockingWall::new(&swaying().1.wall), Contact::REST, [0.01; 2]);
         assert_eq!(none, TopMemory::default());
     }
+
+    #[test]
+    fn analytic_carried_states_are_shared_by_walls_whose_numbers_do_not_act_on_them() {
+        let text = include_str!("../../../../../src/cli/starter/wall.toml");
+        let (test, _) = swaying();
+        let physics = |k: f64, d_m: f64, mass_kg: f64| {
+            let law = format!(
+                "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"-k*z\"\n[effects.states.z]\n\
+                 rate = \"v/d*(1-abs(z)**2*(1+sign(v*z))/2)\"\nstart = 0.0\nunit = \"1\"\n\
+                 [effects.parameters]\nk = {{ value = {k}, unit = \"N\" }}\nd = {{ value = {d_m}, unit = \"m\" }}\n"
+            );
+            let wall = parse_wall(Path::new("wall.toml"), &format!("{text}\n{law}")).expect("a wall");
+            let mut parameters = wall.parameters().clone();
+            parameters.mass_kg = mass_kg;
+            let wall = mrbd_kernel::model::Wall::new(parameters).expect("a wall");
+            Physics { wall, reversed_ratio: 0.0 }
+        };
+        let own = TopPast::new(&test, &physics(300.0, 2e-3, 5000.0));
+        let along = |past: &TopPast| past.carried.clone().expect("a state");
+        for (other, shared) in [
+            (physics(300.0, 2e-3, 5000.0), true),
+            (physics(350.0, 2e-3, 5200.0), true),
+            (physics(300.0, 2.1e-3, 5000.0), false),
+        ] {
+            let [near, alone] =
+                [own.near(&test, &other), TopPast::new(&test, &other)].map(|past| along(&past));
+            assert_eq!(near.states, alone.states);
+            assert_eq!(Arc::ptr_eq(&near, &along(&own)), shared);
+        }
+    }
 }
