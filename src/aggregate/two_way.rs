@@ -18,6 +18,12 @@ use super::resampled::Interval;
 /// to wait longer for intervals than for themselves.
 const MOST_LOOKS: usize = 10_000_000;
 
+/// Draws that go through the runs together, in vector lanes.
+const TOGETHER: usize = 8;
+
+/// A count in each of these draws. All of a draw are fewer than its runs, which no memory holds more of.
+type Counts = [u32; TOGETHER];
+
 /// Of a million runs fewer draws are made, but never fewer than these: the quantile at 5 % is then the tenth of them.
 const FEWEST_DRAWS: u64 = 200;
 
@@ -42,16 +48,24 @@ pub(super) fn intervals(mut quantities: Vec<Vec<Drawn>>, records: usize) -> Vec<
     }
     let most = quantities.iter().map(Vec::len).max().unwrap_or(0);
     let draws = ((MOST_LOOKS / most) as u64).clamp(FEWEST_DRAWS, DRAWS);
-    let draw = |up_to: &mut Vec<u64>, number: u64| -> Vec<Option<[Option<f64>; 7]>> {
-        let mut rng = rng_of(number);
-        let of_records = counts(records, &mut rng);
-        let of_facades = counts(facades, &mut rng);
-        let weight = |run: &Drawn| of_records[run.record as usize] * of_facades[run.facade as usize];
-        quantities.iter().map(|runs| weighted(runs, weight, up_to)).collect()
+    let draw = |up_to: &mut Vec<Counts>, first: u64| {
+        let mut rngs: [ChaCha8Rng; TOGETHER] = std::array::from_fn(|i| rng_of(first + i as u64));
+        let of_records = counts_together(records, &mut rngs);
+        let of_facades = counts_together(facades, &mut rngs);
+        // Whatever the compiler does not unroll here it does not do in lanes either.
+        let weigh = |run: &Drawn, all: &mut Counts| {
+            let (record, facade) = (&of_records[run.record as usize], &of_facades[run.facade as usize]);
+            for i in 0..TOGETHER {
+                all[i] += record[i] * facade[i];
+            }
+        };
+        quantities.iter().map(|runs| weighted(runs, weigh, up_to)).collect::<Vec<_>>()
     };
-    let drawn: Vec<_> = (0..draws).into_par_iter().map_init(Vec::new, draw).collect();
+    let firsts = (0..draws.div_ceil(TOGETHER as u64)).into_par_iter().map(|k| k * TOGETHER as u64);
+    let drawn: Vec<_> = firsts.map_init(Vec::new, draw).collect();
     let of = |quantity: usize| {
-        let at = |level: usize| drawn.iter().filter_map(move |all| Some(all[quantity]?[level]));
+        let all = drawn.iter().flat_map(|together| together[quantity]).take(draws as usize);
+        let at = |level: usize| all.clone().filter_map(move |one| Some(one?[level]));
         std::array::from_fn(|level| interval(at(level), by_size))
     };
     (0..quantities.len()).map(of).collect()
@@ -64,36 +78,49 @@ pub(super) fn counts(of: usize, rng: &mut ChaCha8Rng) -> Vec<u64> {
     counts
 }
 
-/// The quantiles of runs in increasing order, each as often as its weight says; `None` where all weigh nothing. `up_to` is room
-/// for how many they are up to each run.
+/// The same of draws that go together.
+fn counts_together(of: usize, rngs: &mut [ChaCha8Rng; TOGETHER]) -> Vec<Counts> {
+    let mut counts = vec![[0; TOGETHER]; of];
+    for (i, rng) in rngs.iter_mut().enumerate() {
+        (0..of).for_each(|_| counts[rng.random_range(0..of)][i] += 1);
+    }
+    counts
+}
+
+/// The quantiles of runs in increasing order, each as often as it is weighed into all before, in every draw; `None` where all weigh nothing.
+/// `up_to` is room for how many they are up to each run.
 ///
 /// They are those of [`super::quantiles`] of the runs repeated.
 fn weighted(
     runs: &[Drawn],
-    weight: impl Fn(&Drawn) -> u64,
-    up_to: &mut Vec<u64>,
-) -> Option<[Option<f64>; 7]> {
+    weigh: impl Fn(&Drawn, &mut Counts),
+    up_to: &mut Vec<Counts>,
+) -> [Option<[Option<f64>; 7]>; TOGETHER] {
     up_to.clear();
-    let mut all = 0;
+    let mut all = [0; TOGETHER];
     up_to.extend(runs.iter().map(|run| {
-        all += weight(run);
+        weigh(run, &mut all);
         all
     }));
-    let last = all.checked_sub(1)?;
-    let statistic = |rank: u64| {
-        let run = &runs[up_to.partition_point(|&up_to| up_to <= rank)];
+    std::array::from_fn(|draw| Some(levels(runs, up_to, draw, all[draw].checked_sub(1)?)))
+}
+
+/// The quantiles of one draw, the last of whose runs repeated has this rank.
+fn levels(runs: &[Drawn], up_to: &[Counts], draw: usize, last: u32) -> [Option<f64>; 7] {
+    let statistic = |rank: u32| {
+        let run = &runs[up_to.partition_point(|up_to| up_to[draw] <= rank)];
         Some(run.value).filter(|value| value.is_finite())
     };
-    Some(LEVELS.map(|level| {
-        let rank = level * last as f64;
-        let (lower, beyond) = (rank as u64, rank.fract());
+    LEVELS.map(|level| {
+        let rank = level * f64::from(last);
+        let (lower, beyond) = (rank as u32, rank.fract());
         // Without a share of it the next value need not be a number.
         if beyond == 0.0 {
             return statistic(lower);
         }
         let (a, b) = (statistic(lower)?, statistic(lower + 1)?);
         Some(a + beyond * (b - a))
-    }))
+    })
 }
 
 /// What is no number lies above all.
@@ -126,22 +153,25 @@ mod tests {
         for beyond in [0, 2, 5] {
             let runs: Vec<Drawn> =
                 runs(9, 1, |facade, _| (facade < 9 - beyond).then(|| f64::from(facade * facade)));
-            let weights = [2, 0, 1, 3, 0, 1, 2, 4, 1];
+            let weights: [u32; 9] = [2, 0, 1, 3, 0, 1, 2, 4, 1];
             let repeated = runs.iter().flat_map(|run| {
                 vec![Some(run.value).filter(|x| x.is_finite()); weights[run.facade as usize] as usize]
             });
             let repeated: Vec<Option<f64>> = repeated.collect();
             let standing: Vec<f64> = repeated.iter().flatten().copied().collect();
             let expected = quantiles(&standing, repeated.len() - standing.len());
-            let found =
-                weighted(&runs, |run| weights[run.facade as usize], &mut Vec::new()).expect("weights");
+            // The second draw of those that go together; the others weigh nothing.
+            let weigh = |run: &Drawn, all: &mut Counts| all[1] += weights[run.facade as usize];
+            let all = weighted(&runs, weigh, &mut Vec::new());
+            let found = all[1].expect("weights");
             for (found, expected) in found.iter().zip(expected) {
                 // A sum and a product of numbers up to 100 may round otherwise.
                 let near = found.zip(expected).is_some_and(|(a, b)| (a - b).abs() < 1e-12);
                 assert!(near || (found.is_none() && expected.is_none()), "{found:?} for {expected:?}");
             }
         }
-        assert_eq!(weighted(&runs(3, 1, |_, _| Some(1.0)), |_| 0, &mut Vec::new()), None);
+        let nothing = weighted(&runs(3, 1, |_, _| Some(1.0)), |_, _| (), &mut Vec::new());
+        assert_eq!(nothing, [None; TOGETHER]);
     }
 
     fn of_one(runs: Vec<Drawn>, records: usize) -> [Option<Interval>; 7] {
