@@ -9,7 +9,7 @@ use crate::diagnose::certainty::intervals;
 use crate::diagnose::force::Against;
 use crate::diagnose::formula::{Curve, Law, Part, Site, Written, WrittenState};
 use crate::diagnose::trials::FittedHypothesis;
-use crate::diagnose::verdict::Verdict;
+use crate::diagnose::verdict::{Found, Verdict};
 use crate::experiment::{Purpose, Window};
 use mrbd_formula::{CarriedState, Formula};
 
@@ -34,10 +34,16 @@ impl Findings<'_> {
         h.laws(values).iter().flat_map(of_law).collect()
     }
 
-    /// Of a class of formulas all but the first.
+    /// Of a class of formulas all but the first; of a class of effects those that are formulas.
     pub(super) fn equivalent_formulas(&self) -> Vec<Vec<FoundEffect>> {
-        let told = self.found.told_laws().into_iter().enumerate().skip(1);
-        told.map(|(index, tried)| self.formulas(index, tried)).collect()
+        let Found { verdict, tried, equivalent, .. } = &self.found;
+        let of_class = tried.iter().filter(|_| *verdict == Verdict::Class);
+        let is_told = |tried: &&FittedHypothesis| {
+            let laws = tried.hypothesis.laws(&tried.fit.values);
+            laws.iter().any(|law| equivalent.contains(&law.name()))
+        };
+        let told = self.found.told_laws().into_iter().skip(1).chain(of_class.filter(is_told));
+        told.enumerate().map(|(k, tried)| self.formulas(k + 1, tried)).collect()
     }
 
     /// The formula with other numbers, where those held out are followed only so.

@@ -111,7 +111,7 @@ mod tests {
         assert_eq!(Site::ALL.map(|site| points.opens_briefly(site)), [false, false, true]);
         let [[least, most], _] = points.range(Site::Crack);
         assert!(least < 0.0 && most > 0.0 && most.max(-least) < 1.1 * points.reach[Site::Crack as usize][0]);
-        trials.kin_of_wrong_name(&named).map(|kin| kin.laws[0])
+        trials.relatives(&named).better.map(|kin| kin.laws[0])
     }
 
     #[test]

@@ -40,14 +40,13 @@ impl<P: Progress> Trials<'_, P> {
         self.in_order([singles, others].concat())
     }
 
-    /// A spring of the ground in the place of one that is named at the top, if it gains over the name what a law must where the gap is closed
-    /// without it, and follows the tests held out no worse.
+    /// A spring of the ground in the place of one that is named at the top. `None` of another effect, and where nothing of either is excited.
     pub(super) fn spring_of_ground(
         &self,
         named: &FittedHypothesis,
         power: &Power,
         points: &Points,
-    ) -> Option<Kin> {
+    ) -> Option<FittedHypothesis> {
         let own = Law::of(power.atom(points.reach[power.site as usize]));
         let there = elsewhere(&own, points).filter(|_| own.first.shape == Shape::Spring)?;
         let of_exponent = |n: f64| Law::of(Atom { numbers: [n, 0.0], ..there.first });
@@ -62,11 +61,20 @@ impl<P: Progress> Trials<'_, P> {
             start
         };
         let starts = laws.par_iter().filter_map(look);
-        let fitted = self.fitted_beside(named, starts.min_by(|a, b| a.nats.total_cmp(&b.nats))?)?;
-        let law = *fitted.hypothesis.laws(&fitted.fit.values).first()?;
-        let gain = against(&self.data, named) - against(&self.data, &fitted);
-        let holds = gain > WORTH_A_LAW_IN_NOISE && self.does_clearly_better(named, &fitted);
-        holds.then(|| Kin { laws: vec![law], fitted })
+        self.fitted_beside(named, starts.min_by(|a, b| a.nats.total_cmp(&b.nats))?)
+    }
+
+    /// The same as what does better than the name, if it gains over that what a law must where the gap is closed without it, and follows the
+    /// tests held out no worse.
+    pub(super) fn better_of_ground(
+        &self,
+        named: &FittedHypothesis,
+        of_ground: FittedHypothesis,
+    ) -> Option<Kin> {
+        let law = *of_ground.hypothesis.laws(&of_ground.fit.values).first()?;
+        let gain = against(&self.data, named) - against(&self.data, &of_ground);
+        let holds = gain > WORTH_A_LAW_IN_NOISE && self.does_clearly_better(named, &of_ground);
+        holds.then(|| Kin { laws: vec![law], fitted: of_ground })
     }
 
     /// A law in the place of another, fitted coarsely to `few` windows where there are many; `None` where it comes nowhere near that one there.
@@ -169,7 +177,7 @@ mod tests {
         let cubic = EffectKind::CubicStiffness.variant(None).expect("a kind without variants");
         let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(cubic)]);
         let named = try_hypothesis(&trials.data, h, &wall).expect("a wall");
-        trials.kin_of_wrong_name(&named).map(|kin| kin.laws[0])
+        trials.relatives(&named).better.map(|kin| kin.laws[0])
     }
 
     #[test]

@@ -33,17 +33,24 @@ pub struct Kin {
     pub fitted: FittedHypothesis,
 }
 
+/// What laws do in the place of the effects of a name.
+#[derive(Debug, Default)]
+pub struct Relatives {
+    /// What does better: the name does not stand.
+    pub better: Option<Kin>,
+    /// The name with a spring of the ground in the place of one of the top, as it is fitted.
+    pub of_ground: Option<FittedHypothesis>,
+}
+
 impl<P: Progress> Trials<'_, P> {
     /// Laws beside a name of which an effect is clearly a wrong case: its exponent set free, in the windows, gains what a
     /// name must and makes another force, and the tests held out are followed no worse; or one in the place of two effects, of
-    /// another shape at a joint that opens briefly, or at the ground. `None` where the name stands.
-    pub fn kin_of_wrong_name(&self, named: &FittedHypothesis) -> Option<Kin> {
+    /// another shape at a joint that opens briefly, or at the ground.
+    pub fn relatives(&self, named: &FittedHypothesis) -> Relatives {
         let all = 0..named.hypothesis.additions.len();
         let powers = all.filter_map(|index| power(named, index)).collect::<Vec<_>>();
-        if powers.is_empty() {
-            return None;
-        }
-        let points = self.points(named)?;
+        let points = if powers.is_empty() { None } else { self.points(named) };
+        let Some(points) = points else { return Relatives::default() };
         self.progress.begin("the name with its exponent free", powers.len());
         let freed = powers.iter().map(|power| self.freed(named, power, &points));
         let one = freed.inspect(|_| self.progress.advance(1)).find_map(|kin| kin);
@@ -51,8 +58,10 @@ impl<P: Progress> Trials<'_, P> {
         // A damper with its exponent free may do better than a name in the place of a spring, and the spring better still.
         let other = powers.iter().find_map(|power| self.other_at_brief_joint(named, power, &points));
         let of_ground = powers.iter().find_map(|power| self.spring_of_ground(named, power, &points));
+        let there = of_ground.clone().and_then(|of_ground| self.better_of_ground(named, of_ground));
         let nats = |kin: &Kin| against(&self.data, &kin.fitted);
-        [one, other, of_ground].into_iter().flatten().min_by(|a, b| nats(a).total_cmp(&nats(b)))
+        let better = [one, other, there].into_iter().flatten().min_by(|a, b| nats(a).total_cmp(&nats(b)));
+        Relatives { better, of_ground }
     }
 
     /// The laws that do better than one effect of a name, if its exponent set free does.
@@ -325,7 +334,7 @@ mod tests {
     fn kin_of_cubic(effect: &str) -> Vec<Law> {
         let twin = Twin::new(&wall_with(effect), 1e-5);
         let trials = twin.trials();
-        trials.kin_of_wrong_name(&as_cubic(&trials)).map_or(Vec::new(), |kin| kin.laws)
+        trials.relatives(&as_cubic(&trials)).better.map_or(Vec::new(), |kin| kin.laws)
     }
 
     #[test]

@@ -51,7 +51,7 @@ pub use asked::{AskedOfLaws, OpenGap, Scope};
 pub use by_windows::Discovered;
 pub use equals::law_of;
 pub use freed::freed;
-pub use kin::{Kin, exponent_of, is_of_catalogue};
+pub use kin::{Kin, Relatives, exponent_of, is_of_catalogue};
 pub use points::Points;
 pub use refused::{Guard, Refused};
 pub use search::{Candidate, Searched, search};

@@ -13,7 +13,7 @@ use super::on_beds::{on_beds_instead, on_beds_last};
 use super::worth_naming::{could_show, place, worth_two};
 use super::{OtherLaw, Verdict};
 use crate::Progress;
-use crate::diagnose::discovery::Discovered;
+use crate::diagnose::discovery::{Discovered, Relatives};
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{
     FirstFits, FittedHypothesis, Trials, WallFits, against, best_answer, closes, does_something, follow_few,
@@ -255,8 +255,11 @@ impl<P: Progress> Gap<'_, P> {
             return self.placed_without(&answer.after, other_law, tried);
         }
         // What is left at impacts is none of a law's: no exponent is to take it up.
-        let kin = if answer.between_impacts { None } else { self.trials.kin_of_wrong_name(&answer.after) };
-        if let Some(kin) = kin {
+        let relatives = match answer.between_impacts {
+            true => Relatives::default(),
+            false => self.trials.relatives(&answer.after),
+        };
+        if let Some(kin) = relatives.better {
             return self.beyond_a_wrong_name(&answer.after, kin, other_law, tried);
         }
         let better = if answer.between_impacts { None } else { self.better_formula(&answer.after, &tried) };
@@ -265,7 +268,10 @@ impl<P: Progress> Gap<'_, P> {
                 let other_law = Some(other_law);
                 Found { discovered: Some(discovered), other_law, ..self.found(formula, tried) }
             }
-            None => Found { other_law: Some(other_law), ..self.found(answer, tried) },
+            None => {
+                let (answer, tried) = self.in_class_with(answer, relatives.of_ground, tried);
+                Found { other_law: Some(other_law), ..self.found(answer, tried) }
+            }
         }
     }
 

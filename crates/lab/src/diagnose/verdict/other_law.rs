@@ -2,15 +2,40 @@
 //!
 //! An effect has one size in small and in large motion; a law that it imitates has not.
 
-use super::names;
+use super::judge::{Answer, Gap};
+use super::{Verdict, names};
+use crate::Progress;
 use crate::diagnose::discovery::Guard;
 use crate::diagnose::fit::{Fit, Loss, Problem, WindowSlopes};
 use crate::diagnose::force::{curve_left, force_points};
+use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::trials::{Data, FittedHypothesis};
-use crate::limits::{BENT_FORCE, TREND_NATS, TREND_SHARE};
+use crate::diagnose::trials::{Data, FittedHypothesis, closes};
+use crate::limits::{BENT_FORCE, EQUIVALENT, TREND_NATS, TREND_SHARE};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
+
+impl<P: Progress> Gap<'_, P> {
+    /// A name, and all that was tried, in a class with a law outside the catalogue that closes the gap as well: a wall that swings as a whole
+    /// does not tell a spring of its top from one of its ground.
+    pub(super) fn in_class_with(
+        &self,
+        answer: Answer,
+        law: Option<FittedHypothesis>,
+        mut tried: Vec<FittedHypothesis>,
+    ) -> (Answer, Vec<FittedHypothesis>) {
+        let as_well =
+            |law: &FittedHypothesis| closes(law, self.error) && self.gain(law, &answer.after) < EQUIVALENT;
+        let Some(law) = law.filter(|law| as_well(law)) else { return (answer, tried) };
+        let mut equivalent = answer.equivalent;
+        if equivalent.is_empty() {
+            equivalent = names(&answer.after);
+        }
+        equivalent.extend(law.hypothesis.laws(&law.fit.values).iter().map(Law::name));
+        tried.push(law);
+        (Answer { verdict: Verdict::Class, equivalent, ..answer }, self.trials.ordered(tried))
+    }
+}
 
 /// What an added number would be, were it free to grow or shrink steadily with the largest rotation of a window.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -149,6 +174,38 @@ fn largest(trends: Vec<Trend>) -> Option<Trend> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::diagnose::discovery::twin::{Twin, wall_with};
+    use crate::diagnose::hypothesis::Addition;
+    use crate::diagnose::trials::{joint_error, try_hypothesis};
+    use mrbd_kernel::model::EffectKind;
+
+    /// What a cubic spring is in a class with, fitted to the windows of a wall that has one.
+    fn in_class_with_cubic(noise_rad: f64) -> (Verdict, Vec<String>, usize) {
+        let cubic = "[[effects]]\nkind = \"cubic_stiffness\"\ncoefficient_n_per_m3 = 2e6\n";
+        let twin = Twin::new(&wall_with(cubic), noise_rad);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows");
+        let cubic = EffectKind::CubicStiffness.variant(None).expect("a kind without variants");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(cubic)]);
+        let named = try_hypothesis(&trials.data, h, &wall.before).expect("a wall");
+        let relatives = trials.relatives(&named);
+        assert!(relatives.better.is_none(), "{:?}", relatives.better);
+        let error = joint_error(&wall.before).expect("windows");
+        let (answer, tried) = Gap::new(&trials, wall, error).in_class_with(
+            Answer::of(Verdict::Named, named),
+            relatives.of_ground,
+            Vec::new(),
+        );
+        (answer.verdict, answer.equivalent, tried.len())
+    }
+
+    #[test]
+    fn analytic_a_spring_of_the_top_is_in_a_class_with_one_of_the_ground_where_noise_hides_which_it_is() {
+        assert_eq!(in_class_with_cubic(1e-5), (Verdict::Named, Vec::new(), 0));
+        let (verdict, names, tried) = in_class_with_cubic(3e-4);
+        let expected = ["cubic_stiffness", "-k*sign(phi)*abs(phi)**n at ground"];
+        assert_eq!((verdict, names, tried), (Verdict::Class, expected.map(str::to_owned).to_vec(), 1));
+    }
 
     fn speaks(trends: &[(f64, f64)]) -> bool {
         let trends = trends.iter().map(|&(nats, share)| Trend { nats, share }).collect();
