@@ -88,15 +88,18 @@ fn name(tried: &FittedHypothesis) -> String {
     if names.is_empty() { "the wall's own numbers".into() } else { names.join(" + ") }
 }
 
-/// The best of what explains the tests as well; the wall's own numbers where no addition does.
+/// The best of what explains the tests as well, without the answer in it if there is such; the wall's own numbers where no addition does.
 fn nearest_rival<'f>(findings: &'f Findings) -> &'f FittedHypothesis {
     let (data, found) = (findings.data(), &findings.found);
     let limit = against(&data, &found.after) + EQUIVALENT;
     let other = |t: &&FittedHypothesis| {
         !t.hypothesis.additions.contains(&Addition::Placebo) && kinds(t) != kinds(&found.after)
     };
-    let rival = found.tried.iter().filter(other).find(|t| against(&data, t) < limit);
-    rival.unwrap_or(&found.recalibrated)
+    let rivals = || found.tried.iter().filter(other).filter(|t| against(&data, t) < limit);
+    let has_answer = |t: &FittedHypothesis| {
+        found.after.hypothesis.additions.iter().all(|own| t.hypothesis.additions.contains(own))
+    };
+    rivals().find(|t| !has_answer(t)).or_else(|| rivals().next()).unwrap_or(&found.recalibrated)
 }
 
 struct Pair<'a> {
