@@ -8,12 +8,16 @@ use super::fitted::Start;
 use super::kin::{Kin, Power};
 use super::points::Points;
 use crate::Progress;
-use crate::diagnose::formula::{Atom, Law, Shape};
+use crate::diagnose::formula::{Atom, Law, Shape, Site};
 use crate::diagnose::hypothesis::Addition;
-use crate::diagnose::trials::{FittedHypothesis, Trials};
-use crate::limits::BRIEF_LAWS;
+use crate::diagnose::trials::{FittedHypothesis, Trials, against};
+use crate::diagnose::verdict::leaves_noise;
+use crate::limits::{BRIEF_LAWS, WORTH_A_LAW_IN_NOISE};
+use mrbd_kernel::model::{EffectKind, G_M_S2};
 use rayon::prelude::*;
 
+/// Moment of the first law tried in the place of impacts, over what rights the wall: a few percent show there, and [`SIZES`] go about them.
+const OF_RIGHTING: f64 = 0.03;
 /// Sizes at which another law than a name's is tried, over the size of which its moments are as large.
 const SIZES: [f64; 3] = [0.3, 1.0, 3.0];
 
@@ -42,17 +46,37 @@ impl<P: Progress> Trials<'_, P> {
         if !points.opens_briefly(power.site) {
             return None;
         }
-        let own = Law::of(power.atom(points.reach[power.site as usize]));
-        let others = others_at(&own.first, points);
-        self.progress.begin("other laws of a joint that opens briefly", others.len());
+        let own = power.atom(points.reach[power.site as usize]);
+        self.best_in_place_of(named, power.index, &others_at(&own, points))
+    }
+
+    /// A law of the crack that opens briefly in the place of impacts that keep other shares, if these leave more than noise, and it gains over
+    /// them what a law must that shows in few windows: both act at impacts, and of the crack's moment no point has a row.
+    pub(super) fn crack_in_place_of_impacts(&self, named: &FittedHypothesis, points: &Points) -> Option<Kin> {
+        if !acts_at_impacts_alone(named) || !points.opens_briefly(Site::Crack) || leaves_noise(named) {
+            return None;
+        }
+        let p = self.experiment.wall.parameters();
+        let size = OF_RIGHTING * p.mass_kg * G_M_S2 * p.thickness_m / 2.0;
+        let reach = points.reach[Site::Crack as usize];
+        let damper =
+            Atom { site: Site::Crack, shape: Shape::Drag, numbers: [1.0, 0.0], size, reach, is_exact: false };
+        let laws = [vec![Law::of(damper)], others_at(&damper, points)].concat();
+        let gain = |kin: &Kin| against(&self.data, named) - against(&self.data, &kin.fitted);
+        self.best_in_place_of(named, 0, &laws).filter(|kin| gain(kin) > WORTH_A_LAW_IN_NOISE)
+    }
+
+    /// The best of laws in the place of an effect of a name, if it gains over that what a name must.
+    fn best_in_place_of(&self, named: &FittedHypothesis, index: usize, laws: &[Law]) -> Option<Kin> {
+        self.progress.begin("other laws of a joint that opens briefly", laws.len());
         let look = |law: &Law| {
             let mut additions = named.hypothesis.additions.clone();
-            additions[power.index] = Addition::Formula(*law);
-            let start = self.start_beside(named, &additions, (power.index, law), None);
+            additions[index] = Addition::Formula(*law);
+            let start = self.start_beside(named, &additions, (index, law), None);
             self.progress.advance(1);
             start
         };
-        let mut starts = others.par_iter().filter_map(look).collect::<Vec<Start>>();
+        let mut starts = laws.par_iter().filter_map(look).collect::<Vec<Start>>();
         starts.sort_by(|a, b| a.nats.total_cmp(&b.nats));
         starts.truncate(BRIEF_LAWS);
         let found = starts.into_par_iter().filter_map(|start| self.fitted_beside(named, start));
@@ -60,6 +84,12 @@ impl<P: Progress> Trials<'_, P> {
         let law = *fitted.hypothesis.laws(&fitted.fit.values).first()?;
         self.does_clearly_better(named, &fitted).then(|| Kin { laws: vec![law], fitted })
     }
+}
+
+/// Whether all that a name has is that impacts keep other shares.
+pub(super) fn acts_at_impacts_alone(named: &FittedHypothesis) -> bool {
+    let is_it = |addition: &Addition| addition.kind() == Some(EffectKind::ImpactDissipation);
+    matches!(&named.hypothesis.additions[..], [only] if is_it(only))
 }
 
 /// Laws of other shapes at a joint, with moments about as large over what was excited as those of an atom there.
@@ -87,9 +117,8 @@ fn others_at(own: &Atom, points: &Points) -> Vec<Law> {
 mod tests {
     use super::super::twin::{Twin, wall_with};
     use super::*;
-    use crate::diagnose::formula::Site;
+    use crate::diagnose::hypothesis::candidates;
     use crate::diagnose::trials::try_hypothesis;
-    use mrbd_kernel::model::EffectKind;
 
     /// A law of the crack, with its coefficient in its unit.
     fn of_crack(moment: &str, k: f64, unit: &str) -> String {
@@ -101,11 +130,22 @@ mod tests {
 
     /// What is told instead of a damper of the crack, fitted to the windows of a wall with effects.
     fn instead_of_damper(effects: &str) -> Option<Law> {
+        let damper = EffectKind::JointDamping.variant(Some("crack")).expect("a damper of the crack");
+        instead_of(Addition::Effect(damper), effects)
+    }
+
+    /// The same instead of impacts that keep other shares.
+    fn instead_of_impacts(effects: &str) -> Option<Law> {
+        let name = |addition: &Addition| addition.name() == "impact_dissipation";
+        let all = candidates(wall_with("").parameters());
+        instead_of(all.into_iter().find(name).expect("of the catalogue"), effects)
+    }
+
+    fn instead_of(name: Addition, effects: &str) -> Option<Law> {
         let twin = Twin::opening_briefly(&wall_with(effects), 3e-5);
         let trials = twin.trials();
         let wall = trials.wall_fits(None).expect("windows").before;
-        let damper = EffectKind::JointDamping.variant(Some("crack")).expect("a damper of the crack");
-        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(damper)]);
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[name]);
         let named = try_hypothesis(&trials.data, h, &wall).expect("a wall");
         let points = trials.points(&named).expect("points");
         assert_eq!(Site::ALL.map(|site| points.opens_briefly(site)), [false, false, true]);
@@ -130,5 +170,14 @@ mod tests {
         assert!((spring.first.numbers[0] - 1.0).abs() < 0.01, "{spring:?}");
         let stiffness = spring.first.size / spring.first.reach[0];
         assert!((stiffness / 2e4 - 1.0).abs() < 0.02, "{stiffness} N m");
+    }
+
+    #[test]
+    fn analytic_a_spring_at_a_joint_that_opens_briefly_is_none_of_impacts_that_keep_other_shares() {
+        let spring = instead_of_impacts(&of_crack("-k*phi", 2e4, "N*m")).expect("a law");
+        assert_eq!((spring.first.site, spring.first.shape), (Site::Crack, Shape::Spring));
+        assert!((spring.first.numbers[0] - 1.0).abs() < 0.01, "{spring:?}");
+        let impacts = "[[effects]]\nkind = \"impact_dissipation\"\nfactors = [0.9, 0.9, 0.9, 0.9, 0.9, 0.9, 0.9, 0.9]\n";
+        assert_eq!(instead_of_impacts(impacts), None, "they are");
     }
 }

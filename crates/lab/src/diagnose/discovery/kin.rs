@@ -33,39 +33,9 @@ pub struct Kin {
     pub fitted: FittedHypothesis,
 }
 
-/// What laws do in the place of the effects of a name.
-#[derive(Debug, Default)]
-pub struct Relatives {
-    /// What does better: the name does not stand.
-    pub better: Option<Kin>,
-    /// The name with a spring of the ground in the place of one of the top, as it is fitted.
-    pub of_ground: Option<FittedHypothesis>,
-}
-
 impl<P: Progress> Trials<'_, P> {
-    /// Laws beside a name of which an effect is clearly a wrong case: its exponent set free, in the windows, gains what a
-    /// name must and makes another force, and the tests held out are followed no worse; or one in the place of two effects, of
-    /// another shape at a joint that opens briefly, or at the ground.
-    pub fn relatives(&self, named: &FittedHypothesis) -> Relatives {
-        let all = 0..named.hypothesis.additions.len();
-        let powers = all.filter_map(|index| power(named, index)).collect::<Vec<_>>();
-        let points = if powers.is_empty() { None } else { self.points(named) };
-        let Some(points) = points else { return Relatives::default() };
-        self.progress.begin("the name with its exponent free", powers.len());
-        let freed = powers.iter().map(|power| self.freed(named, power, &points));
-        let one = freed.inspect(|_| self.progress.advance(1)).find_map(|kin| kin);
-        let one = one.or_else(|| self.one_for_friction_and_damper(named, &points));
-        // A damper with its exponent free may do better than a name in the place of a spring, and the spring better still.
-        let other = powers.iter().find_map(|power| self.other_at_brief_joint(named, power, &points));
-        let of_ground = powers.iter().find_map(|power| self.spring_of_ground(named, power, &points));
-        let there = of_ground.clone().and_then(|of_ground| self.better_of_ground(named, of_ground));
-        let nats = |kin: &Kin| against(&self.data, &kin.fitted);
-        let better = [one, other, there].into_iter().flatten().min_by(|a, b| nats(a).total_cmp(&nats(b)));
-        Relatives { better, of_ground }
-    }
-
     /// The laws that do better than one effect of a name, if its exponent set free does.
-    fn freed(&self, named: &FittedHypothesis, power: &Power, points: &Points) -> Option<Kin> {
+    pub(super) fn freed(&self, named: &FittedHypothesis, power: &Power, points: &Points) -> Option<Kin> {
         let law = Law::of(power.atom(points.reach[power.site as usize]));
         let equations = Equations::even(points);
         let of_name = exponents(law).filter_map(|other| Some((as_large(other, &law, points)?, None)));
@@ -264,7 +234,7 @@ pub fn exponent_of(named: &FittedHypothesis, index: usize) -> Option<f64> {
 
 /// What power an addition of a fitted hypothesis is; `None` for another effect. Friction is a power of velocity at its end:
 /// nothing lies beyond, and what nearly jumps is not fitted.
-fn power(named: &FittedHypothesis, index: usize) -> Option<Power> {
+pub(super) fn power(named: &FittedHypothesis, index: usize) -> Option<Power> {
     let h = &named.hypothesis;
     let addition = &h.additions[index];
     let Addition::Effect(variant) = addition else { return None };

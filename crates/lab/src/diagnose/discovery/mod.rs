@@ -16,6 +16,7 @@
 //! | `left_open` | numbers of a law that the tests fitted leave open, where those held out ask for others |
 //! | `brief` | joints that open too briefly for points |
 //! | `kin` | a name whose exponent, set free, does clearly better |
+//! | `relatives` | what laws do in the place of the effects of a name |
 //! | `kin_of_two` | a power of velocity that does clearly better than friction and a damper |
 //! | [`Guard`] | the same by name, with the laws that each refused |
 //! | [`freed`] | laws told with round exponents, with these set free |
@@ -42,6 +43,7 @@ mod kin_of_two;
 mod left_open;
 mod points;
 mod refused;
+mod relatives;
 mod search;
 mod stability;
 #[cfg(test)]
@@ -51,8 +53,9 @@ pub use asked::{AskedOfLaws, OpenGap, Scope};
 pub use by_windows::Discovered;
 pub use equals::law_of;
 pub use freed::freed;
-pub use kin::{Kin, Relatives, exponent_of, is_of_catalogue};
+pub use kin::{Kin, exponent_of, is_of_catalogue};
 pub use points::Points;
 pub use refused::{Guard, Refused};
+pub use relatives::Relatives;
 pub use search::{Candidate, Searched, search};
 pub use stability::{Stability, UnseenGain};
