@@ -186,11 +186,17 @@ impl Number for Moving {
     }
     fn pow(self, exponent: Self) -> Self {
         let value = power(self.value, exponent.value);
-        let by_base = self.through(value, exponent.value * power(self.value, exponent.value - 1.0));
-        // Zero to any power above zero stays zero.
-        let slope = if value == 0.0 { 0.0 } else { value * libm::log(self.value) };
-        let by_exponent = exponent.through(value, slope);
-        Self { value, rate: by_base.rate + by_exponent.rate }
+        // A slope takes as long as the value: none where nothing changes.
+        let by_base = match self.rate {
+            0.0 => 0.0,
+            rate => exponent.value * power(self.value, exponent.value - 1.0) * rate,
+        };
+        let by_exponent = match exponent.rate {
+            0.0 => 0.0,
+            // Zero to any power above zero stays zero.
+            rate => (if value == 0.0 { 0.0 } else { value * libm::log(self.value) }) * rate,
+        };
+        Self { value, rate: by_base + by_exponent }
     }
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();

@@ -77,10 +77,7 @@ fn share_of(
             let at = |k: usize| {
                 let share = k as f64 / 5.0;
                 let place = [displacement.value(share), rates.value(share), 0.0];
-                match carried {
-                    Some(carried) => turn.argument_with(place, turn.own_states(&carried.at(share))).0,
-                    None => turn.argument(place).0,
-                }
+                turn.argument_with(place, carried.map_or(turn.states(), |c| turn.own_states(&c.at(share))))
             };
             let rounding = turn.rounding(from, errors).max(turn.rounding(to, errors));
             end_of(through(std::array::from_fn(at)).times(side), GATHERED * rounding)

@@ -100,16 +100,26 @@ impl Turn<'_> {
 
     /// The argument, and its rate.
     pub fn argument(&self, place: Place) -> (f64, f64) {
-        self.argument_with(place, self.law.carried.now)
+        self.argument_and_rate_with(place, self.law.carried.now)
     }
 
-    /// The same with other carried states of its law.
-    pub fn argument_with(&self, [q, rate, second]: Place, states: [f64; MOST_STATES]) -> (f64, f64) {
+    /// The argument alone, with other carried states of its law: how fast these change is not asked.
+    pub fn argument_with(&self, [q, rate, _]: Place, states: [f64; MOST_STATES]) -> f64 {
+        let state = self.law.state_with(q, rate, states);
+        self.switch.argument_and_rate(state, [0.0; 3 + MOST_STATES], &self.law.branches).0
+    }
+
+    fn argument_and_rate_with(&self, [q, rate, second]: Place, states: [f64; MOST_STATES]) -> (f64, f64) {
         let state = self.law.state_with(q, rate, states);
         let [z_1, z_2] =
             if self.law.states() == 0 { [0.0; 2] } else { self.law.state_rates(q, rate, states) };
         let rates = [rate, second, self.law.third_rate(rate), z_1, z_2];
         self.switch.argument_and_rate(state, rates, &self.law.branches)
+    }
+
+    /// The carried states of its law now.
+    pub fn states(&self) -> [f64; MOST_STATES] {
+        self.law.carried.now
     }
 
     /// The carried states of its law among those of the wall.
