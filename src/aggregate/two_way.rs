@@ -21,7 +21,7 @@ const MOST_LOOKS: usize = 10_000_000;
 /// Draws that go through the runs together, in vector lanes.
 const TOGETHER: usize = 8;
 
-/// A count in each of these draws. All of a draw are fewer than its runs, which no memory holds more of.
+/// A count in each of these draws. All of a draw are about as many as its runs, of which no memory holds four thousand million.
 type Counts = [u32; TOGETHER];
 
 /// Of a million runs fewer draws are made, but never fewer than these: the quantile at 5 % is then the tenth of them.
@@ -52,7 +52,7 @@ pub(super) fn intervals(mut quantities: Vec<Vec<Drawn>>, records: usize) -> Vec<
         let mut rngs: [ChaCha8Rng; TOGETHER] = std::array::from_fn(|i| rng_of(first + i as u64));
         let of_records = counts_together(records, &mut rngs);
         let of_facades = counts_together(facades, &mut rngs);
-        // Whatever the compiler does not unroll here it does not do in lanes either.
+        // A plain loop goes in vector lanes; an array made by a function of its index did not.
         let weigh = |run: &Drawn, all: &mut Counts| {
             let (record, facade) = (&of_records[run.record as usize], &of_facades[run.facade as usize]);
             for i in 0..TOGETHER {
@@ -80,14 +80,12 @@ pub(super) fn counts(of: usize, rng: &mut ChaCha8Rng) -> Vec<u64> {
 
 /// The same of draws that go together.
 fn counts_together(of: usize, rngs: &mut [ChaCha8Rng; TOGETHER]) -> Vec<Counts> {
-    let mut counts = vec![[0; TOGETHER]; of];
-    for (i, rng) in rngs.iter_mut().enumerate() {
-        (0..of).for_each(|_| counts[rng.random_range(0..of)][i] += 1);
-    }
-    counts
+    let each = rngs.each_mut().map(|rng| counts(of, rng));
+    (0..of).map(|k| each.each_ref().map(|counts| counts[k] as u32)).collect()
 }
 
-/// The quantiles of runs in increasing order, each as often as it is weighed into all before, in every draw; `None` where all weigh nothing.
+/// The quantiles of runs in increasing order, each as often as `weigh` adds it to what all are so far, in every draw; `None` where all weigh
+/// nothing.
 /// `up_to` is room for how many they are up to each run.
 ///
 /// They are those of [`super::quantiles`] of the runs repeated.

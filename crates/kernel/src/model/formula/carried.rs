@@ -147,13 +147,13 @@ impl FormulaLaws {
 
     /// Whether the states of others start as these, change as fast and are as bounded.
     fn carry_as(&self, other: &Self) -> bool {
-        let of = |laws: &Self| laws.laws.iter().filter(|law| law.states() > 0).count();
-        let [own, others] = [self, other].map(|laws| laws.laws.iter().filter(|law| law.states() > 0));
+        let [own, others] =
+            [self, other].map(|laws| laws.laws.iter().filter(|law| law.states() > 0).collect::<Vec<_>>());
         let start = |law: &FormulaLaw| (law.carried.now, law.carried.range);
-        let is_same = |(one, two): (&FormulaLaw, &FormulaLaw)| {
+        let is_same = |(one, two): (&&FormulaLaw, &&FormulaLaw)| {
             one.program.changes_as(&two.program) && start(one) == start(two)
         };
-        of(self) == of(other) && own.zip(others).all(is_same)
+        own.len() == others.len() && own.iter().zip(&others).all(is_same)
     }
 
     /// Every state, by its law and its number there.

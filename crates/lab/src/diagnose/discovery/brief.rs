@@ -70,9 +70,7 @@ impl<P: Progress> Trials<'_, P> {
     fn best_in_place_of(&self, named: &FittedHypothesis, index: usize, laws: &[Law]) -> Option<Kin> {
         self.progress.begin("other laws of a joint that opens briefly", laws.len());
         let look = |law: &Law| {
-            let mut additions = named.hypothesis.additions.clone();
-            additions[index] = Addition::Formula(*law);
-            let start = self.start_beside(named, &additions, (index, law), None);
+            let start = self.start_in_place_of(named, (index, law), None);
             self.progress.advance(1);
             start
         };

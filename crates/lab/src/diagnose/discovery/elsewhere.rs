@@ -13,7 +13,6 @@ use super::points::Points;
 use crate::Progress;
 use crate::diagnose::fit::nats;
 use crate::diagnose::formula::{Atom, Law, Shape, Site};
-use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{Few, FittedHypothesis, Trials, against, all_but_closes};
 use crate::limits::{NEAR_BEST, WORTH_A_LAW_IN_NOISE};
 use rayon::prelude::*;
@@ -54,9 +53,7 @@ impl<P: Progress> Trials<'_, P> {
         let laws = exponents.filter_map(|n| as_large(of_exponent(n), &there, points)).collect::<Vec<_>>();
         self.progress.begin("a spring at its other place", laws.len());
         let look = |law: &Law| {
-            let mut additions = named.hypothesis.additions.clone();
-            additions[power.index] = Addition::Formula(*law);
-            let start = self.start_beside(named, &additions, (power.index, law), None);
+            let start = self.start_in_place_of(named, (power.index, law), None);
             self.progress.advance(1);
             start
         };
@@ -69,12 +66,12 @@ impl<P: Progress> Trials<'_, P> {
     pub(super) fn better_of_ground(
         &self,
         named: &FittedHypothesis,
-        of_ground: FittedHypothesis,
+        of_ground: &FittedHypothesis,
     ) -> Option<Kin> {
         let law = *of_ground.hypothesis.laws(&of_ground.fit.values).first()?;
-        let gain = against(&self.data, named) - against(&self.data, &of_ground);
-        let holds = gain > WORTH_A_LAW_IN_NOISE && self.does_clearly_better(named, &of_ground);
-        holds.then(|| Kin { laws: vec![law], fitted: of_ground })
+        let gain = against(&self.data, named) - against(&self.data, of_ground);
+        let holds = gain > WORTH_A_LAW_IN_NOISE && self.does_clearly_better(named, of_ground);
+        holds.then(|| Kin { laws: vec![law], fitted: of_ground.clone() })
     }
 
     /// A law in the place of another, fitted coarsely to `few` windows where there are many; `None` where it comes nowhere near that one there.
@@ -115,6 +112,7 @@ mod tests {
     use super::super::asked::Scope;
     use super::super::twin::{DRAG, DRAG_N, OPENING, Twin, drag, open_gap, wall_with};
     use super::*;
+    use crate::diagnose::hypothesis::Addition;
     use crate::diagnose::trials::{refit, try_hypothesis};
     use crate::limits::COARSE_WINDOWS;
     use mrbd_kernel::model::EffectKind;

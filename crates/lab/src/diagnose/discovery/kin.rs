@@ -45,9 +45,7 @@ impl<P: Progress> Trials<'_, P> {
         });
         let all = of_name.chain(of_points).collect::<Vec<_>>();
         let look = |(start, steps): &(Law, Option<DVector<f64>>)| {
-            let mut additions = named.hypothesis.additions.clone();
-            additions[power.index] = Addition::Formula(*start);
-            self.start_beside(named, &additions, (power.index, start), steps.as_ref())
+            self.start_in_place_of(named, (power.index, start), steps.as_ref())
         };
         let found = all.par_iter().filter_map(|one| Some((one.0.first.numbers[0], look(one)?)));
         let found = found.collect::<Vec<_>>();
@@ -113,6 +111,18 @@ impl<P: Progress> Trials<'_, P> {
         let values = values_beside(&hypothesis, named, index, &law);
         let name = hypothesis.name();
         self.within_budget(&name, values.len(), |data| refit(data, hypothesis, named, &values))
+    }
+
+    /// A law in the place of one effect of a name, as [`Trials::start_beside`] has it.
+    pub(super) fn start_in_place_of(
+        &self,
+        named: &FittedHypothesis,
+        (index, law): (usize, &Law),
+        steps: Option<&DVector<f64>>,
+    ) -> Option<Start> {
+        let mut additions = named.hypothesis.additions.clone();
+        additions[index] = Addition::Formula(*law);
+        self.start_beside(named, &additions, (index, law), steps)
     }
 
     /// Additions in the place of those of a name, one of which is a law, with steps of the wall's numbers where points tell them, and how well

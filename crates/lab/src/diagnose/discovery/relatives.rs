@@ -32,7 +32,7 @@ impl<P: Progress> Trials<'_, P> {
         let other = powers.iter().find_map(|power| self.other_at_brief_joint(named, power, &points));
         let other = other.or_else(|| self.crack_in_place_of_impacts(named, &points));
         let of_ground = powers.iter().find_map(|power| self.spring_of_ground(named, power, &points));
-        let there = of_ground.clone().and_then(|of_ground| self.better_of_ground(named, of_ground));
+        let there = of_ground.as_ref().and_then(|of_ground| self.better_of_ground(named, of_ground));
         let nats = |kin: &Kin| against(&self.data, &kin.fitted);
         let better = [one, other, there].into_iter().flatten().min_by(|a, b| nats(a).total_cmp(&nats(b)));
         Relatives { better, of_ground }
