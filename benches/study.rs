@@ -30,6 +30,26 @@ fn shipped(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
+/// The Monte Carlo goes under records of which one of so many samples is kept, too. Few of its steps end at a sample there: what
+/// it takes then is what steps over several samples would not spare.
+const EVERY: usize = 4;
+
+/// The suite of the shipped records with these samples, whose peaks it does not state.
+fn thinned_suite(folder: &Path) -> PathBuf {
+    for entry in std::fs::read_dir(shipped("inputs/records/emilia7")).expect("the records") {
+        let path = entry.expect("an entry").path();
+        let text = std::fs::read_to_string(&path).expect("a text");
+        let is_record = path.extension().is_some_and(|extension| extension == "csv");
+        let kept = text.lines().enumerate().filter(|(i, line)| match is_record {
+            true => *i == 0 || (i - 1) % EVERY == 0,
+            false => !line.starts_with("pga_g") && !line.starts_with("pgv_m_s"),
+        });
+        let kept: Vec<&str> = kept.map(|(_, line)| line).collect();
+        std::fs::write(folder.join(path.file_name().expect("a name")), kept.join("\n")).expect("written");
+    }
+    folder.join("suite.toml")
+}
+
 /// A study in a folder of its own.
 struct Study {
     pipeline: Pipeline,
@@ -38,8 +58,13 @@ struct Study {
 
 impl Study {
     fn monte_carlo() -> Self {
+        Self::monte_carlo_under(&shipped("inputs/records/emilia7/suite.toml"))
+    }
+
+    fn monte_carlo_under(suite: &Path) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let text = std::fs::read_to_string(shipped("pipelines/monte_carlo.toml")).expect("the pipeline");
+        let text = text.replace("../inputs/records/emilia7/suite.toml", suite.to_str().expect("UTF-8"));
         let text = text.replace("../inputs", shipped("inputs").to_str().expect("UTF-8"));
         let path = folder.path().join("monte_carlo.toml");
         std::fs::write(&path, text.replace("count = 1024", &format!("count = {DRAWS}"))).expect("written");
@@ -104,6 +129,30 @@ fn arithmetic(wall: &RockingWall, evaluations: u64) -> State {
     state
 }
 
+/// Evaluations, steps and impacts of a run, in the mean.
+#[derive(Debug, Clone, Copy)]
+struct Counts {
+    evaluations: f64,
+    steps: f64,
+    impacts: f64,
+}
+
+/// Those of a study.
+fn counts(study: &Study) -> Counts {
+    let [evaluations, steps, impacts] = [0, 1, 2].map(|_| AtomicU64::new(0));
+    let counted = |wall: &Wall, shaking: &Shaking, accuracy: Accuracy| {
+        let response = simulate(wall, shaking, accuracy);
+        evaluations.fetch_add(response.work.evaluations, Ordering::Relaxed);
+        steps.fetch_add(response.work.steps, Ordering::Relaxed);
+        impacts.fetch_add(response.impacts.total(), Ordering::Relaxed);
+        response
+    };
+    study.spent(2, &counted);
+    let [evaluations, steps, impacts] =
+        [evaluations, steps, impacts].map(|count| count.into_inner() as f64 / study.runs());
+    Counts { evaluations, steps, impacts }
+}
+
 /// What a piece of work took, s.
 #[derive(Debug, Clone, Copy)]
 struct Spent {
@@ -149,6 +198,8 @@ struct Times {
     evaluation_s: Vec<f64>,
     table_wall_s: Vec<f64>,
     monte_carlo: [Vec<Spent>; 2],
+    /// The same under records with few samples, one thread.
+    thinned: Vec<Spent>,
     without_simulations: Vec<Spent>,
     simulations_alone: Vec<Spent>,
     /// Ten times over, for the sake of the clock of processor time.
@@ -164,14 +215,9 @@ fn main() {
     let once = simulate(&wall, &shaking, accuracy);
     let (study, (sweep, case)) = (Study::monte_carlo(), reference_case());
     let bar = indicatif::ProgressBar::hidden();
-    let evaluations = AtomicU64::new(0);
-    let counted = |wall: &Wall, shaking: &Shaking, accuracy: Accuracy| {
-        let response = simulate(wall, shaking, accuracy);
-        evaluations.fetch_add(response.work.evaluations, Ordering::Relaxed);
-        response
-    };
-    study.spent(2, &counted);
-    let evaluations = evaluations.into_inner() as f64 / study.runs();
+    let records = tempfile::tempdir().expect("a temporary folder");
+    let thinned = Study::monte_carlo_under(&thinned_suite(records.path()));
+    let work = [counts(&study), counts(&thinned)];
     let told = |_: &Wall, _: &Shaking, _: Accuracy| once.clone();
     let pools = [1, 2].map(pool);
     let rocking = RockingWall::new(&wall);
@@ -185,15 +231,16 @@ fn main() {
             let all = || (0..10).map(|_| once()).sum::<usize>();
             times.case[i].push(pool.install(|| spent(all)));
         }
+        times.thinned.push(thinned.spent(1, &SideBySide));
         times.without_simulations.push(study.spent(1, &told));
         let all = (0..study.plan.len()).collect();
         let run = || run_all(&study.plan, all, &SideBySide, &bar).len();
         times.simulations_alone.push(pools[0].install(|| spent(run)));
     }
-    tell(&times, &once, study.runs(), case.len(), evaluations);
+    tell(&times, &once, study.runs(), case.len(), work);
 }
 
-fn tell(times: &Times, once: &Response, runs: f64, case: usize, evaluations: f64) {
+fn tell(times: &Times, once: &Response, runs: f64, case: usize, [work, thinned]: [Counts; 2]) {
     let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     println!(
         "medians and quartiles, everything in turns in one process; load of the machine: {}",
@@ -218,7 +265,13 @@ fn tell(times: &Times, once: &Response, runs: f64, case: usize, evaluations: f64
     let alone = of(&times.simulations_alone, |s| s.cpu_s);
     let alone =
         print("  processor time of a run planned and run alone", "ms", alone.iter().map(|t| t * 1e3 / runs));
+    let Counts { evaluations, steps, impacts } = work;
     println!("  {evaluations:.0} evaluations a run; bare, they are {:.2} of that", share(evaluations, alone));
+    println!("  {steps:.0} steps and {impacts:.0} impacts a run: {:.1} steps an impact", steps / impacts);
+    let of_samples = times.thinned.iter().zip(one).map(|(thinned, all)| thinned.cpu_s / all.cpu_s);
+    print("  with one of four samples of the records: of the time", "", of_samples);
+    let Counts { steps, impacts, .. } = thinned;
+    println!("    {steps:.0} steps and {impacts:.0} impacts a run: {:.1} steps an impact", steps / impacts);
     let around = times.without_simulations.iter().zip(one);
     print("  share of all but simulations in processor time", "", around.map(|(w, all)| w.cpu_s / all.cpu_s));
     for (i, spent) in times.case.iter().enumerate() {

@@ -154,9 +154,8 @@ impl<P: Progress> Flow<'_, P> {
         let looked_at = as_fitted(&self.tests);
         let given = std::mem::replace(&mut self.tests, looked_at);
         let first_fits = self.first_fits_in(&shared, Some(&found.recalibrated.fit.values)).ok();
-        let of_fitted = found.asked_for_more();
         let told =
-            first_fits.and_then(|first_fits| judge_laws_beyond(&self.trials(&shared), first_fits, of_fitted));
+            first_fits.and_then(|first_fits| judge_laws_beyond(&self.trials(&shared), first_fits, found));
         self.tests = given;
         told.filter(|told| keeps_what_was_fitted(found, told, windows)).map(|told| (shared, told))
     }

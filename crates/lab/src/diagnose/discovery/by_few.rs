@@ -8,6 +8,8 @@ use super::asked::OpenGap;
 use super::equals::law_of;
 use super::fitted::{Fitted, LOOK_STEPS, Start};
 use super::guards::holds_in_each_test;
+use super::kin::power;
+use super::points::Points;
 use super::search::Searched;
 use crate::Progress;
 use crate::diagnose::fit::{Fit, nats};
@@ -74,6 +76,13 @@ fn freed(law: Law) -> Option<Law> {
     Some(inside(Law::of(Atom { numbers, ..first })))
 }
 
+/// The powers among the effects of a name, with the sizes that windows gave them: noisy points read a drag as one of the velocity's sign,
+/// an eighth as large, from which no fit came to it.
+pub(super) fn powers_of(named: &FittedHypothesis, points: &Points) -> Vec<Law> {
+    let all = (0..named.hypothesis.additions.len()).filter_map(|index| power(named, index));
+    all.map(|power| Law::of(power.atom(points.reach[power.site as usize]))).collect()
+}
+
 impl<P: Progress> Trials<'_, P> {
     /// Laws from where points put them, fitted coarsely to few windows, in the order of what these say against them: the best.
     pub(super) fn starts_in_few(
@@ -135,11 +144,13 @@ pub(super) fn best_law(fitted: &[Fitted]) -> Option<Law> {
 #[cfg(test)]
 mod tests {
     use super::super::asked::Scope;
-    use super::super::points::Points;
     use super::super::search::search;
     use super::super::twin::{OPENING, Twin, drag, open_gap, points_of, points_with, tests_of, wall_with};
     use super::*;
     use crate::diagnose::formula::{Shape, Site};
+    use crate::diagnose::hypothesis::Addition;
+    use crate::diagnose::trials::try_hypothesis;
+    use mrbd_kernel::model::EffectKind;
 
     #[test]
     fn analytic_few_windows_choose_the_law_where_points_say_too_little_of_it() {
@@ -159,6 +170,23 @@ mod tests {
         assert_eq!(best.shape, Shape::Opening, "{best:?}");
         // Coarsely: exact exponents are told from a fit to all windows.
         assert!(best.numbers.iter().all(|n| (n - 1.0).abs() < 0.4), "{best:?}");
+    }
+
+    #[test]
+    fn analytic_a_damper_that_is_named_starts_a_drag_of_its_size() {
+        let twin = Twin::new(&wall_with(OPENING), 3e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows").recalibrated;
+        let damper = EffectKind::ViscousDamping.variant(None).expect("a kind without variants");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(damper)]);
+        let named = try_hypothesis(&trials.data, h, &wall).expect("a wall");
+        let points = trials.points(&named).expect("points");
+        let [law] = powers_of(&named, &points)[..] else { panic!("one law") };
+        assert_eq!((law.first.site, law.first.shape, law.first.numbers[0]), (Site::Top, Shape::Drag, 1.0));
+        let [_, largest_m_s] = points.reach[Site::Top as usize];
+        let coefficient = named.fit.values[named.hypothesis.nuisances];
+        assert!(coefficient > 0.0 && (law.first.size / largest_m_s / coefficient - 1.0).abs() < 1e-12);
+        assert_eq!(powers_of(&wall, &points), [], "a wall has no effects");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Laws found over points, fitted to windows with their impacts: these alone judge.
 
 use super::asked::{AskedOfLaws, OpenGap, Scope};
-use super::by_few::best_law;
+use super::by_few::{best_law, powers_of};
 use super::equals::{law_of, simplest_of_equals};
 use super::fitted::Fitted;
 use super::guards::{holds_in_each_test, lies_inside};
@@ -253,7 +253,9 @@ impl<P: Progress> Trials<'_, P> {
         let Some(before) = gap.before else {
             let starts = match self.windows_choose(gap, searched) {
                 true => {
-                    self.starts_in_few(gap, searched, &[gap.kin, &searched.singles_to_move()].concat(), WHAT)
+                    let of_names = powers_of(gap.nearest, searched.equations.points());
+                    let laws = [gap.kin, &of_names, &searched.singles_to_move()].concat();
+                    self.starts_in_few(gap, searched, &laws, WHAT)
                 }
                 false => self.starts_by_look(gap, searched, gap.kin, &searched.singles, WHAT),
             };

@@ -27,8 +27,9 @@ const ONSETS: [f64; 4] = [3e-4, 1e-3, 3e-3, 1e-2];
 /// Friction that is an addition by the name of a spring.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GivingFriction {
-    /// Which of the numbers of its hypothesis is its force.
+    /// Which of the numbers of its hypothesis are its force, and the stiffness with which it sets in.
     pub force: usize,
+    pub stiffness: usize,
     /// Displacement over which it sets in, m.
     pub onset_m: f64,
 }
@@ -42,7 +43,11 @@ pub fn giving_friction(h: &Hypothesis, values: &[f64], index: usize) -> Option<G
     let onset_m = values[force] / values[stiffness];
     // The size of a force that matters over that of a stiffness is the largest displacement.
     let largest_m = h.unknowns[force].scale / h.unknowns[stiffness].scale;
-    (onset_m > 0.0 && onset_m < FRICTION_WITHIN * largest_m).then_some(GivingFriction { force, onset_m })
+    (onset_m > 0.0 && onset_m < FRICTION_WITHIN * largest_m).then_some(GivingFriction {
+        force,
+        stiffness,
+        onset_m,
+    })
 }
 
 /// Which of the numbers of a hypothesis an addition has by this key.
@@ -122,7 +127,7 @@ mod tests {
         // 300 N over 0.4 mm of 50 mm, and over 0.6 mm.
         let values = |onset_m: f64| [0.0, 300.0 / onset_m, 300.0];
         let found = giving_friction(&h, &values(4e-4), 1).expect("friction");
-        assert_eq!(found.force, 2);
+        assert_eq!((found.stiffness, found.force), (1, 2));
         assert!((found.onset_m - 4e-4).abs() < 1e-18, "{found:?}");
         assert_eq!(kind_of(&h, &values(4e-4), 1), Some(FRICTION));
         assert_eq!(kind_of(&h, &values(6e-4), 1), Some(SPRING));

@@ -79,19 +79,23 @@ pub fn judge_laws<P: Progress>(trials: &Trials<P>, first_fits: FirstFits) -> Opt
     gap.told(told, singles)
 }
 
-/// The same in windows that tests held out share with those fitted: the law that the latter tell, if they tell one, with an atom that only
-/// the larger motion reaches, or else one that is told before joints that give are tried.
+/// The same in windows that tests held out share with those fitted, of which an answer was found `before`: the law that the latter tell, if they
+/// tell one, with an atom that only the larger motion reaches, or else one that is told before joints that give are tried, or any of one atom
+/// where nothing was said.
 pub fn judge_laws_beyond<P: Progress>(
     trials: &Trials<P>,
     first_fits: FirstFits,
-    of_fitted: Option<&FittedHypothesis>,
+    before: &Found,
 ) -> Option<Found> {
     let (gap, singles) = Gap::of_laws(trials, first_fits)?;
     if gap.named(&singles, &gap.wall.recalibrated).is_some() {
         return None;
     }
-    let beyond = of_fitted.and_then(|law| gap.beyond(law, &singles));
-    let told = beyond.or_else(|| gap.told_early(&singles))?;
+    let beyond = before.asked_for_more().and_then(|law| gap.beyond(law, &singles));
+    let told = beyond.or_else(|| gap.told_early(&singles)).or_else(|| {
+        let says_nothing = before.says_nothing_of_what_is_held_out();
+        if says_nothing { gap.told_where_nothing_was_said() } else { None }
+    })?;
     gap.told(told, singles)
 }
 

@@ -12,6 +12,7 @@
 //! | `held` | what a strip whose top is held cannot tell from joints that give |
 //! | `beds_beside` | the same beside an effect that is not enough on sharp edges |
 //! | `outside` | laws outside the catalogue, a curve, or a place |
+//! | `shows` | laws outside the catalogue that show where effects say little or nothing |
 //! | `other_law` | whether a law outside the catalogue is behind a name |
 
 mod at_impacts;
@@ -23,6 +24,7 @@ mod on_beds;
 mod other_law;
 mod outside;
 mod remainder;
+mod shows;
 mod within_the_wall;
 mod worth_naming;
 

@@ -10,7 +10,7 @@ use crate::diagnose::fit::{Fit, Loss, Problem, WindowSlopes};
 use crate::diagnose::force::{curve_left, force_points};
 use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Hypothesis;
-use crate::diagnose::trials::{Data, FittedHypothesis, closes};
+use crate::diagnose::trials::{Data, FittedHypothesis, closes, giving_friction};
 use crate::limits::{BENT_FORCE, EQUIVALENT, TREND_NATS, TREND_SHARE};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -48,13 +48,17 @@ pub struct Trend {
 
 /// The trends of the added numbers of a fitted hypothesis.
 ///
-/// Linear about the fit. Factors of impacts are not asked: they come in sixes. `None` where the slopes cannot be told.
+/// Linear about the fit. Factors of impacts are not asked: they come in sixes. Nor is how stiffly friction sets in, which says
+/// nothing of its force. `None` where the slopes cannot be told.
 fn trends_with_amplitude(data: &Data, tried: &FittedHypothesis) -> Option<Vec<Trend>> {
     let h = &tried.hypothesis;
     let sides = [(data.fit, &tried.fit), (data.held_out, &tried.held_out)];
     let slopes = slopes(h, &tried.fit, sides)?;
     let rank = ranks(&slopes.iter().map(|s| s.amplitude).collect::<Vec<_>>());
-    let asked = (h.nuisances..h.unknowns.len()).filter(|&i| h.unknowns[i].prior_sd.is_none() && h.is_size(i));
+    let friction = (0..h.additions.len()).filter_map(|i| giving_friction(h, &tried.fit.values, i));
+    let onsets: Vec<usize> = friction.map(|friction| friction.stiffness).collect();
+    let is_asked = |i: &usize| h.unknowns[*i].prior_sd.is_none() && h.is_size(*i) && !onsets.contains(i);
+    let asked = (h.nuisances..h.unknowns.len()).filter(is_asked);
     Some(asked.filter_map(|i| trend(h, &tried.fit, &slopes, &rank, i)).collect())
 }
 
@@ -176,7 +180,7 @@ mod tests {
     use super::*;
     use crate::diagnose::discovery::twin::{Twin, wall_with};
     use crate::diagnose::hypothesis::Addition;
-    use crate::diagnose::trials::{joint_error, try_hypothesis};
+    use crate::diagnose::trials::{joint_error, try_hypothesis, with_values};
     use mrbd_kernel::model::EffectKind;
 
     /// What a cubic spring is in a class with, fitted to the windows of a wall that has one.
@@ -205,6 +209,23 @@ mod tests {
         let (verdict, names, tried) = in_class_with_cubic(3e-4);
         let expected = ["cubic_stiffness", "-k*sign(phi)*abs(phi)**n at ground"];
         assert_eq!((verdict, names, tried), (Verdict::Class, expected.map(str::to_owned).to_vec(), 1));
+    }
+
+    #[test]
+    fn analytic_how_stiffly_friction_sets_in_is_no_sign_of_another_law() {
+        let friction = "[[effects]]\nkind = \"coulomb_friction\"\nforce_n = 300.0\n";
+        let twin = Twin::new(&wall_with(friction), 1e-4);
+        let trials = twin.trials();
+        let wall = trials.wall_fits(None).expect("windows").recalibrated;
+        let spring = EffectKind::YieldingSpring.variant(None).expect("a kind without variants");
+        let h = trials.hypothesis(&trials.experiment.nuisances, &[Addition::Effect(spring)]);
+        let asked = |onset_m: f64| {
+            let values = [&wall.fit.values[..], &[300.0 / onset_m, 300.0]].concat();
+            let tried = with_values(&trials.data, h.clone(), &wall, &values).expect("a wall");
+            trends_with_amplitude(&trials.data, &tried).expect("slopes").len()
+        };
+        // Of friction its force alone; of a spring that yields its stiffness, too.
+        assert_eq!([1e-5, 1e-2].map(asked), [1, 2]);
     }
 
     fn speaks(trends: &[(f64, f64)]) -> bool {

@@ -11,7 +11,7 @@ use crate::diagnose::force::{ForcePoint, acts_at_top, force_points, lie_along_to
 use crate::diagnose::formula::Law;
 use crate::diagnose::hypothesis::Addition;
 use crate::diagnose::trials::{FittedHypothesis, against, closes, closes_held_out, joint_error};
-use crate::limits::{BEDS_GAP, EQUIVALENT, NOISE, TREND_SHARE_ON_BEDS, WORTH_A_LAW_IN_NOISE, WORTH_A_NAME};
+use crate::limits::{BEDS_GAP, EQUIVALENT, NOISE, TREND_SHARE_ON_BEDS, WORTH_A_NAME};
 use mrbd_kernel::model::Role;
 
 /// The place of a missing force with the curve that it is, where one holds.
@@ -84,44 +84,9 @@ impl<P: Progress> Gap<'_, P> {
         self.looked_for(singles, &[], Scope::TwoAtoms, self.early.get())
     }
 
-    /// The law of one atom that other windows tell with a second that these show: at the top, where what is missing may act, or leaving noise.
-    pub(super) fn beyond(
-        &self,
-        of_fitted: &FittedHypothesis,
-        singles: &[FittedHypothesis],
-    ) -> Option<Discovered> {
-        let gap = self.open_gap(singles, &[], Scope::TwoAtoms, None)?;
-        let found = self.trials.discover_beyond(of_fitted, &gap, self)?;
-        let best = found.equals.first()?;
-        let may_act_there = || best.hypothesis.additions[0].place() == "top" && self.may_act_at_top();
-        (found.is_outside_catalogue() && (self.leaves_nothing(best) || may_act_there())).then_some(found)
-    }
-
-    /// A law of one atom outside the catalogue that shows where the wall follows the tests without it: all windows together leave noise,
-    /// and few of them show a law that no effect of the catalogue imitates.
-    pub(super) fn law_that_shows(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
-        let found = self.looked_for(singles, &[], Scope::OneAtom, None)?;
-        let best = found.equals.first()?;
-        let shows = self.gain(&self.wall.recalibrated, best) > WORTH_A_LAW_IN_NOISE;
-        (shows && found.is_outside_catalogue() && self.leaves_nothing(best)).then_some(found)
-    }
-
-    /// A law outside the catalogue where effects say no more than that impacts are those of another formulation: it gains over the wall, and
-    /// over every effect, what a law in noise must. Of one atom, where none was looked for before.
-    pub(super) fn law_beyond_impacts(&self, singles: &[FittedHypothesis]) -> Option<Discovered> {
-        let found = match self.early.get() {
-            Some(found) => found.clone(),
-            None => self.looked_for(singles, &[], Scope::TwoAtoms, None)?,
-        };
-        let best = found.equals.first()?;
-        let mut without = singles.iter().chain([&self.wall.recalibrated]);
-        let shows = without.all(|other| self.gain(other, best) > WORTH_A_LAW_IN_NOISE);
-        (shows && found.is_outside_catalogue()).then_some(found)
-    }
-
     /// Whether what the wall as given lacks may be a force at the top, and nothing that joints do which give: it lies along the direction
     /// of the top, or has no direction and left so much that joints that give were asked for before any effect.
-    fn may_act_at_top(&self) -> bool {
+    pub(super) fn may_act_at_top(&self) -> bool {
         let wide = || joint_error(&self.wall.recalibrated).is_some_and(|error| error > BEDS_GAP);
         lie_along_top(&self.missing()).unwrap_or_else(wide)
     }
@@ -263,7 +228,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// The same as far as asked for, where some may have been looked for `before`.
-    fn looked_for(
+    pub(super) fn looked_for(
         &self,
         tried: &[FittedHypothesis],
         kin: &[Law],
@@ -274,7 +239,7 @@ impl<P: Progress> Gap<'_, P> {
     }
 
     /// What laws outside the catalogue are to close.
-    fn open_gap<'g>(
+    pub(super) fn open_gap<'g>(
         &'g self,
         tried: &'g [FittedHypothesis],
         kin: &'g [Law],
@@ -347,33 +312,6 @@ mod tests {
     use crate::diagnose::trials::{is_noise, refit};
     use mrbd_kernel::model::Wall;
 
-    /// A stop on one side, of a stiffness in N/m.
-    fn stop(k: f64, gap_m: f64) -> String {
-        format!(
-            "[[effects]]\nkind = \"formula\"\nplace = \"top\"\nforce_n = \"k*max(-x-g,0)\"\n[effects.parameters]\n\
-             k = {{ value = {k:?}, unit = \"N/m\" }}\ng = {{ value = {gap_m:?}, unit = \"m\" }}\n"
-        )
-    }
-
-    /// Whether the wall with its own numbers fitted follows the tests to their noise, and the law that shows all the same.
-    fn shown(effects: &str, noise_rad: f64) -> (bool, Option<String>) {
-        let twin = Twin::new(&wall_with(effects), noise_rad);
-        let trials = twin.trials();
-        let wall = trials.wall_fits(None).expect("windows");
-        let (error, follows) = (joint_error(&wall.before).expect("windows"), is_noise(&wall.recalibrated));
-        let found = Gap::new(&trials, wall, error).law_that_shows(&[]);
-        (follows, found.map(|found| found.equals[0].hypothesis.name()))
-    }
-
-    #[test]
-    fn analytic_a_stop_that_few_windows_show_is_told_though_all_together_leave_noise() {
-        let (follows, law) = shown(&stop(2e4, 0.02), 5e-5);
-        assert!(follows && law.as_deref() == Some("k*max(-x-g,0) at top"), "{follows} {law:?}");
-        // Reached by less, and at twice the noise, it does not show.
-        assert_eq!(shown(&stop(2e4, 0.03), 1e-4), (true, None));
-        assert_eq!(shown("", 5e-5), (true, None), "nothing is hidden");
-    }
-
     #[test]
     fn analytic_laws_that_follow_at_two_places_as_well_leave_the_place_open() {
         let twin = Twin::new(&wall_with(DRAG), 1e-4);
@@ -411,29 +349,5 @@ mod tests {
         stiff.stiffness_n_per_m *= 1.05;
         assert!(own_numbers(&Wall::new(stiff).expect("a wall")));
         assert!(!own_numbers(&wall_with(DRAG)), "they do not stand for a drag");
-    }
-
-    #[test]
-    fn analytic_a_law_that_gains_over_every_effect_is_told_where_impacts_could_be_all_that_is_left() {
-        let beyond = |effects: &str| {
-            let twin = Twin::new(&wall_with(effects), 1e-5);
-            let trials = twin.trials();
-            let wall = trials.wall_fits(None).expect("windows");
-            let error = joint_error(&wall.before).expect("windows");
-            let gap = Gap::new(&trials, wall, error);
-            let found = gap.law_beyond_impacts(&[])?;
-            let law = found.equals[0].clone();
-            assert!(gap.law_beyond_impacts(std::slice::from_ref(&law)).is_none(), "an effect does as well");
-            assert!(gap.outdoes(&law, &gap.wall.recalibrated), "a name that leaves more gives way");
-            assert!(!gap.outdoes(&law, &law), "one that leaves as little stays");
-            assert!(!gap.closes_by_law_at_top(), "none was looked for before");
-            gap.told_early(&[]);
-            assert!(gap.closes_by_law_at_top());
-            Some(law.hypothesis.name())
-        };
-        assert_eq!(beyond(&stop(2e4, 0.02)).as_deref(), Some("k*max(-x-g,0) at top"));
-        let two = beyond(&[DRAG, SPRING].concat()).expect("two atoms");
-        assert!(two.contains("c_1*v*abs(v)") && two.contains("k_2*max(-x,0)"), "{two}");
-        assert_eq!(beyond(""), None, "nothing is hidden");
     }
 }
