@@ -306,10 +306,10 @@ impl<P: Progress> Gap<'_, P> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnose::discovery::twin::{DRAG, DRAG_N, SPRING, Twin, drag, wall_with};
+    use crate::diagnose::discovery::twin::{DRAG, DRAG_N, Twin, drag, wall_with};
     use crate::diagnose::fit::Fit;
     use crate::diagnose::formula::{Atom, Site};
-    use crate::diagnose::trials::{is_noise, refit};
+    use crate::diagnose::trials::refit;
     use mrbd_kernel::model::Wall;
 
     #[test]
