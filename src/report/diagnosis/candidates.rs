@@ -67,6 +67,7 @@ fn answer<'s>(summary: &'s Summary, rivals: &[&'s Rival]) -> Vec<&'s str> {
             .effects
             .iter()
             .filter_map(|e| e.written_as.as_deref().or(e.name.as_deref()))
+            .flat_map(|name| name.split(" + "))
             .collect();
     }
     rivals.first().map_or_else(Vec::new, |best| best.name.split(" + ").collect())

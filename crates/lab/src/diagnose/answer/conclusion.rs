@@ -16,7 +16,9 @@ use crate::diagnose::certainty::{confused, intervals, intervals_beside_own_error
 use crate::diagnose::ensemble::ensemble;
 use crate::diagnose::fit::{WindowFit, windowed_error};
 use crate::diagnose::hypothesis::{Addition, Physics};
-use crate::diagnose::trials::{FRICTION, FittedHypothesis, against, giving_friction, joint_error, kinds};
+use crate::diagnose::trials::{
+    FRICTION, FittedHypothesis, against, friction_in_two_parts, giving_friction, joint_error, kinds,
+};
 use crate::diagnose::verdict::{Verdict, model_error_rad, names, power};
 use crate::experiment::TestData;
 use crate::experiment::{Purpose, Test};
@@ -118,7 +120,12 @@ impl Findings<'_> {
             round_exponents: self.exponent_of_name(index),
             ..found_effect(after, &intervals, index)
         };
-        (0..after.hypothesis.additions.len()).map(effect).collect()
+        let mut effects: Vec<FoundEffect> = (0..after.hypothesis.additions.len()).map(effect).collect();
+        if let Some(friction) = friction_in_one(after, &intervals) {
+            effects.retain(|effect| effect.kind.as_deref() != Some(FRICTION.name()));
+            effects.insert(0, friction);
+        }
+        effects
     }
 
     /// For each kind, the smallest sizes that would have been told from nothing and named, and the size at which it would
@@ -222,6 +229,27 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
         units: BTreeMap::new(),
         range: BTreeMap::new(),
     }
+}
+
+/// Friction that is fitted in two parts as the one that it is, with the sum of their forces and its interval.
+fn friction_in_one(after: &FittedHypothesis, intervals: &[[f64; 2]]) -> Option<FoundEffect> {
+    let (h, values) = (&after.hypothesis, &after.fit.values);
+    let parts = friction_in_two_parts(h, values)?;
+    let covariance = after.fit.covariance.as_ref()?;
+    let variance = |i: usize, k: usize| covariance[(parts[i], parts[k])];
+    let sd_n = (variance(0, 0) + variance(1, 1) + 2.0 * variance(0, 1)).max(0.0).sqrt();
+    // In as many standard deviations as that of the larger part.
+    let [low, high] = intervals[parts[0]];
+    let half_n = 0.5 * (high - low) * sd_n / variance(0, 0).sqrt();
+    let force_n = values[parts[0]] + values[parts[1]];
+    let index = (0..h.additions.len()).find(|index| giving_friction(h, values, *index).is_some())?;
+    let with_force = |value: f64| BTreeMap::from([("force_n".to_owned(), value)]);
+    Some(FoundEffect {
+        parameters: with_force(force_n),
+        interval: BTreeMap::from([("force_n".to_owned(), [force_n - half_n, force_n + half_n])]),
+        written_as: Some(h.name()),
+        ..found_effect(after, intervals, index)
+    })
 }
 
 /// Fitted numbers of the wall with their standard deviations, and what they were.

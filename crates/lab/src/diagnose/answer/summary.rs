@@ -178,7 +178,7 @@ pub struct FoundEffect {
     pub parameters: BTreeMap<String, f64>,
     /// Their 90 % intervals, in the same units.
     pub interval: BTreeMap<String, [f64; 2]>,
-    /// The effect in the wall file that it is, where that goes by another name.
+    /// The effect in the wall file that it is, where that goes by another name, or two with ` + ` between.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub written_as: Option<String>,
     /// Displacement over which friction sets in, m, where it does not jump.

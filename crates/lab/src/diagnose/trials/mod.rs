@@ -41,7 +41,7 @@ pub use fitted_hypothesis::{
     against, all_but_closes, all_windows, best_answer, closes, closes_held_out, does_something,
     follows_to_noise, is_noise, joint_error, kinds, leave_noise, misses_windows, nearly_closes,
 };
-pub use friction::{FRICTION, giving_friction, kind_of};
+pub use friction::{FRICTION, friction_in_two_parts, giving_friction, kind_of};
 pub(super) use imitation::taken_by;
 pub use joint_laws::crushes;
 pub use patterns::{gain_misread, has_gain, reads_better, reads_far_better, set_gain};
