@@ -11,7 +11,7 @@ use super::super::score::reading::{Diagnosed, list, number, text, texts};
 use super::super::score::recorded::Recorded;
 use super::super::score::row::held_out;
 use super::found::{
-    Excited, curve_error, function_error, is_spelled_as, number_errors, round_exponents_hold,
+    Excited, curve_error, force_error, function_error, is_spelled_as, number_errors, round_exponents_hold,
 };
 use super::refused::RefusedRow;
 use super::visible;
@@ -108,11 +108,15 @@ impl LawRow {
     fn new(answer: &Value, diagnosis: Option<&Summary>, outcome: &Outcome) -> Self {
         let effects = diagnosis.map_or(&[][..], |d| &d.effects);
         let has_formula = diagnosis.is_some_and(Summary::has_formula);
+        let classes = diagnosis.map_or(&[][..], |d| &d.equivalent_formulas);
+        // Of a name in a class with formulas, the force of the one that is hidden.
+        let in_class = classes.iter().find(|one| !has_formula && is_spelled_as(answer, one));
         let error = |part: &str| {
             let points = excited(answer, part);
-            diagnosis.filter(|_| has_formula).and_then(|d| function_error(answer, d, &points))
+            let of_formula =
+                diagnosis.filter(|_| has_formula).and_then(|d| function_error(answer, d, &points));
+            of_formula.or_else(|| force_error(answer, in_class?, None, &points))
         };
-        let classes = diagnosis.map_or(&[][..], |d| &d.equivalent_formulas);
         Self {
             set: text(answer, "/case/set"),
             number: answer.pointer("/case/number").and_then(Value::as_u64).unwrap_or_default(),

@@ -111,10 +111,10 @@ pub(crate) fn recorded_laws(set: &str) -> Vec<laws::LawRow> {
 }
 
 /// Recorded sets of laws, in the order in which they were answered.
-pub(crate) const SETS_OF_LAWS: [&str; 29] = [
+pub(crate) const SETS_OF_LAWS: [&str; 31] = [
     "laws1", "laws2", "laws3", "laws4", "laws6", "laws7", "laws8", "laws9", "laws10", "laws11", "laws13",
     "laws14", "laws15", "laws16", "laws17", "laws18", "laws19", "laws20", "laws21", "laws22", "laws23",
-    "laws24", "laws25", "laws26", "laws27", "laws28", "laws29", "laws30", "laws31",
+    "laws24", "laws25", "laws26", "laws27", "laws28", "laws29", "laws30", "laws31", "laws32", "laws33",
 ];
 
 #[test]

@@ -145,6 +145,11 @@ limits! {
     /// No impact that the noise decides lies there; in one the contact may change by less than the noise. Chosen: thirteen right laws of
     /// development sets missed 1 of 469, laws that lacked an atom 2 of 16 to 6 of 33, and a right pair with a size of half the true one 2 of 21.
     MISSED_BETWEEN_IMPACTS: usize = 1, "";
+    /// Standard deviations of what noise leaves of all windows up to which a law may leave that outdoes a name.
+    ///
+    /// Chosen: one in six walls leaves more than one of them with its own law, one in forty more than two. A spring beyond a gap left 1.1
+    /// where it was named a cubic one, which left 4.4 and 520 natural logarithms more.
+    OUTDOES_NAME_SD: f64 = 2.0, "";
     /// Gain of a law over the wall with its own numbers fitted, in all windows, from which it is told where that wall leaves noise.
     ///
     /// Chosen: laws of recorded sets that were taken for nothing gain 390 to 570; a stop of a twin that gained 108 was told as a power,

@@ -66,10 +66,31 @@ impl Part {
         [&self.force_n, &self.sd_n].map(|of| shares.iter().zip(of).map(|(s, f)| s * f).sum::<f64>())
     }
 
-    /// Force with its 90 % interval, N.
+    /// Force with its 90 % interval, N: what points and windows leave open, and how far a smooth force may lie from straight pieces.
     pub fn told_n(&self, x: f64) -> (f64, [f64; 2]) {
         let [force_n, sd_n] = self.force_n(x);
-        (force_n, [-1.0, 1.0].map(|side| force_n + side * NINETY_PERCENT * sd_n.abs()))
+        let sag_n =
+            Self::shares(&self.at, x).iter().zip(self.sags_n()).map(|(share, sag)| share * sag).sum::<f64>();
+        let half_n = (NINETY_PERCENT * sd_n).hypot(sag_n);
+        (force_n, [-1.0, 1.0].map(|side| force_n + side * half_n))
+    }
+
+    /// How far a smooth force lies from straight pieces that are fitted to it, by its curvature at each knot: f'' h²/12 there and half of that
+    /// between, for the longer piece beside it. At a last knot as at its neighbour.
+    fn sags_n(&self) -> [f64; BOTH] {
+        let at = |k: usize| match k.cmp(&SIDE) {
+            std::cmp::Ordering::Less => (self.at[k], self.force_n[k]),
+            std::cmp::Ordering::Equal => (0.0, 0.0),
+            std::cmp::Ordering::Greater => (self.at[k - 1], self.force_n[k - 1]),
+        };
+        let sag = |k: usize| {
+            let [(a, f_a), (b, f_b), (c, f_c)] = [k - 1, k, k + 1].map(at);
+            let bend = (f_c - f_b) / (c - b) - (f_b - f_a) / (b - a);
+            let curvature = 2.0 * bend / (c - a);
+            curvature.abs() * (b - a).max(c - b).powi(2) / 12.0
+        };
+        // Rest is a knot, too, where nothing is told.
+        std::array::from_fn(|k| sag((if k < SIDE { k } else { k + 1 }).clamp(1, BOTH - 1)))
     }
 
     /// Slope of the first piece on a side, then the changes of slope at its knots but the last.
@@ -148,5 +169,22 @@ mod tests {
             // Two ways to the same sum of some tens of newtons.
             assert!((formula.value([x, v, 0.0]) - own).abs() < 1e-9, "{x}, {v}: {own} in {formula}");
         }
+    }
+
+    #[test]
+    fn analytic_the_band_of_a_curve_has_what_straight_pieces_cannot_follow() {
+        let half_n = |of: fn(f64) -> f64, x: f64| {
+            let at = Part::at([-1.0, 1.0]);
+            let (_, [low, high]) = Part { at, force_n: at.map(of), sd_n: [0.0; BOTH] }.told_n(x);
+            0.5 * (high - low)
+        };
+        assert!(half_n(|x| 30.0 * x, 0.5) < 1e-12, "a line has no curvature");
+        // Curvature of 60 N/m², and pieces of 0.18 m before and 0.22 m after the knot.
+        let own = half_n(|x| 30.0 * x * x.abs(), 0.54);
+        assert!((own - 60.0 * 0.22 * 0.22 / 12.0).abs() < 1e-9, "{own} N");
+        // As at rest, where it bends the other way, and as at the knot before the last.
+        assert!(half_n(|x| 30.0 * x * x.abs(), -0.54) == own);
+        let [last, before] = [1.0, 0.76].map(|x| half_n(|x| 30.0 * x * x.abs(), x));
+        assert!((last - before).abs() < 1e-9, "{last} and {before} N");
     }
 }

@@ -3,7 +3,7 @@
 use super::at_impacts::{leaves_only_impacts, misses_held_out_between, worth_two_between};
 use super::found::Found;
 use super::judge::{Answer, Gap};
-use super::worth_naming::{held_out_ask_for, leaves_noise, place, worth_two};
+use super::worth_naming::{held_out_ask_for, leaves_noise, leaves_noise_or_little_more, place, worth_two};
 use super::{OtherLaw, Verdict};
 use crate::Progress;
 use crate::diagnose::discovery::{AskedOfLaws, Discovered, Guard, Kin, OpenGap, Refused, Scope};
@@ -144,10 +144,10 @@ impl<P: Progress> Gap<'_, P> {
         self.placed_by(discovered, Some(other_law), tried)
     }
 
-    /// Whether a law outside the catalogue leaves noise where a name leaves more, and is worth as much beside it as a second effect must be:
-    /// the name only imitates it.
+    /// Whether a law outside the catalogue leaves noise, or little more, where a name leaves more, and is worth as much beside it as a second
+    /// effect must be: the name only imitates it.
     pub(super) fn outdoes(&self, law: &FittedHypothesis, named: &FittedHypothesis) -> bool {
-        !leaves_noise(named) && leaves_noise(law) && worth_two(&self.trials.data, named, law)
+        !leaves_noise(named) && leaves_noise_or_little_more(law) && worth_two(&self.trials.data, named, law)
     }
 
     /// A law outside the catalogue that outdoes a name.

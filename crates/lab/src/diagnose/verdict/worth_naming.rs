@@ -3,8 +3,8 @@
 use crate::diagnose::fit::{Fit, WindowFit, nats};
 use crate::diagnose::trials::{Data, FittedHypothesis, against, all_windows, joint_error, kinds};
 use crate::limits::{
-    DETECTED_SD, LEAST_SIZE, LEFT_HELD_OUT_SD, PLACE_NATS, PLACE_SQUARED_ERROR, WORTH_A_NAME, WORTH_A_SECOND,
-    WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
+    DETECTED_SD, LEAST_SIZE, LEFT_HELD_OUT_SD, OUTDOES_NAME_SD, PLACE_NATS, PLACE_SQUARED_ERROR,
+    WORTH_A_NAME, WORTH_A_SECOND, WORTH_A_SECOND_HELD_OUT, WORTH_A_SECOND_SEEN, WORTH_A_SECOND_TO_NOISE,
 };
 
 /// What the tests can tell of a single effect, by its first number and in its unit.
@@ -112,6 +112,12 @@ pub fn held_out_ask_for(data: &Data, one: &FittedHypothesis, two: &FittedHypothe
 /// Whether what a hypothesis leaves is what noise would.
 pub fn leaves_noise(tried: &FittedHypothesis) -> bool {
     are_as_noise(&all_windows(tried))
+}
+
+/// Whether a hypothesis leaves what noise may leave, though seldom so much.
+pub fn leaves_noise_or_little_more(tried: &FittedHypothesis) -> bool {
+    let windows = all_windows(tried);
+    nats(&windows) < OUTDOES_NAME_SD * noise_sd(&windows)
 }
 
 /// Whether a hypothesis leaves so much of the tests held out alone that it may have taken up another law: their motion is larger.
@@ -241,6 +247,13 @@ mod tests {
         // Four times 45 nats.
         let stands_out = |left: [f64; 2]| stands_out_held_out(&tried(&[], left));
         assert!(stands_out([0.0, 190.0]) && !stands_out([0.0, 170.0]) && !stands_out([500.0, 0.0]));
+    }
+
+    #[test]
+    fn analytic_a_law_that_outdoes_a_name_leaves_two_deviations_of_noise_at_most() {
+        // Twice 63 nats.
+        let little = |left: f64| leaves_noise_or_little_more(&tried(&[], [0.5 * left; 2]));
+        assert_eq!([60.0, 124.0, 128.0].map(little), [true, true, false]);
     }
 
     fn worth(of_one: [f64; 2], of_two: [f64; 2]) -> bool {
