@@ -10,7 +10,7 @@ use mrbd_lab::limits::HELD_OUT_ERROR;
 type Draw = fn(&str, u64) -> cases::draw::Case;
 
 /// Recorded sets, and how a case is drawn under its number: effects of the catalogue, joints that give, nothing hidden, impacts.
-pub(crate) const SETS: [(&str, Draw); 30] = [
+pub(crate) const SETS: [(&str, Draw); 31] = [
     ("fresh11", cases::draw::draw),
     ("fresh12", cases::draw::draw),
     ("fresh13", cases::draw::draw),
@@ -41,6 +41,7 @@ pub(crate) const SETS: [(&str, Draw); 30] = [
     ("nulls13", cases::nulls::draw),
     ("nulls14", cases::nulls::draw),
     ("nulls15", cases::nulls::draw),
+    ("nulls16", cases::nulls::draw),
 ];
 
 /// Cases of a set that were scored before: `make blind SET=fresh11` goes on from there.
