@@ -12,13 +12,11 @@ use super::summary::{
     Against, BeforeAfter, CouldHide, FitHeldOut, FittedNumber, FoundEffect, KIND, Rival, Stages, Summary,
     TestErrors, WallFit, WindowCounts,
 };
-use crate::diagnose::certainty::{confused, intervals, intervals_beside_own_error, next_tests};
+use crate::diagnose::certainty::{confused, next_tests};
 use crate::diagnose::ensemble::ensemble;
 use crate::diagnose::fit::{WindowFit, windowed_error};
 use crate::diagnose::hypothesis::{Addition, Physics};
-use crate::diagnose::trials::{
-    FRICTION, FittedHypothesis, against, friction_in_two_parts, giving_friction, joint_error, kinds,
-};
+use crate::diagnose::trials::{FittedHypothesis, against, joint_error, kinds};
 use crate::diagnose::verdict::{Verdict, model_error_rad, names, power};
 use crate::experiment::TestData;
 use crate::experiment::{Purpose, Test};
@@ -109,25 +107,6 @@ impl Findings<'_> {
             .collect()
     }
 
-    /// The effects of an answer with their numbers and 90 % intervals.
-    fn named_effects(&self) -> Vec<FoundEffect> {
-        let after = &self.found.after;
-        let intervals = match self.found.remainder {
-            Some(_) => intervals_beside_own_error(&self.data(), after),
-            None => intervals(&self.data(), after),
-        };
-        let effect = |index: usize| FoundEffect {
-            round_exponents: self.exponent_of_name(index),
-            ..found_effect(after, &intervals, index)
-        };
-        let mut effects: Vec<FoundEffect> = (0..after.hypothesis.additions.len()).map(effect).collect();
-        if let Some(friction) = friction_in_one(after, &intervals) {
-            effects.retain(|effect| effect.kind.as_deref() != Some(FRICTION.name()));
-            effects.insert(0, friction);
-        }
-        effects
-    }
-
     /// For each kind, the smallest sizes that would have been told from nothing and named, and the size at which it would
     /// matter.
     fn could_hide(&self) -> Vec<CouldHide> {
@@ -180,76 +159,6 @@ impl Findings<'_> {
         };
         (h.nuisances..h.unknowns.len()).map(row).collect()
     }
-}
-
-/// One effect of an answer.
-fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) -> FoundEffect {
-    let (h, values) = (&after.hypothesis, &after.fit.values);
-    let addition = &h.additions[index];
-    let numbers = |keys: &[(String, usize)]| {
-        let parameters =
-            keys.iter().map(|(key, i)| (key.clone(), h.unknowns[*i].measure.number(values[*i]))).collect();
-        (
-            parameters,
-            keys.iter()
-                .map(|(key, i)| (key.clone(), h.unknowns[*i].measure.interval(intervals[*i])))
-                .collect(),
-        )
-    };
-    if let Some(friction) = giving_friction(h, values, index) {
-        let (parameters, interval) = numbers(&[("force_n".to_owned(), friction.force)]);
-        return FoundEffect {
-            kind: Some(FRICTION.name().to_owned()),
-            name: Some(FRICTION.name().to_owned()),
-            place: addition.place().to_owned(),
-            parameters,
-            interval,
-            written_as: Some(addition.name()),
-            sets_in_over_m: Some(friction.onset_m),
-            round_exponents: None,
-            formula: None,
-            states: Vec::new(),
-            units: BTreeMap::new(),
-            range: BTreeMap::new(),
-        };
-    }
-    let own = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
-    let (parameters, interval) = numbers(&own.map(|i| (h.unknowns[i].key.clone(), i)).collect::<Vec<_>>());
-    FoundEffect {
-        kind: addition.kind().map(|kind| kind.name().to_owned()),
-        name: Some(addition.name()),
-        place: addition.place().to_owned(),
-        parameters,
-        interval,
-        written_as: None,
-        sets_in_over_m: None,
-        round_exponents: None,
-        formula: None,
-        states: Vec::new(),
-        units: BTreeMap::new(),
-        range: BTreeMap::new(),
-    }
-}
-
-/// Friction that is fitted in two parts as the one that it is, with the sum of their forces and its interval.
-fn friction_in_one(after: &FittedHypothesis, intervals: &[[f64; 2]]) -> Option<FoundEffect> {
-    let (h, values) = (&after.hypothesis, &after.fit.values);
-    let parts = friction_in_two_parts(h, values)?;
-    let covariance = after.fit.covariance.as_ref()?;
-    let variance = |i: usize, k: usize| covariance[(parts[i], parts[k])];
-    let sd_n = (variance(0, 0) + variance(1, 1) + 2.0 * variance(0, 1)).max(0.0).sqrt();
-    // In as many standard deviations as that of the larger part.
-    let [low, high] = intervals[parts[0]];
-    let half_n = 0.5 * (high - low) * sd_n / variance(0, 0).sqrt();
-    let force_n = values[parts[0]] + values[parts[1]];
-    let index = (0..h.additions.len()).find(|index| giving_friction(h, values, *index).is_some())?;
-    let with_force = |value: f64| BTreeMap::from([("force_n".to_owned(), value)]);
-    Some(FoundEffect {
-        parameters: with_force(force_n),
-        interval: BTreeMap::from([("force_n".to_owned(), [force_n - half_n, force_n + half_n])]),
-        written_as: Some(h.name()),
-        ..found_effect(after, intervals, index)
-    })
 }
 
 /// Fitted numbers of the wall with their standard deviations, and what they were.

@@ -5,10 +5,11 @@
 //! | [`Findings`] | fitted hypotheses and the windows they were fitted to, before anything is said of them |
 //! | [`summary`] | the types of `diagnosis.json`, written, read and scored as one struct |
 //! | [`rows`] | the rows of the tables beside it, and how they follow from the findings |
-//! | `conclusion`, `own`, `formulas`, `round`, `refused`, `updated_wall` | how the summary and the updated wall file follow from the findings |
+//! | `conclusion`, `named`, `own`, `formulas`, `round`, `refused`, `updated_wall` | how the summary and the updated wall file follow from the findings |
 
 mod conclusion;
 mod formulas;
+mod named;
 mod own;
 mod refused;
 mod round;
