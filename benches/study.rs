@@ -269,7 +269,7 @@ fn tell(times: &Times, once: &Response, runs: f64, case: usize, [work, thinned]:
     println!("  {evaluations:.0} evaluations a run; bare, they are {:.2} of that", share(evaluations, alone));
     println!("  {steps:.0} steps and {impacts:.0} impacts a run: {:.1} steps an impact", steps / impacts);
     let of_samples = times.thinned.iter().zip(one).map(|(thinned, all)| thinned.cpu_s / all.cpu_s);
-    print("  with one of four samples of the records: of the time", "", of_samples);
+    print(&format!("  with one of {EVERY} samples of the records: of the time"), "", of_samples);
     let Counts { steps, impacts, .. } = thinned;
     println!("    {steps:.0} steps and {impacts:.0} impacts a run: {:.1} steps an impact", steps / impacts);
     let around = times.without_simulations.iter().zip(one);

@@ -2,7 +2,6 @@
 //!
 //! Every test and every hypothesis also has its errors over windows, and over whole runs (Eq. 8).
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::Findings;
@@ -85,20 +84,7 @@ impl Findings<'_> {
         if has_names {
             return self.named_effects();
         }
-        let outside = |place: &str| FoundEffect {
-            kind: None,
-            name: None,
-            place: place.to_owned(),
-            parameters: BTreeMap::new(),
-            interval: BTreeMap::new(),
-            written_as: None,
-            sets_in_over_m: None,
-            round_exponents: None,
-            formula: None,
-            states: Vec::new(),
-            units: BTreeMap::new(),
-            range: BTreeMap::new(),
-        };
+        let outside = |place: &str| FoundEffect { place: place.to_owned(), ..FoundEffect::default() };
         self.found
             .place
             .filter(|_| self.found.verdict == Verdict::PlaceOnly)

@@ -74,17 +74,12 @@ impl Findings<'_> {
         let formulas = after.hypothesis.formulas(&after.fit.values).unwrap_or_default();
         let effect = |formula: &Formula| FoundEffect {
             kind: Some(FORMULA.to_owned()),
-            name: None,
             place: formula.place().name().to_owned(),
             parameters: formula.parameters().iter().map(|p| (p.name.clone(), p.value)).collect(),
-            interval: BTreeMap::new(),
-            written_as: None,
-            states: Vec::new(),
-            sets_in_over_m: None,
-            round_exponents: None,
             formula: Some(formula.to_string()),
             units: formula.parameters().iter().map(|p| (p.name.clone(), p.unit.clone())).collect(),
             range: self.range(Site::Top),
+            ..FoundEffect::default()
         };
         formulas.iter().map(effect).collect()
     }
@@ -128,14 +123,11 @@ impl Findings<'_> {
             name: Some(FORMULA.to_owned()),
             place: written.site.name().to_owned(),
             parameters: named().map(|p| (p.name.clone(), p.value)).collect(),
-            interval: BTreeMap::new(),
-            written_as: None,
             states: written.states.iter().map(state).collect(),
-            sets_in_over_m: None,
-            round_exponents: None,
             formula: Some(written.text.clone()),
             units: named().map(|p| (p.name.clone(), p.unit.clone())).collect(),
             range: self.range(written.site),
+            ..FoundEffect::default()
         }
     }
 }

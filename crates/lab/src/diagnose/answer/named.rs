@@ -52,11 +52,7 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
             interval,
             written_as: Some(addition.name()),
             sets_in_over_m: Some(friction.onset_m),
-            round_exponents: None,
-            formula: None,
-            states: Vec::new(),
-            units: BTreeMap::new(),
-            range: BTreeMap::new(),
+            ..FoundEffect::default()
         };
     }
     let own = (0..h.unknowns.len()).filter(|i| h.unknowns[*i].belongs_to(index));
@@ -67,20 +63,14 @@ fn found_effect(after: &FittedHypothesis, intervals: &[[f64; 2]], index: usize) 
         place: addition.place().to_owned(),
         parameters,
         interval,
-        written_as: None,
-        sets_in_over_m: None,
-        round_exponents: None,
-        formula: None,
-        states: Vec::new(),
-        units: BTreeMap::new(),
-        range: BTreeMap::new(),
+        ..FoundEffect::default()
     }
 }
 
 /// Friction that is fitted in two parts as the one that it is, with the sum of their forces and its interval.
 fn friction_in_one(after: &FittedHypothesis, intervals: &[[f64; 2]]) -> Option<FoundEffect> {
     let (h, values) = (&after.hypothesis, &after.fit.values);
-    let parts = friction_in_two_parts(h, values)?;
+    let (index, parts) = friction_in_two_parts(h, values)?;
     let covariance = after.fit.covariance.as_ref()?;
     let variance = |i: usize, k: usize| covariance[(parts[i], parts[k])];
     let sd_n = (variance(0, 0) + variance(1, 1) + 2.0 * variance(0, 1)).max(0.0).sqrt();
@@ -89,7 +79,6 @@ fn friction_in_one(after: &FittedHypothesis, intervals: &[[f64; 2]]) -> Option<F
     let own_n = Some(variance(0, 0).sqrt()).filter(|sd_n| *sd_n > 0.0)?;
     let half_n = 0.5 * (high - low) * sd_n / own_n;
     let force_n = values[parts[0]] + values[parts[1]];
-    let index = (0..h.additions.len()).find(|index| giving_friction(h, values, *index).is_some())?;
     let with_force = |value: f64| BTreeMap::from([("force_n".to_owned(), value)]);
     Some(FoundEffect {
         parameters: with_force(force_n),

@@ -165,7 +165,7 @@ pub struct FittedToAll {
 }
 
 /// An effect of the answer.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct FoundEffect {
     /// Its kind in wall files; `None` for a law outside the catalogue.
     pub kind: Option<String>,

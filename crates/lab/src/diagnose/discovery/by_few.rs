@@ -77,7 +77,7 @@ fn freed(law: Law) -> Option<Law> {
 }
 
 /// The powers among the effects of a name, with the sizes that windows gave them: noisy points read a drag as one of the velocity's sign,
-/// an eighth as large, from which no fit came to it.
+/// of an eighth of its largest force, from which no fit came to it.
 pub(super) fn powers_of(named: &FittedHypothesis, points: &Points) -> Vec<Law> {
     let all = (0..named.hypothesis.additions.len()).filter_map(|index| power(named, index));
     all.map(|power| Law::of(power.atom(points.reach[power.site as usize]))).collect()

@@ -50,10 +50,12 @@ pub fn giving_friction(h: &Hypothesis, values: &[f64], index: usize) -> Option<G
     })
 }
 
-/// The forces of friction that is fitted in two parts, one of which gives first: which of the numbers of its hypothesis they are.
-pub fn friction_in_two_parts(h: &Hypothesis, values: &[f64]) -> Option<[usize; 2]> {
-    let giving = (0..h.additions.len()).find_map(|index| giving_friction(h, values, index))?;
-    Some([giving.force, number(h, position(&h.additions, FRICTION)?, "force_n")?])
+/// Friction that is fitted in two parts: which addition of its hypothesis gives first, and which of the numbers are its force and that of
+/// the other.
+pub fn friction_in_two_parts(h: &Hypothesis, values: &[f64]) -> Option<(usize, [usize; 2])> {
+    let gives = |index: usize| Some((index, giving_friction(h, values, index)?.force));
+    let (index, force) = (0..h.additions.len()).find_map(gives)?;
+    Some((index, [force, number(h, position(&h.additions, FRICTION)?, "force_n")?]))
 }
 
 /// Which of the numbers of a hypothesis an addition has by this key.
@@ -148,7 +150,7 @@ mod tests {
         let h = starter_with(&["coulomb_friction", "yielding_spring"]);
         // 4 N of friction, and a spring that yields at 396 N after 0.1 mm or 1 mm.
         let values = |onset_m: f64| [4.0, 396.0 / onset_m, 396.0];
-        assert_eq!(friction_in_two_parts(&h, &values(1e-4)), Some([2, 0]));
+        assert_eq!(friction_in_two_parts(&h, &values(1e-4)), Some((1, [2, 0])));
         assert_eq!(friction_in_two_parts(&h, &values(1e-3)), None, "it is a spring");
         assert_eq!(friction_in_two_parts(&with("yielding_spring"), &[0.0, 396e4, 396.0]), None);
     }
