@@ -1,50 +1,60 @@
 //! A formula at the states of several walls side by side, each in its own branches: the same bits as one after another.
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdFrom, f64x4};
+use fearless_simd::{Select, Simd, SimdFloat, SimdMask, f64x4, f64x8};
 
 use crate::expression::Function;
 use crate::number::product_of_equals;
-use crate::power::powers;
+use crate::power::{Real, powers};
 use crate::program::{Program, STACK, Step, Tape, VARIABLES};
 use crate::switch::{Branches, SwitchUse};
 
-type F<S> = f64x4<S>;
+/// Numbers of walls side by side in a vector register: of four, or of eight.
+pub trait Lanes: Real + SimdFloat<<Self as Lanes>::Token, Element = f64> {
+    /// Vector instructions that go with it.
+    type Token: Simd;
 
-/// How many walls go side by side.
-pub const LANES: usize = 4;
+    /// A number of every lane by its place.
+    #[inline(always)]
+    #[must_use]
+    fn of_each(simd: Self::Token, mut of: impl FnMut(usize) -> f64) -> Self {
+        let mut numbers = [0.0; MOST_LANES];
+        numbers[..Self::LEN].iter_mut().enumerate().for_each(|(i, number)| *number = of(i));
+        Self::from_slice(simd, &numbers[..Self::LEN])
+    }
+}
 
-/// The branches of each lane.
-pub type LaneBranches<'b> = [&'b Branches; LANES];
+impl<S: Simd> Lanes for f64x4<S> {
+    type Token = S;
+}
+impl<S: Simd> Lanes for f64x8<S> {
+    type Token = S;
+}
+
+/// Walls that go side by side at most.
+pub const MOST_LANES: usize = 8;
+
+/// The branches of each lane; those beyond the width of the numbers are not looked at.
+pub type LaneBranches<'b> = [&'b Branches; MOST_LANES];
 
 /// Numbers that wait on the stack of most formulas at most.
 const SMALL_STACK: usize = 8;
 
-/// A number of every lane.
-#[inline(always)]
-fn lanes<S: Simd>(simd: S, of: impl FnMut(usize) -> f64) -> F<S> {
-    F::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
-}
-
 impl Program {
     /// As [`Program::value`], of every lane.
     #[inline(always)]
-    pub fn values<S: Simd>(&self, state: [F<S>; VARIABLES], branches: LaneBranches) -> F<S> {
+    pub fn values<F: Lanes>(&self, state: [F; VARIABLES], branches: LaneBranches) -> F {
         if self.stack <= SMALL_STACK {
-            self.tape.run_lanes::<S, SMALL_STACK>(state, branches)
+            self.tape.run_lanes::<F, SMALL_STACK>(state, branches)
         } else {
-            self.tape.run_lanes::<S, STACK>(state, branches)
+            self.tape.run_lanes::<F, STACK>(state, branches)
         }
     }
 }
 
 impl Tape {
     #[inline(always)]
-    fn run_lanes<S: Simd, const SIZE: usize>(
-        &self,
-        state: [F<S>; VARIABLES],
-        branches: LaneBranches,
-    ) -> F<S> {
-        let simd = state[0].simd;
+    fn run_lanes<F: Lanes, const SIZE: usize>(&self, state: [F; VARIABLES], branches: LaneBranches) -> F {
+        let simd = state[0].token();
         let mut stack = [F::splat(simd, 0.0); SIZE];
         let mut top = 0;
         for step in &self.0 {
@@ -68,16 +78,16 @@ impl Tape {
 
 impl Step {
     #[inline(always)]
-    fn of_one_lanes<S: Simd>(&self, a: F<S>, branches: LaneBranches) -> F<S> {
+    fn of_one_lanes<F: Lanes>(&self, a: F, branches: LaneBranches) -> F {
         match self {
             Step::Negative => -a,
             Step::WholePower(exponent) => whole_powers(a, *exponent),
-            Step::Abs(switch) => match frozen_signs(a.simd, *switch, branches) {
+            Step::Abs(switch) => match frozen_signs::<F>(a.token(), *switch, branches) {
                 // Times 1 or -1 is what a branch does, to the bit.
                 Some(signs) => a * signs,
                 None => self.of_one_by_one(a, branches),
             },
-            Step::Sign(switch) => match frozen_signs(a.simd, *switch, branches) {
+            Step::Sign(switch) => match frozen_signs::<F>(a.token(), *switch, branches) {
                 Some(signs) => signs,
                 None => self.of_one_by_one(a, branches),
             },
@@ -87,7 +97,7 @@ impl Step {
     }
 
     #[inline(always)]
-    fn of_two_lanes<S: Simd>(&self, a: F<S>, b: F<S>, branches: LaneBranches) -> F<S> {
+    fn of_two_lanes<F: Lanes>(&self, a: F, b: F, branches: LaneBranches) -> F {
         match self {
             Step::Add => a + b,
             Step::Subtract => a - b,
@@ -100,49 +110,49 @@ impl Step {
 
     /// One lane after another.
     #[inline(never)]
-    fn of_one_by_one<S: Simd>(&self, a: F<S>, branches: LaneBranches) -> F<S> {
-        let a_of = <[f64; LANES]>::from(a);
-        lanes(a.simd, |i| self.of_one(a_of[i], branches[i]))
+    fn of_one_by_one<F: Lanes>(&self, a: F, branches: LaneBranches) -> F {
+        let a_of = a.as_slice();
+        F::of_each(a.token(), |i| self.of_one(a_of[i], branches[i]))
     }
 
     /// The same of two numbers.
     #[inline(never)]
-    fn of_two_by_one<S: Simd>(&self, a: F<S>, b: F<S>, branches: LaneBranches) -> F<S> {
-        let (a_of, b_of) = (<[f64; LANES]>::from(a), <[f64; LANES]>::from(b));
-        lanes(a.simd, |i| self.of_two(a_of[i], b_of[i], branches[i]))
+    fn of_two_by_one<F: Lanes>(&self, a: F, b: F, branches: LaneBranches) -> F {
+        let (a_of, b_of) = (a.as_slice(), b.as_slice());
+        F::of_each(a.token(), |i| self.of_two(a_of[i], b_of[i], branches[i]))
     }
 }
 
 /// The signs of a switch, where no lane has it free or at zero.
 #[inline(always)]
-fn frozen_signs<S: Simd>(simd: S, switch: Option<SwitchUse>, branches: LaneBranches) -> Option<F<S>> {
-    let of = branches.map(|branches| branches.seen_by(switch).sign());
-    of.iter().all(|sign| *sign != 0.0).then(|| F::simd_from(simd, of))
+fn frozen_signs<F: Lanes>(simd: F::Token, switch: Option<SwitchUse>, branches: LaneBranches) -> Option<F> {
+    let of = F::of_each(simd, |i| branches[i].seen_by(switch).sign());
+    of.simd_eq(0.0).all_false().then_some(of)
 }
 
 /// What roots are taken of: zero in the place of negative numbers in lanes whose branches are frozen.
 #[inline(always)]
-fn root_arguments<S: Simd>(a: F<S>, branches: LaneBranches) -> F<S> {
-    let frozen = lanes(a.simd, |i| f64::from(u8::from(branches[i].is_frozen())));
-    (frozen.simd_eq(1.0) & a.simd_lt(0.0)).select(F::splat(a.simd, 0.0), a)
+fn root_arguments<F: Lanes>(a: F, branches: LaneBranches) -> F {
+    let frozen = F::of_each(a.token(), |i| f64::from(u8::from(branches[i].is_frozen())));
+    (frozen.simd_eq(1.0) & a.simd_lt(0.0)).select(F::splat(a.token(), 0.0), a)
 }
 
 /// As the quotient of two numbers.
 #[inline(always)]
-fn quotient<S: Simd>(a: F<S>, b: F<S>) -> F<S> {
-    b.simd_eq(0.0).select(F::splat(a.simd, f64::NAN), a / b)
+fn quotient<F: Lanes>(a: F, b: F) -> F {
+    b.simd_eq(0.0).select(F::splat(a.token(), f64::NAN), a / b)
 }
 
 /// As the power of two numbers: none that is too large for one.
 #[inline(always)]
-fn finite<S: Simd>(a: F<S>) -> F<S> {
-    a.abs().simd_le(f64::MAX).select(a, F::splat(a.simd, f64::NAN))
+fn finite<F: Lanes>(a: F) -> F {
+    a.abs().simd_le(f64::MAX).select(a, F::splat(a.token(), f64::NAN))
 }
 
 /// As the whole power of a number.
 #[inline(always)]
-fn whole_powers<S: Simd>(a: F<S>, exponent: i32) -> F<S> {
-    let one = F::splat(a.simd, 1.0);
+fn whole_powers<F: Lanes>(a: F, exponent: i32) -> F {
+    let one = F::splat(a.token(), 1.0);
     let power = product_of_equals(a, exponent.unsigned_abs(), |a, b| a * b).unwrap_or(one);
     if exponent < 0 { quotient(one, power) } else { power }
 }
@@ -153,7 +163,17 @@ mod tests {
 
     use super::*;
     use crate::power::tests::levels;
-    use crate::{Formula, Parameter, Place};
+    use crate::{Formula, Parameter, Place, State};
+
+    fn values<F: Lanes>(
+        simd: F::Token,
+        program: &Program,
+        walls: &[(usize, Branches)],
+        at: &impl Fn(usize) -> State,
+    ) -> Vec<f64> {
+        let state = std::array::from_fn(|j| F::of_each(simd, |i| at(walls[i].0)[j]));
+        program.values(state, std::array::from_fn(|i| &walls[i].1)).as_slice().to_vec()
+    }
 
     /// Every step of a tape, at states of either side of every switch and on them, in branches that are free, those of
     /// the state and those of the state before.
@@ -193,16 +213,16 @@ mod tests {
                 [(k, Branches::FREE), (k, frozen(k)), (k, frozen(k + 9))]
             });
             let all = branches.collect::<Vec<_>>();
-            for four in all.windows(LANES) {
-                let alone: [f64; LANES] = std::array::from_fn(|i| program.value(at(four[i].0), &four[i].1));
+            for walls in all.windows(MOST_LANES) {
+                let alone: [f64; MOST_LANES] =
+                    std::array::from_fn(|i| program.value(at(walls[i].0), &walls[i].1));
                 for level in levels() {
-                    let found: [f64; LANES] = dispatch!(level, simd => {
-                        let state = std::array::from_fn(|j| lanes(simd, |i| at(four[i].0)[j]));
-                        program.values(state, std::array::from_fn(|i| &four[i].1)).into()
-                    });
-                    for (found, alone) in found.iter().zip(alone) {
+                    let four = dispatch!(level, simd => values::<f64x4<_>>(simd, program, walls, &at));
+                    let eight = dispatch!(level, simd => values::<f64x8<_>>(simd, program, walls, &at));
+                    assert_eq!((four.len(), eight.len()), (4, MOST_LANES));
+                    for (found, alone) in four.iter().zip(alone).chain(eight.iter().zip(alone)) {
                         let same = found.to_bits() == alone.to_bits() || found.is_nan() && alone.is_nan();
-                        assert!(same, "{text} at {four:?} by {level:?}: {found} and {alone}");
+                        assert!(same, "{text} at {walls:?} by {level:?}: {found} and {alone}");
                     }
                 }
             }

@@ -55,7 +55,7 @@ pub use error::FormulaError;
 pub use expression::{Expression, Function, Operator};
 pub use formula::{Formula, Parameter, Place};
 pub use jump::Jump;
-pub use lanes::{LANES, LaneBranches};
+pub use lanes::{LaneBranches, Lanes, MOST_LANES};
 pub use program::{MOST_STATES, MOST_SWITCHES, Program, State, VARIABLES, state};
 pub use range::Range;
 pub use switch::{Branch, Branches, Switch, SwitchAt};

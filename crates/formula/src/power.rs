@@ -6,10 +6,14 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use fearless_simd::{Bytes, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask, f64x4, i64x4};
+use fearless_simd::{Bytes, Simd, SimdBase, SimdFloat, SimdMask, f64x4, f64x8, i64x4, i64x8};
+
+use crate::lanes::Lanes;
 
 /// What powers calculate with.
-trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> {
+pub trait Real:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
     /// The same constant beside this number.
     fn beside(self, value: f64) -> Self;
     /// This number times a factor, less another, rounded once.
@@ -128,16 +132,15 @@ pub(crate) fn power(x: f64, n: f64) -> f64 {
 
 /// The same of every lane.
 #[inline(always)]
-pub(crate) fn powers<S: Simd>(x: f64x4<S>, n: f64x4<S>) -> f64x4<S> {
+pub(crate) fn powers<F: Lanes>(x: F, n: F) -> F {
     let (powers, y) = regular(x, n);
     let is_regular = x.simd_ge(f64::MIN_POSITIVE) & x.simd_le(f64::MAX) & y.abs().simd_le(LARGEST_LOGARITHM);
     if is_regular.all_true() { powers } else { powers_one_by_one(x, n) }
 }
 
 #[cold]
-fn powers_one_by_one<S: Simd>(x: f64x4<S>, n: f64x4<S>) -> f64x4<S> {
-    let (of, to): ([f64; 4], [f64; 4]) = (x.into(), n.into());
-    f64x4::simd_from(x.simd, std::array::from_fn::<f64, 4, _>(|i| power(of[i], to[i])))
+fn powers_one_by_one<F: Lanes>(x: F, n: F) -> F {
+    F::of_each(x.token(), |i| power(x[i], n[i]))
 }
 
 impl Real for f64 {
@@ -164,34 +167,42 @@ impl Real for f64 {
     }
 }
 
-impl<S: Simd> Real for f64x4<S> {
-    #[inline(always)]
-    fn beside(self, value: f64) -> Self {
-        Self::splat(self.simd, value)
-    }
-    #[inline(always)]
-    fn times_less(self, factor: Self, other: Self) -> Self {
-        self.mul_sub_precise(factor, other)
-    }
-    #[inline(always)]
-    fn parts(self) -> (Self, Self) {
-        let bits = self.bitcast::<i64x4<S>>();
-        let e = (bits - BITS_OF_ROOT) >> FRACTION_BITS;
-        let m = bits - (e << FRACTION_BITS);
-        ((e + BITS_OF_WHOLE).bitcast::<Self>() - WHOLE, m.bitcast())
-    }
-    #[inline(always)]
-    fn times_two_to(self, k: Self) -> Self {
-        let k = (k + WHOLE).bitcast::<i64x4<S>>() - BITS_OF_WHOLE;
-        self * ((k << FRACTION_BITS) + BITS_OF_ONE).bitcast::<Self>()
-    }
+macro_rules! real_lanes {
+    ($lanes:ident, $bits:ident) => {
+        impl<S: Simd> Real for $lanes<S> {
+            #[inline(always)]
+            fn beside(self, value: f64) -> Self {
+                Self::splat(self.simd, value)
+            }
+            #[inline(always)]
+            fn times_less(self, factor: Self, other: Self) -> Self {
+                self.mul_sub_precise(factor, other)
+            }
+            #[inline(always)]
+            fn parts(self) -> (Self, Self) {
+                let bits = self.bitcast::<$bits<S>>();
+                let e = (bits - BITS_OF_ROOT) >> FRACTION_BITS;
+                let m = bits - (e << FRACTION_BITS);
+                ((e + BITS_OF_WHOLE).bitcast::<Self>() - WHOLE, m.bitcast())
+            }
+            #[inline(always)]
+            fn times_two_to(self, k: Self) -> Self {
+                let k = (k + WHOLE).bitcast::<$bits<S>>() - BITS_OF_WHOLE;
+                self * ((k << FRACTION_BITS) + BITS_OF_ONE).bitcast::<Self>()
+            }
+        }
+    };
 }
+
+real_lanes!(f64x4, i64x4);
+real_lanes!(f64x8, i64x8);
 
 #[cfg(test)]
 pub(crate) mod tests {
     use fearless_simd::{Level, dispatch};
 
     use super::*;
+    use crate::lanes::MOST_LANES;
 
     /// The vector instructions of this processor, and those of lesser ones that it has too.
     pub(crate) fn levels() -> Vec<Level> {
@@ -258,16 +269,18 @@ pub(crate) mod tests {
     #[test]
     fn analytic_lanes_have_the_bits_of_one_number() {
         let all = pairs().chain([(0.0, 1.5), (1e-310, 0.3), (2.0, 1e4)]).collect::<Vec<_>>();
-        for four in all.chunks_exact(4) {
-            let alone: [f64; 4] = std::array::from_fn(|i| power(four[i].0, four[i].1));
+        for pairs in all.chunks_exact(MOST_LANES) {
+            let alone = pairs.iter().map(|(x, n)| power(*x, *n).to_bits()).collect::<Vec<_>>();
             for level in levels() {
-                let found: [f64; 4] = dispatch!(level, simd => {
-                    let of = |i: usize| if i < 4 { four[i].0 } else { four[i - 4].1 };
-                    let [x, n] = [0, 4].map(|first| f64x4::simd_from(simd, std::array::from_fn::<f64, 4, _>(|i| of(first + i))));
-                    powers(x, n).into()
-                });
-                assert_eq!(found.map(f64::to_bits), alone.map(f64::to_bits), "{four:?} by {level:?}");
+                let four = dispatch!(level, simd => bits_of_powers::<f64x4<_>>(simd, pairs));
+                let eight = dispatch!(level, simd => bits_of_powers::<f64x8<_>>(simd, pairs));
+                assert_eq!((&four[..], &eight[..]), (&alone[..4], &alone[..]), "{pairs:?} by {level:?}");
             }
         }
+    }
+
+    fn bits_of_powers<F: Lanes>(simd: F::Token, pairs: &[(f64, f64)]) -> Vec<u64> {
+        let [x, n] = [F::of_each(simd, |i| pairs[i].0), F::of_each(simd, |i| pairs[i].1)];
+        powers(x, n).as_slice().iter().map(|power| power.to_bits()).collect()
     }
 }

@@ -3,8 +3,9 @@
 //!
 //! Rounded once on every processor: one without the instruction takes longer and gives the same bits.
 
-use fearless_simd::{Simd, SimdFloat, f64x4};
 use wide::f64x2;
+
+use crate::lanes::Lanes;
 
 /// a b + c.
 #[inline(always)]
@@ -21,6 +22,6 @@ pub(crate) fn fused_pair(a: f64x2, b: f64x2, c: f64x2) -> f64x2 {
 
 /// The same of the lanes of several walls.
 #[inline(always)]
-pub(crate) fn fused_lanes<S: Simd>(a: f64x4<S>, b: f64x4<S>, c: f64x4<S>) -> f64x4<S> {
+pub(crate) fn fused_lanes<F: Lanes>(a: F, b: F, c: F) -> F {
     a.mul_add_precise(b, c)
 }

@@ -17,6 +17,16 @@ pub(crate) fn lanes_pay(level: Level) -> bool {
     pay
 }
 
+/// How many walls step side by side.
+pub(crate) fn lanes_of(level: Level) -> usize {
+    #[cfg(target_arch = "x86_64")]
+    if level.as_avx512().is_some() {
+        return 8;
+    }
+    let _ = level;
+    4
+}
+
 /// Does an operation by the vector instructions of a token.
 #[cfg(target_arch = "x86_64")]
 macro_rules! vectorized {
@@ -49,19 +59,25 @@ macro_rules! dispatch {
     }};
 }
 
-/// The same where only lanes that pay are asked for.
+/// The same where only lanes that pay are asked for. `$lanes` are the numbers side by side: the widest where registers are as wide,
+/// four elsewhere.
 macro_rules! dispatch_lanes {
-    ($level:expr, $simd:pat => $operation:expr) => {{
+    ($level:expr, $lanes:ident of $widest:ident, $simd:pat => $operation:expr) => {{
         #[cfg(target_arch = "x86_64")]
         let done = if let Some(avx512) = fearless_simd::Level::as_avx512($level) {
+            use fearless_simd::$widest as $lanes;
             crate::instructions::vectorized!(avx512, $simd => $operation)
         } else if let Some(avx2) = fearless_simd::Level::as_avx2($level) {
+            use fearless_simd::f64x4 as $lanes;
             crate::instructions::vectorized!(avx2, $simd => $operation)
         } else {
             unreachable!("walls go one after another where lanes do not pay")
         };
         #[cfg(not(target_arch = "x86_64"))]
-        let done = fearless_simd::dispatch!($level, $simd => $operation);
+        let done = {
+            use fearless_simd::f64x4 as $lanes;
+            fearless_simd::dispatch!($level, $simd => $operation)
+        };
         done
     }};
 }

@@ -1,30 +1,68 @@
 //! Numbers of several walls side by side, in the lanes of vector registers and in memory.
 
-use fearless_simd::{Select, Simd, SimdFrom, f64x4, mask64x4};
+use std::ops::{Deref, DerefMut};
 
-/// Walls side by side. Eight were tried. In registers of AVX2 they took 1.1 times as long: two of five instructions went to
-/// the stack and back. In those of AVX-512, of a processor that does them half by half, they took 0.94 of the time on sharp edges, but
-/// 1.1 times as long on beds and 1.2 times as long alone.
-pub(crate) const LANES: usize = 4;
+use fearless_simd::{ExtractToken, Select};
+pub(crate) use mrbd_formula::Lanes;
 
-/// One number of every wall of a row, in memory.
-pub(crate) type Numbers = [f64; LANES];
+use crate::model::number::Number;
 
-/// One number of every lane.
-#[inline(always)]
-pub(crate) fn lanes<S: Simd>(simd: S, of: impl Fn(usize) -> f64) -> f64x4<S> {
-    f64x4::simd_from(simd, std::array::from_fn::<f64, LANES, _>(of))
+/// Walls side by side at most. Processors with registers for eight numbers take eight, others four: eight in two registers each
+/// took 1.1 times as long, for two of five instructions went to the stack and back.
+pub(crate) const LANES: usize = mrbd_formula::MOST_LANES;
+
+/// One number of every wall of a row, in memory; the first few where fewer go side by side. Where registers are as long as what the
+/// processor fetches at once, numbers that began elsewhere would be fetched twice.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(align(64))]
+pub(crate) struct Numbers(pub [f64; LANES]);
+
+impl Deref for Numbers {
+    type Target = [f64; LANES];
+
+    #[inline(always)]
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
 }
 
-/// Numbers of a row in a register.
-#[inline(always)]
-pub(crate) fn from_row<S: Simd>(simd: S, numbers: &Numbers) -> f64x4<S> {
-    f64x4::simd_from(simd, *numbers)
+impl DerefMut for Numbers {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        &mut self.0
+    }
 }
+
+/// Numbers of walls side by side that laws calculate with, and that rows of them keep in memory.
+pub(crate) trait Wide: Lanes + Number {
+    /// Numbers of a row in a register.
+    #[inline(always)]
+    fn of_row(simd: Self::Token, numbers: &Numbers) -> Self {
+        Self::from_slice(simd, &numbers[..Self::LEN])
+    }
+
+    /// Puts numbers in a row.
+    #[inline(always)]
+    fn put(self, numbers: &mut Numbers) {
+        self.store_slice(&mut numbers[..Self::LEN]);
+    }
+
+    /// The numbers in memory.
+    #[inline(always)]
+    fn numbers(self) -> Numbers {
+        let mut numbers = Numbers::default();
+        self.put(&mut numbers);
+        numbers
+    }
+}
+
+impl<F: Lanes + Number> Wide for F {}
 
 /// Exchanges the numbers of some lanes.
 #[inline(always)]
-pub(crate) fn exchange<S: Simd>(simd: S, which: mask64x4<S>, here: &mut Numbers, there: &mut Numbers) {
-    let (first, second) = (from_row(simd, here), from_row(simd, there));
-    (*here, *there) = (which.select(second, first).into(), which.select(first, second).into());
+pub(crate) fn exchange<F: Wide>(which: F::Mask, here: &mut Numbers, there: &mut Numbers) {
+    let simd = which.token();
+    let (first, second) = (F::of_row(simd, here), F::of_row(simd, there));
+    which.select(second, first).put(here);
+    which.select(first, second).put(there);
 }

@@ -4,8 +4,6 @@
 //! The same sums in the same order as in [`super::impact`], for walls on sharp edges under the law of impacts
 //! [`super::ImpactLaw::Whole`].
 
-use fearless_simd::{Simd, SimdBase, f64x4, mask64x4};
-
 use super::geometry::{Arms, TurnedArms};
 use super::impact::ROUNDING;
 use super::joint_forces::Masses;
@@ -13,9 +11,7 @@ use super::mass_matrix::{Freedom, MassMatrix};
 use super::rocking::RockingWall;
 use super::side_by_side::{ConfigurationLanes, Motions, sin_cos_lanes};
 use super::vector::Vector;
-use crate::lanes::{Numbers, from_row};
-
-type F<S> = f64x4<S>;
+use crate::lanes::{Numbers, Wide};
 
 /// Masses of the walls of a row, and where these are.
 #[derive(Debug, Default)]
@@ -29,15 +25,15 @@ pub(crate) struct CrackRow {
 }
 
 /// What an impact leaves: velocities and the loss of energy.
-pub(crate) struct CrackImpact<S: Simd> {
-    pub omega: [F<S>; 2],
-    pub loss_j: F<S>,
+pub(crate) struct CrackImpact<F: Wide> {
+    pub omega: [F; 2],
+    pub loss_j: F,
 }
 
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHER> {
+impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHER> {
     /// As [`super::motion::Motion::mass_matrix`].
     #[inline(always)]
-    pub(super) fn mass_matrix(&self, t: &ConfigurationLanes<S>) -> MassMatrix<F<S>> {
+    pub(super) fn mass_matrix(&self, t: &ConfigurationLanes<F>) -> MassMatrix<F> {
         MassMatrix {
             m11: self.inertias[0] + t.q[1] * t.q[1] * self.m_dp,
             m12: (t.q[0] * t.u[0] + t.q[1] * t.u[1]) + self.m_dp * t.q[1] * t.c[1],
@@ -60,8 +56,8 @@ impl CrackRow {
     }
 
     #[inline(always)]
-    fn masses<S: Simd>(&self, m_dp: F<S>) -> Masses<F<S>> {
-        let of = |numbers: &Numbers| from_row(m_dp.simd, numbers);
+    fn masses<F: Wide>(&self, m_dp: F) -> Masses<F> {
+        let of = |numbers: &Numbers| F::of_row(m_dp.token(), numbers);
         Masses {
             m: [of(&self.masses_kg[0]), of(&self.masses_kg[1])],
             i: [of(&self.inertias_kg_m2[0]), of(&self.inertias_kg_m2[1])],
@@ -72,9 +68,9 @@ impl CrackRow {
 
     /// As [`Arms::new`] has them of the contact states of these motions.
     #[inline(always)]
-    fn arms<S: Simd, const AS_ONE: bool>(&self, motions: &Motions<S, AS_ONE, false>) -> Arms<F<S>> {
-        let half = |body: usize| from_row(motions.o_x.simd, &self.halves_m[body]);
-        let vector = |[x, y]: [F<S>; 2]| Vector::new(x, y);
+    fn arms<F: Wide, const AS_ONE: bool>(&self, motions: &Motions<F, AS_ONE, false>) -> Arms<F> {
+        let half = |body: usize| F::of_row(motions.o_x.token(), &self.halves_m[body]);
+        let vector = |[x, y]: [F; 2]| Vector::new(x, y);
         Arms {
             o_x: motions.o_x,
             g1: vector([-motions.o_x, half(0)]),
@@ -88,30 +84,31 @@ impl CrackRow {
     /// What impacts of walls that turn by θ leave of the velocities, whose cracks open on these sides after, and which of them are
     /// surely so. As [`RockingWall::impact`] where the outcome is struck through.
     #[inline(always)]
-    pub fn strike<S: Simd, const AS_ONE: bool>(
+    pub fn strike<F: Wide, const AS_ONE: bool>(
         &self,
-        [from, to]: [&Motions<S, AS_ONE, false>; 2],
-        (theta, omega): (F<S>, [F<S>; 2]),
-        side: F<S>,
-        [coefficient, capture_rad_s]: [F<S>; 2],
-    ) -> (CrackImpact<S>, mask64x4<S>) {
-        let all = |value: f64| F::splat(theta.simd, value);
+        [from, to]: [&Motions<F, AS_ONE, false>; 2],
+        (theta, omega): (F, [F; 2]),
+        side: F,
+        [coefficient, capture_rad_s]: [F; 2],
+    ) -> (CrackImpact<F>, F::Mask) {
+        let all = |value: f64| F::splat(theta.token(), value);
         let (turns, masses) = ([sin_cos_lanes(theta); 2], self.masses(from.m_dp));
         let before = TurnedArms::new(&self.arms(from), turns).velocities(omega);
         let least = all(f64::MIN_POSITIVE);
         let speed = omega[0].abs().max_precise(least).max_precise(omega[1].abs().max_precise(least));
-        let size = (masses.momentum_size(&before) * from_row(theta.simd, &self.slimness)).max_precise(least);
+        let size =
+            (masses.momentum_size(&before) * F::of_row(theta.token(), &self.slimness)).max_precise(least);
         let arms = TurnedArms::new(&self.arms(to), turns);
         let mass = to.mass_matrix(&to.turned(turns));
         let plastic = mass.solve(Freedom::Both, masses.momenta(&arms, &before));
         let opening = plastic[1] - plastic[0];
         let separates = (side * opening / speed).simd_gt(ROUNDING);
         let impulses = masses.through_joints(&arms, &arms.velocities(plastic).minus(before), all(0.0));
-        let pushed = |normal: F<S>| normal.simd_gt(size * ROUNDING);
+        let pushed = |normal: F| normal.simd_gt(size * ROUNDING);
         let sure = separates & pushed(impulses.ground.normal) & pushed(impulses.crack.normal);
         let turns_on = sure & opening.abs().simd_ge(capture_rad_s);
         // From what the law cannot see: nothing.
-        let scaled = |plastic: F<S>| all(0.0) + coefficient * (plastic - all(0.0));
+        let scaled = |plastic: F| all(0.0) + coefficient * (plastic - all(0.0));
         let after = [scaled(plastic[0]), scaled(plastic[1])];
         let before_j = from.mass_matrix(&from.turned(turns)).quadratic(omega) * 0.5;
         (CrackImpact { omega: after, loss_j: before_j - mass.quadratic(after) * 0.5 }, turns_on)

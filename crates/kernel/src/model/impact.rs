@@ -4,7 +4,7 @@
 //! onto the velocities that the new contact state allows. The coefficient of the change of pattern then
 //! scales them.
 
-use fearless_simd::Simd;
+use fearless_simd::{Simd, f64x4};
 
 use super::MechanicsError;
 use super::Table2Change;
@@ -14,7 +14,9 @@ use super::joint_forces::JointForces;
 use super::parameters::ImpactLaw;
 use super::rocking::{RockingWall, State, opening};
 use crate::instructions::dispatch;
-use crate::lanes::LANES;
+
+/// Contact states side by side.
+pub(super) const BESIDE: usize = 4;
 
 /// Separations and impulses within this share of the motion before count as zero: some hundred roundings.
 pub(super) const ROUNDING: f64 = 1e-13;
@@ -194,7 +196,7 @@ impl RockingWall {
             count += 1;
         }
         let (mut any, mut tie) = (false, None::<(Contact, Pair)>);
-        for four in candidates[..count].chunks(LANES) {
+        for four in candidates[..count].chunks(BESIDE) {
             for (&to, (margin, omega)) in four.iter().zip(self.margins(simd, four, collision)) {
                 let fewer = |(tied, _): (Contact, Pair)| to.open_joints() < tied.open_joints();
                 if margin > ROUNDING {
@@ -212,17 +214,17 @@ impl RockingWall {
 
     /// By how much up to four contact states are admissible, and the velocities in them.
     #[inline(always)]
-    fn margins<S: Simd>(&self, simd: S, four: &[Contact], collision: &Collision) -> [(f64, Pair); LANES] {
+    fn margins<S: Simd>(&self, simd: S, four: &[Contact], collision: &Collision) -> [(f64, Pair); BESIDE] {
         if let [one] = four {
             // The last of nine by itself costs less than four times.
-            return [self.margin(*one, collision); LANES];
+            return [self.margin(*one, collision); BESIDE];
         }
         let last = four.len() - 1;
         let to = [four[0], four[last.min(1)], four[last.min(2)], four[last]];
         if self.wall().rolls() {
             return to.map(|to| self.margin(to, collision));
         }
-        self.margins_on_edges(simd, &to, collision)
+        self.margins_on_edges::<f64x4<_>>(simd, &to, collision)
     }
 
     /// By how much a contact state is admissible, and the velocities in it. The margin is the smallest corner

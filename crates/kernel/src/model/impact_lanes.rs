@@ -2,52 +2,50 @@
 //!
 //! The same sums in the same order as in [`super::impact`], state by state.
 
-use fearless_simd::{Select, Simd, SimdBase, f64x4, mask64x4};
+use fearless_simd::Select;
 
 use super::contact::{Contact, Joint};
 use super::geometry::{Arms, Pair, PointVelocities, TurnedArms};
-use super::impact::{Collision, ROUNDING};
+use super::impact::{BESIDE, Collision, ROUNDING};
 use super::joint_forces::{JointForce, Masses};
 use super::mass_matrix::{Freedom, MassMatrix};
 use super::rocking::RockingWall;
 use super::vector::Vector;
-use crate::lanes::{LANES, lanes};
-
-type F<S> = f64x4<S>;
+use crate::lanes::Wide;
 
 /// Contact states of a wall on sharp edges.
-struct Candidates<'a, S: Simd> {
-    simd: S,
+struct Candidates<'a, F: Wide> {
+    simd: F::Token,
     wall: &'a RockingWall,
     /// Sides on which the joint at the ground and that at the crack are open.
-    sides: [F<S>; 2],
+    sides: [F; 2],
 }
 
-impl<'a, S: Simd> Candidates<'a, S> {
+impl<'a, F: Wide> Candidates<'a, F> {
     #[inline(always)]
-    fn new(simd: S, wall: &'a RockingWall, to: &[Contact; LANES]) -> Self {
-        let sides = [lanes(simd, |i| to[i].ground.sign()), lanes(simd, |i| to[i].crack.sign())];
+    fn new(simd: F::Token, wall: &'a RockingWall, to: &[Contact; BESIDE]) -> Self {
+        let sides = [F::of_each(simd, |i| to[i].ground.sign()), F::of_each(simd, |i| to[i].crack.sign())];
         Self { simd, wall, sides }
     }
 
     #[inline(always)]
-    fn all(&self, value: f64) -> F<S> {
+    fn all(&self, value: f64) -> F {
         F::splat(self.simd, value)
     }
 
     #[inline(always)]
-    fn vector(&self, of: Vector) -> Vector<F<S>> {
+    fn vector(&self, of: Vector) -> Vector<F> {
         Vector::new(self.all(of.x), self.all(of.y))
     }
 
     /// The lanes in which a joint is closed.
     #[inline(always)]
-    fn closed(&self, joint: Joint) -> mask64x4<S> {
+    fn closed(&self, joint: Joint) -> F::Mask {
         self.sides[joint as usize].simd_eq(0.0)
     }
 
     #[inline(always)]
-    fn masses(&self) -> Masses<F<S>> {
+    fn masses(&self) -> Masses<F> {
         let Masses { m, i, m_d, m_dp } = self.wall.masses;
         Masses {
             m: [self.all(m[0]), self.all(m[1])],
@@ -58,7 +56,7 @@ impl<'a, S: Simd> Candidates<'a, S> {
     }
 
     #[inline(always)]
-    fn velocities(&self, v: &PointVelocities) -> PointVelocities<F<S>> {
+    fn velocities(&self, v: &PointVelocities) -> PointVelocities<F> {
         PointVelocities {
             g1: self.vector(v.g1),
             g2: self.vector(v.g2),
@@ -71,11 +69,11 @@ impl<'a, S: Simd> Candidates<'a, S> {
     #[inline(always)]
     fn mass_matrix(
         &self,
-        masses: &Masses<F<S>>,
-        arms: &Arms<F<S>>,
-        turned: &TurnedArms<F<S>>,
-        turn_2: (F<S>, F<S>),
-    ) -> MassMatrix<F<S>> {
+        masses: &Masses<F>,
+        arms: &Arms<F>,
+        turned: &TurnedArms<F>,
+        turn_2: (F, F),
+    ) -> MassMatrix<F> {
         let (_, inertias, u) = masses.about_pivots(arms);
         let (u, m_dp) = (u.rotated(turn_2), masses.m_dp);
         let (q, c) = (turned.r_q, turned.r_c);
@@ -88,7 +86,7 @@ impl<'a, S: Simd> Candidates<'a, S> {
 
     /// As [`MassMatrix::solve`] in the rotations that each state leaves free.
     #[inline(always)]
-    fn solved(&self, mass: &MassMatrix<F<S>>, momenta: [F<S>; 2]) -> [F<S>; 2] {
+    fn solved(&self, mass: &MassMatrix<F>, momenta: [F; 2]) -> [F; 2] {
         let whole = mass.solve(Freedom::Monolithic, momenta);
         let upper = mass.solve(Freedom::Upper, momenta);
         let both = mass.solve(Freedom::Both, momenta);
@@ -102,7 +100,7 @@ impl<'a, S: Simd> Candidates<'a, S> {
 
     /// Smallest separation of the joints that touched and are open now; infinite where none is.
     #[inline(always)]
-    fn separation(&self, collision: &Collision, [w1, w2]: [F<S>; 2]) -> F<S> {
+    fn separation(&self, collision: &Collision, [w1, w2]: [F; 2]) -> F {
         let mut least = self.all(f64::INFINITY);
         for (joint, opening) in [(Joint::Ground, w1), (Joint::Crack, w2 - w1)] {
             if collision.touching.at(joint) {
@@ -116,7 +114,7 @@ impl<'a, S: Simd> Candidates<'a, S> {
 
     /// Smallest corner impulse of the joints that are closed; infinite where none is.
     #[inline(always)]
-    fn impulse(&self, through: [&JointForce<F<S>>; 2]) -> F<S> {
+    fn impulse(&self, through: [&JointForce<F>; 2]) -> F {
         let mut least = self.all(f64::INFINITY);
         for joint in self.wall.joints() {
             let JointForce { normal, moment, .. } = through[joint as usize];
@@ -132,13 +130,13 @@ impl<'a, S: Simd> Candidates<'a, S> {
 impl RockingWall {
     /// As [`RockingWall::margin`] of four contact states of a wall on sharp edges.
     #[inline(always)]
-    pub(super) fn margins_on_edges<S: Simd>(
+    pub(super) fn margins_on_edges<F: Wide>(
         &self,
-        simd: S,
-        to: &[Contact; LANES],
+        simd: F::Token,
+        to: &[Contact; BESIDE],
         collision: &Collision,
-    ) -> [(f64, Pair); LANES] {
-        let candidates = Candidates::new(simd, self, to);
+    ) -> [(f64, Pair); BESIDE] {
+        let candidates = Candidates::<F>::new(simd, self, to);
         let turns = collision.rotations.0.map(|(sin, cos)| (candidates.all(sin), candidates.all(cos)));
         let still = Arms::about(self.wall(), candidates.sides);
         let arms = TurnedArms::new(&still, turns);
@@ -151,7 +149,6 @@ impl RockingWall {
         let impulse = candidates.impulse([&through.ground, &through.crack]) / collision.impulse_size;
         let smaller = separation.min_precise(impulse);
         let margin = separation.simd_lt(-ROUNDING).select(separation, smaller);
-        let [margin, first, second] = [margin, omega[0], omega[1]].map(<[f64; LANES]>::from);
-        std::array::from_fn(|i| (margin[i], [first[i], second[i]]))
+        std::array::from_fn(|i| (margin[i], [omega[0][i], omega[1][i]]))
     }
 }

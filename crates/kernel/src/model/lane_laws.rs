@@ -1,6 +1,6 @@
 //! The laws beyond weight and inertia of several walls side by side, and which walls may go together.
 
-use fearless_simd::{Select, Simd, SimdBase, f64x4, mask64x4};
+use fearless_simd::Select;
 
 use super::bed::Acting;
 use super::effect::Lanes;
@@ -9,9 +9,7 @@ use super::laws::Laws;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
 use crate::fused::fused_lanes as fused;
-use crate::lanes::{Numbers, from_row};
-
-type F<S> = f64x4<S>;
+use crate::lanes::{Numbers, Wide};
 
 /// What motions have in common that may step side by side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -150,33 +148,33 @@ impl LawRow {
 
 /// The linear spring at the top, and what else is constant there.
 #[derive(Clone, Copy)]
-pub(super) struct SpringLanes<S: Simd> {
-    stiffness: F<S>,
-    offset: F<S>,
+pub(super) struct SpringLanes<F: Wide> {
+    stiffness: F,
+    offset: F,
 }
 
-impl<S: Simd> SpringLanes<S> {
+impl<F: Wide> SpringLanes<F> {
     #[inline(always)]
-    pub fn new(simd: S, row: &LawRow) -> Self {
-        Self { stiffness: from_row(simd, &row.stiffness), offset: from_row(simd, &row.offset) }
+    pub fn new(simd: F::Token, row: &LawRow) -> Self {
+        Self { stiffness: F::of_row(simd, &row.stiffness), offset: F::of_row(simd, &row.offset) }
     }
 
     /// As [`Laws::spring_force_n`] of a linear spring.
     #[inline(always)]
-    pub fn force_n(&self, x_c: F<S>) -> F<S> {
+    pub fn force_n(&self, x_c: F) -> F {
         fused(-self.stiffness, x_c, self.offset)
     }
 }
 
 /// The laws of walls on beds side by side.
-pub(crate) struct LawLanes<S: Simd> {
-    spring: SpringLanes<S>,
-    further: FurtherLanes<S>,
+pub(crate) struct LawLanes<F: Wide> {
+    spring: SpringLanes<F>,
+    further: FurtherLanes<F>,
 }
 
-impl<S: Simd> LawLanes<S> {
+impl<F: Wide> LawLanes<F> {
     #[inline(always)]
-    pub fn new(simd: S, row: &mut LawRow) -> Self {
+    pub fn new(simd: F::Token, row: &mut LawRow) -> Self {
         Self { spring: SpringLanes::new(simd, row), further: FurtherLanes::new(simd, row) }
     }
 
@@ -187,48 +185,48 @@ impl<S: Simd> LawLanes<S> {
     }
 }
 
-impl<S: Simd> Acting<F<S>> for LawLanes<S> {
+impl<F: Wide> Acting<F> for LawLanes<F> {
     #[inline(always)]
-    fn spring_force_n(&self, x_c_m: F<S>) -> F<S> {
+    fn spring_force_n(&self, x_c_m: F) -> F {
         self.further.spring_force_n(&self.spring, x_c_m)
     }
 
     #[inline(always)]
-    fn damping_force_n(&self, x_c_m: F<S>, v_c_m_s: F<S>) -> F<S> {
+    fn damping_force_n(&self, x_c_m: F, v_c_m_s: F) -> F {
         self.further.damping_force_n(x_c_m, v_c_m_s)
     }
 
     #[inline(always)]
-    fn joint_moments_n_m(&self, theta: [F<S>; 2], omega: [F<S>; 2]) -> [F<S>; 2] {
+    fn joint_moments_n_m(&self, theta: [F; 2], omega: [F; 2]) -> [F; 2] {
         self.further.joint_moments_n_m(|| theta, omega)
     }
 }
 
 /// Laws beyond a linear spring: a cubic one, dampers, drag, formulas. A lane without them keeps its sums as they are.
-pub(super) struct FurtherLanes<S: Simd> {
-    cubic: F<S>,
-    linear: mask64x4<S>,
-    viscous: F<S>,
-    drag: F<S>,
-    at_ground: F<S>,
-    at_crack: F<S>,
-    damped: mask64x4<S>,
-    formulas: FormulaLanes<S>,
+pub(super) struct FurtherLanes<F: Wide> {
+    cubic: F,
+    linear: F::Mask,
+    viscous: F,
+    drag: F,
+    at_ground: F,
+    at_crack: F,
+    damped: F::Mask,
+    formulas: FormulaLanes<F>,
 }
 
-impl<S: Simd> FurtherLanes<S> {
+impl<F: Wide> FurtherLanes<F> {
     /// Takes the formulas out of the row, until [`FurtherLanes::put_back`].
     #[inline(always)]
-    pub fn new(simd: S, row: &mut LawRow) -> Self {
-        let cubic = from_row(simd, &row.cubic);
+    pub fn new(simd: F::Token, row: &mut LawRow) -> Self {
+        let cubic = F::of_row(simd, &row.cubic);
         Self {
             cubic,
             linear: cubic.simd_eq(0.0),
-            viscous: from_row(simd, &row.viscous),
-            drag: from_row(simd, &row.drag),
-            at_ground: from_row(simd, &row.joint_damping[0]),
-            at_crack: from_row(simd, &row.joint_damping[1]),
-            damped: from_row(simd, &row.damped).simd_eq(1.0),
+            viscous: F::of_row(simd, &row.viscous),
+            drag: F::of_row(simd, &row.drag),
+            at_ground: F::of_row(simd, &row.joint_damping[0]),
+            at_crack: F::of_row(simd, &row.joint_damping[1]),
+            damped: F::of_row(simd, &row.damped).simd_eq(1.0),
             formulas: FormulaLanes::new(simd, std::mem::take(&mut row.formulas)),
         }
     }
@@ -240,20 +238,20 @@ impl<S: Simd> FurtherLanes<S> {
 
     /// As [`Laws::spring_force_n`].
     #[inline(always)]
-    pub fn spring_force_n(&self, spring: &SpringLanes<S>, x_c: F<S>) -> F<S> {
+    pub fn spring_force_n(&self, spring: &SpringLanes<F>, x_c: F) -> F {
         let secant = fused(self.cubic * x_c, x_c, spring.stiffness);
         self.linear.select(spring.force_n(x_c), fused(-secant, x_c, spring.offset))
     }
 
     /// As [`Laws::damping_force_n`], and that of formulas.
     #[inline(always)]
-    pub fn damping_force_n(&self, x_c: F<S>, v_c: F<S>) -> F<S> {
+    pub fn damping_force_n(&self, x_c: F, v_c: F) -> F {
         self.formulas.with_top_force_n(fused(-self.viscous, v_c, self.drag), x_c, v_c)
     }
 
     /// As [`Laws::joint_moments_n_m`], and those of formulas.
     #[inline(always)]
-    pub fn joint_moments_n_m(&self, theta: impl Fn() -> [F<S>; 2], [w1, w2]: [F<S>; 2]) -> [F<S>; 2] {
+    pub fn joint_moments_n_m(&self, theta: impl Fn() -> [F; 2], [w1, w2]: [F; 2]) -> [F; 2] {
         let at_crack = self.at_crack * (w2 - w1);
         let moments = [fused(-self.at_ground, w1, at_crack), -at_crack];
         self.formulas.with_joint_moments_n_m(moments, theta, [w1, w2])
@@ -261,13 +259,13 @@ impl<S: Simd> FurtherLanes<S> {
 
     /// A number with a further one where a lane is damped, as it is where not.
     #[inline(always)]
-    pub fn with(&self, number: F<S>, further: F<S>) -> F<S> {
+    pub fn with(&self, number: F, further: F) -> F {
         self.damped.select(number + further, number)
     }
 
     #[inline(always)]
-    pub fn where_damped(&self, number: F<S>) -> F<S> {
-        self.damped.select(number, F::splat(number.simd, 0.0))
+    pub fn where_damped(&self, number: F) -> F {
+        self.damped.select(number, F::splat(number.token(), 0.0))
     }
 }
 

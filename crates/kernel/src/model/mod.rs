@@ -23,7 +23,7 @@ mod motion;
 mod motion_energy;
 mod motion_row;
 mod next_contact;
-mod number;
+pub(crate) mod number;
 mod parameters;
 mod regime;
 mod rocking;

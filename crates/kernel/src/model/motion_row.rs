@@ -1,12 +1,10 @@
 //! The motions of the walls of a row in memory, from where [`super::side_by_side`] takes them into registers.
 
-use fearless_simd::{Simd, mask64x4};
-
 use super::bed::BedRow;
 use super::lane_laws::LawRow;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
-use crate::lanes::{Numbers, exchange};
+use crate::lanes::{Numbers, Wide, exchange};
 
 /// The motions of the walls of a row, number by number as registers take them.
 #[derive(Debug, Clone, Default)]
@@ -59,20 +57,20 @@ impl PivotRow {
 
     /// Exchanges those of some lanes.
     #[inline(always)]
-    fn exchange<S: Simd>(&mut self, simd: S, which: mask64x4<S>, other: &mut Self) {
-        exchange(simd, which, &mut self.o_x, &mut other.o_x);
-        exchange(simd, which, &mut self.o_c, &mut other.o_c);
-        exchange(simd, which, &mut self.q_x, &mut other.q_x);
-        exchange(simd, which, &mut self.whole_inertia, &mut other.whole_inertia);
-        exchange(simd, which, &mut self.lower_inertia, &mut other.lower_inertia);
+    fn exchange<F: Wide>(&mut self, which: F::Mask, other: &mut Self) {
+        exchange::<F>(which, &mut self.o_x, &mut other.o_x);
+        exchange::<F>(which, &mut self.o_c, &mut other.o_c);
+        exchange::<F>(which, &mut self.q_x, &mut other.q_x);
+        exchange::<F>(which, &mut self.whole_inertia, &mut other.whole_inertia);
+        exchange::<F>(which, &mut self.lower_inertia, &mut other.lower_inertia);
         for k in 0..2 {
-            exchange(simd, which, &mut self.q[k], &mut other.q[k]);
-            exchange(simd, which, &mut self.c[k], &mut other.c[k]);
-            exchange(simd, which, &mut self.v[k], &mut other.v[k]);
-            exchange(simd, which, &mut self.u[k], &mut other.u[k]);
-            exchange(simd, which, &mut self.whole_arm[k], &mut other.whole_arm[k]);
-            exchange(simd, which, &mut self.whole_moment[k], &mut other.whole_moment[k]);
-            exchange(simd, which, &mut self.inertias[k], &mut other.inertias[k]);
+            exchange::<F>(which, &mut self.q[k], &mut other.q[k]);
+            exchange::<F>(which, &mut self.c[k], &mut other.c[k]);
+            exchange::<F>(which, &mut self.v[k], &mut other.v[k]);
+            exchange::<F>(which, &mut self.u[k], &mut other.u[k]);
+            exchange::<F>(which, &mut self.whole_arm[k], &mut other.whole_arm[k]);
+            exchange::<F>(which, &mut self.whole_moment[k], &mut other.whole_moment[k]);
+            exchange::<F>(which, &mut self.inertias[k], &mut other.inertias[k]);
         }
     }
 }
@@ -97,7 +95,7 @@ impl MotionRow {
 
     /// Turns some walls about their other corners, and keeps what they turned about until then.
     #[inline(always)]
-    pub fn turn_over<S: Simd>(&mut self, simd: S, which: mask64x4<S>, others: &mut PivotRow) {
-        self.pivots.exchange(simd, which, others);
+    pub fn turn_over<F: Wide>(&mut self, which: F::Mask, others: &mut PivotRow) {
+        self.pivots.exchange::<F>(which, others);
     }
 }

@@ -5,7 +5,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4, f64x8};
 
 use super::side_by_side::sin_cos_lanes;
 use super::vector::sin_cos;
@@ -80,39 +80,46 @@ impl Number for f64 {
     }
 }
 
-impl<S: Simd> Number for f64x4<S> {
-    #[inline(always)]
-    fn constant(self, value: f64) -> Self {
-        Self::splat(self.simd, value)
-    }
+macro_rules! number_in_lanes {
+    ($lanes:ident) => {
+        impl<S: Simd> Number for $lanes<S> {
+            #[inline(always)]
+            fn constant(self, value: f64) -> Self {
+                Self::splat(self.simd, value)
+            }
 
-    #[inline(always)]
-    fn fused(self, factor: Self, other: Self) -> Self {
-        fused_lanes(self, factor, other)
-    }
+            #[inline(always)]
+            fn fused(self, factor: Self, other: Self) -> Self {
+                fused_lanes(self, factor, other)
+            }
 
-    #[inline(always)]
-    fn root(self) -> Self {
-        self.sqrt()
-    }
+            #[inline(always)]
+            fn root(self) -> Self {
+                self.sqrt()
+            }
 
-    #[inline(always)]
-    fn magnitude(self) -> Self {
-        self.abs()
-    }
+            #[inline(always)]
+            fn magnitude(self) -> Self {
+                self.abs()
+            }
 
-    #[inline(always)]
-    fn at_least(self, least: Self) -> Self {
-        self.max_precise(least)
-    }
+            #[inline(always)]
+            fn at_least(self, least: Self) -> Self {
+                self.max_precise(least)
+            }
 
-    #[inline(always)]
-    fn choose_up_to(self, limit: f64, within: Self, beyond: Self) -> Self {
-        self.simd_le(limit).select(within, beyond)
-    }
+            #[inline(always)]
+            fn choose_up_to(self, limit: f64, within: Self, beyond: Self) -> Self {
+                self.simd_le(limit).select(within, beyond)
+            }
 
-    #[inline(always)]
-    fn sine_and_cosine(self) -> (Self, Self) {
-        sin_cos_lanes(self)
-    }
+            #[inline(always)]
+            fn sine_and_cosine(self) -> (Self, Self) {
+                sin_cos_lanes(self)
+            }
+        }
+    };
 }
+
+number_in_lanes!(f64x4);
+number_in_lanes!(f64x8);

@@ -10,7 +10,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, SimdMask};
 
 use super::formula::angles;
 use super::joint_forces::{JointForces, Reactions};
@@ -20,132 +20,129 @@ use super::motion_row::MotionRow;
 use super::vector::{COS, SIN, sin_cos};
 use super::wall::G_M_S2;
 use crate::fused::fused_lanes as fused;
-use crate::lanes::{LANES, Numbers, from_row, lanes};
-
-type F<S> = f64x4<S>;
+use crate::lanes::{Numbers, Wide};
 
 /// The motions of several contact states side by side, all of one [`LaneKind`].
-pub(crate) struct Motions<S: Simd, const AS_ONE: bool, const FURTHER: bool> {
-    upper: mask64x4<S>,
+pub(crate) struct Motions<F: Wide, const AS_ONE: bool, const FURTHER: bool> {
+    upper: F::Mask,
     any_upper: bool,
-    pub(super) o_x: F<S>,
-    o_c: F<S>,
-    pub(super) q_x: F<S>,
-    pub(super) q: [F<S>; 2],
-    pub(super) c: [F<S>; 2],
-    v: [F<S>; 2],
-    u: [F<S>; 2],
-    whole_arm: [F<S>; 2],
-    whole_moment: [F<S>; 2],
-    whole_inertia: F<S>,
-    pub(super) inertias: [F<S>; 2],
-    lower_mass: F<S>,
-    upper_mass: F<S>,
-    lower_inertia: F<S>,
-    pub(super) m_dp: F<S>,
-    spring: SpringLanes<S>,
-    further: Option<FurtherLanes<S>>,
+    pub(super) o_x: F,
+    o_c: F,
+    pub(super) q_x: F,
+    pub(super) q: [F; 2],
+    pub(super) c: [F; 2],
+    v: [F; 2],
+    u: [F; 2],
+    whole_arm: [F; 2],
+    whole_moment: [F; 2],
+    whole_inertia: F,
+    pub(super) inertias: [F; 2],
+    lower_mass: F,
+    upper_mass: F,
+    lower_inertia: F,
+    pub(super) m_dp: F,
+    spring: SpringLanes<F>,
+    further: Option<FurtherLanes<F>>,
 }
 
 /// Arms and static moments turned by the rotations.
 #[derive(Clone, Copy)]
-pub(crate) struct ConfigurationLanes<S: Simd> {
-    sin_1: F<S>,
-    cos_1: F<S>,
-    sin_2: F<S>,
-    cos_2: F<S>,
+pub(crate) struct ConfigurationLanes<F: Wide> {
+    sin_1: F,
+    cos_1: F,
+    sin_2: F,
+    cos_2: F,
     /// r_Q, r_C, V, U.
-    pub(super) q: [F<S>; 2],
-    pub(super) c: [F<S>; 2],
-    v: [F<S>; 2],
-    pub(super) u: [F<S>; 2],
+    pub(super) q: [F; 2],
+    pub(super) c: [F; 2],
+    v: [F; 2],
+    pub(super) u: [F; 2],
 }
 
-impl<S: Simd> ConfigurationLanes<S> {
+impl<F: Wide> ConfigurationLanes<F> {
     /// θ_1 and θ_2, to a rounding.
-    fn theta(&self) -> [F<S>; 2] {
-        let of = |sin: F<S>, cos: F<S>| F::simd_from(sin.simd, angles(sin.into(), cos.into()));
-        [of(self.sin_1, self.cos_1), of(self.sin_2, self.cos_2)]
+    fn theta(&self) -> [F; 2] {
+        [angles(self.sin_1, self.cos_1), angles(self.sin_2, self.cos_2)]
     }
 }
 
 /// Angular accelerations of both bodies, the power of the ground and that of losses.
 #[derive(Clone, Copy)]
-pub(crate) struct RateLanes<S: Simd> {
-    pub theta_dd: [F<S>; 2],
-    pub powers_w: [F<S>; 2],
+pub(crate) struct RateLanes<F: Wide> {
+    pub theta_dd: [F; 2],
+    pub powers_w: [F; 2],
 }
 
-struct Equations<S: Simd> {
-    mass: MassMatrix<F<S>>,
-    f: [F<S>; 2],
-    squares: [F<S>; 2],
-    x_c: F<S>,
-    v_c: F<S>,
+struct Equations<F: Wide> {
+    mass: MassMatrix<F>,
+    f: [F; 2],
+    squares: [F; 2],
+    x_c: F,
+    v_c: F,
     /// Of dampers and drag at the top, and with that of the spring.
-    damping: F<S>,
-    spring_and_damping: F<S>,
-    joint_moments: [F<S>; 2],
+    damping: F,
+    spring_and_damping: F,
+    joint_moments: [F; 2],
 }
 
 /// [`Reactions`] of every lane.
 #[derive(Clone, Copy)]
-pub(crate) struct ReactionLanes<S: Simd> {
+pub(crate) struct ReactionLanes<F: Wide> {
     /// Shear, normal force and moment of both joints.
-    pub ground: [F<S>; 3],
-    pub crack: [F<S>; 3],
+    pub ground: [F; 3],
+    pub crack: [F; 3],
     /// Displacement, velocity and acceleration.
-    pub top: [F<S>; 3],
+    pub top: [F; 3],
 }
 
 /// As [`super::vector::Vector::moment_of`].
 #[inline(always)]
-fn moment<S: Simd>(arm: [F<S>; 2], force: [F<S>; 2]) -> F<S> {
+fn moment<F: Wide>(arm: [F; 2], force: [F; 2]) -> F {
     arm[1] * force[0] - arm[0] * force[1]
 }
 
 #[inline(always)]
-fn rotated<S: Simd>([x, y]: [F<S>; 2], sin: F<S>, cos: F<S>) -> [F<S>; 2] {
+fn rotated<F: Wide>([x, y]: [F; 2], sin: F, cos: F) -> [F; 2] {
     [x * cos + y * sin, y * cos - x * sin]
 }
 
 #[inline(always)]
-pub(crate) fn sin_cos_lanes<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
+pub(crate) fn sin_cos_lanes<F: Wide>(theta: F) -> (F, F) {
     if theta.abs().simd_gt(FRAC_PI_4).any_true() {
         return library_sin_cos(theta);
     }
     let z = theta * theta;
     let zz = z * z;
-    let [one, minus_half] = [F::splat(theta.simd, 1.0), F::splat(theta.simd, -0.5)];
+    let [one, minus_half] = [F::splat(theta.token(), 1.0), F::splat(theta.token(), -0.5)];
     let sin = fused(theta * z, polynomial(&SIN, z, zz), theta);
     (sin, fused(zz, polynomial(&COS, z, zz), fused(z, minus_half, one)))
 }
 
 /// In the order of [`sin_cos`].
 #[inline(always)]
-fn polynomial<S: Simd>(c: &[f64; 6], z: F<S>, zz: F<S>) -> F<S> {
+fn polynomial<F: Wide>(c: &[f64; 6], z: F, zz: F) -> F {
     fused(zz, fused(zz, pair(c, 4, z), pair(c, 2, z)), pair(c, 0, z))
 }
 
 /// Two neighbours of a polynomial.
 #[inline(always)]
-fn pair<S: Simd>(c: &[f64; 6], n: usize, z: F<S>) -> F<S> {
-    fused(z, F::splat(z.simd, c[n + 1]), F::splat(z.simd, c[n]))
+fn pair<F: Wide>(c: &[f64; 6], n: usize, z: F) -> F {
+    fused(z, F::splat(z.token(), c[n + 1]), F::splat(z.token(), c[n]))
 }
 
 #[cold]
-fn library_sin_cos<S: Simd>(theta: F<S>) -> (F<S>, F<S>) {
-    let simd = theta.simd;
-    let pairs = <[f64; LANES]>::from(theta).map(sin_cos);
-    (lanes(simd, |i| pairs[i].0), lanes(simd, |i| pairs[i].1))
+fn library_sin_cos<F: Wide>(theta: F) -> (F, F) {
+    let simd = theta.token();
+    let pairs = theta.numbers().map(sin_cos);
+    (F::of_each(simd, |i| pairs[i].0), F::of_each(simd, |i| pairs[i].1))
 }
 
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHER> {
+impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHER> {
     #[inline(always)]
-    pub fn new(simd: S, row: &mut MotionRow) -> Self {
+    pub fn new(simd: F::Token, row: &mut MotionRow) -> Self {
         let further = if FURTHER { Some(FurtherLanes::new(simd, &mut row.laws)) } else { None };
-        let one = |of: &Numbers| from_row(simd, of);
-        let two = |of: &[Numbers; 2]| [from_row(simd, &of[0]), from_row(simd, &of[1])];
+        let one = |of: &Numbers| F::of_row(simd, of);
+        let two = |of: &[Numbers; 2]| [F::of_row(simd, &of[0]), F::of_row(simd, &of[1])];
         let upper = one(&row.upper).simd_eq(1.0);
         Self {
             upper,
@@ -179,14 +176,14 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     }
 
     #[inline(always)]
-    pub fn configuration(&self, theta: [F<S>; 2]) -> ConfigurationLanes<S> {
+    pub fn configuration(&self, theta: [F; 2]) -> ConfigurationLanes<F> {
         let turn_1 = sin_cos_lanes(theta[0]);
         self.turned([turn_1, if AS_ONE { turn_1 } else { sin_cos_lanes(theta[1]) }])
     }
 
     /// The same by the sines and cosines of both rotations.
     #[inline(always)]
-    pub fn turned(&self, [(sin_1, cos_1), (sin_2, cos_2)]: [(F<S>, F<S>); 2]) -> ConfigurationLanes<S> {
+    pub fn turned(&self, [(sin_1, cos_1), (sin_2, cos_2)]: [(F, F); 2]) -> ConfigurationLanes<F> {
         ConfigurationLanes {
             sin_1,
             cos_1,
@@ -201,13 +198,13 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
 
     /// As [`Motion::top_displacement_m`].
     #[inline(always)]
-    pub fn top_displacement_m(&self, t: &ConfigurationLanes<S>) -> F<S> {
+    pub fn top_displacement_m(&self, t: &ConfigurationLanes<F>) -> F {
         (t.q[0] + t.c[0]) + self.o_c
     }
 
     /// As [`Laws::spring_force_n`].
     #[inline(always)]
-    fn spring_force_n(&self, x_c: F<S>) -> F<S> {
+    fn spring_force_n(&self, x_c: F) -> F {
         match &self.further {
             Some(further) => further.spring_force_n(&self.spring, x_c),
             None => self.spring.force_n(x_c),
@@ -216,13 +213,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
 
     /// As [`Motion::monolithic_rate`], θ'' and the powers, at a rotation with this sine and cosine.
     #[inline(always)]
-    pub fn monolithic_rate(
-        &self,
-        theta: F<S>,
-        (sin, cos): (F<S>, F<S>),
-        omega: F<S>,
-        [g_x, g_y]: [F<S>; 2],
-    ) -> (F<S>, [F<S>; 2]) {
+    pub fn monolithic_rate(&self, theta: F, (sin, cos): (F, F), omega: F, [g_x, g_y]: [F; 2]) -> (F, [F; 2]) {
         let r = rotated(self.whole_arm, sin, cos);
         let w = rotated(self.whole_moment, sin, cos);
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
@@ -231,7 +222,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
         let x_c = r[0] + self.o_c;
         let mut top = self.spring_force_n(x_c) - self.m_dp * carriage_acceleration;
         let mut weight_and_ground = fused(w[0], a_y, -w[1] * a_x);
-        let mut loss = F::splat(theta.simd, 0.0);
+        let mut loss = F::splat(theta.token(), 0.0);
         if let Some(further) = &self.further {
             let damping = further.damping_force_n(x_c, v_c);
             let [joint, _] = further.joint_moments_n_m(|| [theta; 2], [omega; 2]);
@@ -239,7 +230,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
             weight_and_ground = further.with(weight_and_ground, joint);
             loss = further.where_damped(-fused(damping, v_c, joint * omega));
         }
-        let inverse = 1.0 / fused(self.m_dp * r[1], r[1], self.whole_inertia);
+        let inverse = F::splat(theta.token(), 1.0) / fused(self.m_dp * r[1], r[1], self.whole_inertia);
         let theta_dd = fused(r[1], top, weight_and_ground) * inverse;
         let momentum_x = fused(w[1], omega, self.m_dp * v_c);
         let power = fused(g_y * w[0], omega, -g_x * momentum_x);
@@ -247,23 +238,18 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     }
 
     #[inline(always)]
-    pub fn rate(&self, t: &ConfigurationLanes<S>, omega: [F<S>; 2], ground: [F<S>; 2]) -> RateLanes<S> {
+    pub fn rate(&self, t: &ConfigurationLanes<F>, omega: [F; 2], ground: [F; 2]) -> RateLanes<F> {
         self.rate_by(&self.equations(t, omega, ground), t, omega, ground)
     }
 
     #[inline(always)]
-    fn equations(
-        &self,
-        t: &ConfigurationLanes<S>,
-        [w1, w2]: [F<S>; 2],
-        [g_x, g_y]: [F<S>; 2],
-    ) -> Equations<S> {
+    fn equations(&self, t: &ConfigurationLanes<F>, [w1, w2]: [F; 2], [g_x, g_y]: [F; 2]) -> Equations<F> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let squares = [w1 * w1, w2 * w2];
         let x_c = self.top_displacement_m(t);
         let v_c = t.q[1] * w1 + t.c[1] * w2;
         let spring = self.spring_force_n(x_c);
-        let none = F::splat(x_c.simd, 0.0);
+        let none = F::splat(x_c.token(), 0.0);
         let (mut damping, mut spring_and_damping, mut joint_moments) = (none, spring, [none; 2]);
         if let Some(further) = &self.further {
             damping = further.where_damped(further.damping_force_n(x_c, v_c));
@@ -296,14 +282,14 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     #[inline(always)]
     fn rate_by(
         &self,
-        equations: &Equations<S>,
-        t: &ConfigurationLanes<S>,
-        [w1, w2]: [F<S>; 2],
-        [g_x, g_y]: [F<S>; 2],
-    ) -> RateLanes<S> {
+        equations: &Equations<F>,
+        t: &ConfigurationLanes<F>,
+        [w1, w2]: [F; 2],
+        [g_x, g_y]: [F; 2],
+    ) -> RateLanes<F> {
         let momentum_x = fused(self.m_dp, equations.v_c, t.v[1] * w1 + t.u[1] * w2);
         let ground_power_w = fused(g_y, t.v[0] * w1 + t.u[0] * w2, -g_x * momentum_x);
-        let mut loss_power_w = F::splat(w1.simd, 0.0);
+        let mut loss_power_w = F::splat(w1.token(), 0.0);
         if let Some(further) = &self.further {
             let [j_1, j_2] = equations.joint_moments;
             let loss = -fused(equations.damping, equations.v_c, j_1 * w1 + j_2 * w2);
@@ -314,18 +300,18 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
 
     /// As [`super::mass_matrix::MassMatrix::solve`].
     #[inline(always)]
-    fn solve(&self, equations: &Equations<S>) -> [F<S>; 2] {
+    fn solve(&self, equations: &Equations<F>) -> [F; 2] {
         let (MassMatrix { m11, m12, m22 }, [f1, f2]) = (equations.mass, equations.f);
         if AS_ONE {
             let x = (f1 + f2) / (m11 + m12 * 2.0 + m22);
             return [x, x];
         }
-        let inverse = 1.0 / fused(-m12, m12, m11 * m22);
+        let inverse = F::splat(f1.token(), 1.0) / fused(-m12, m12, m11 * m22);
         let both = [fused(m22, f1, -m12 * f2) * inverse, fused(m11, f2, -m12 * f1) * inverse];
         if !self.any_upper {
             return both;
         }
-        let still = F::splat(f1.simd, 0.0);
+        let still = F::splat(f1.token(), 0.0);
         [self.upper.select(still, both[0]), self.upper.select(f2 / m22, both[1])]
     }
 
@@ -333,10 +319,10 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     #[inline(always)]
     pub fn rate_and_reactions(
         &self,
-        t: &ConfigurationLanes<S>,
-        omega: [F<S>; 2],
-        ground: [F<S>; 2],
-    ) -> (RateLanes<S>, ReactionLanes<S>) {
+        t: &ConfigurationLanes<F>,
+        omega: [F; 2],
+        ground: [F; 2],
+    ) -> (RateLanes<F>, ReactionLanes<F>) {
         let equations = self.equations(t, omega, ground);
         let rate = self.rate_by(&equations, t, omega, ground);
         (rate, self.reactions(&equations, t, rate.theta_dd, ground))
@@ -345,11 +331,11 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     #[inline(always)]
     fn reactions(
         &self,
-        equations: &Equations<S>,
-        t: &ConfigurationLanes<S>,
-        [dd_1, dd_2]: [F<S>; 2],
-        [g_x, g_y]: [F<S>; 2],
-    ) -> ReactionLanes<S> {
+        equations: &Equations<F>,
+        t: &ConfigurationLanes<F>,
+        [dd_1, dd_2]: [F; 2],
+        [g_x, g_y]: [F; 2],
+    ) -> ReactionLanes<F> {
         let (a_x, a_y) = (g_x, g_y + G_M_S2);
         let [w1, w2] = equations.squares;
         let q_x = fused(t.q[1], dd_1, -t.q[0] * w1);
@@ -377,10 +363,10 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Motions<S, AS_ONE, FURTHE
     }
 }
 
-impl<S: Simd> ReactionLanes<S> {
+impl<F: Wide> ReactionLanes<F> {
     /// Those of walls that nothing holds at the top.
     #[inline(always)]
-    pub fn of(reactions: &Reactions<F<S>>) -> Self {
+    pub fn of(reactions: &Reactions<F>) -> Self {
         let JointForces { ground, crack } = reactions.forces;
         Self {
             ground: [ground.shear, ground.normal, ground.moment],

@@ -1,12 +1,10 @@
 //! Impacts that rows of walls go through, number by number as vector registers take them.
 
-use fearless_simd::{Simd, mask64x4};
-
 use super::Table2Change;
 use super::contact::Contact;
 use super::parameters::ImpactLaw;
 use super::rocking::RockingWall;
-use crate::lanes::{Numbers, exchange};
+use crate::lanes::{Numbers, Wide, exchange};
 
 /// What the impact leaves that ends a contact state of the walls of a row: that of [`super::whole_impact`] of walls that turn as
 /// one, that at the crack of others.
@@ -55,11 +53,11 @@ impl StrikeRow {
 
     /// Exchanges those of some lanes.
     #[inline(always)]
-    pub fn exchange<S: Simd>(&mut self, simd: S, which: mask64x4<S>, other: &mut Self) {
-        exchange(simd, which, &mut self.coefficient, &mut other.coefficient);
-        exchange(simd, which, &mut self.plastic, &mut other.plastic);
-        exchange(simd, which, &mut self.before_j, &mut other.before_j);
-        exchange(simd, which, &mut self.after_j, &mut other.after_j);
-        exchange(simd, which, &mut self.count, &mut other.count);
+    pub fn exchange<F: Wide>(&mut self, which: F::Mask, other: &mut Self) {
+        exchange::<F>(which, &mut self.coefficient, &mut other.coefficient);
+        exchange::<F>(which, &mut self.plastic, &mut other.plastic);
+        exchange::<F>(which, &mut self.before_j, &mut other.before_j);
+        exchange::<F>(which, &mut self.after_j, &mut other.after_j);
+        exchange::<F>(which, &mut self.count, &mut other.count);
     }
 }

@@ -100,11 +100,11 @@ pub struct Ensemble {
     pub others: Vec<Response>,
 }
 
-/// Members of an ensemble where nothing else is said: as many as there are vector lanes.
-pub const MEMBERS: usize = crate::lanes::LANES;
+/// Members of an ensemble where nothing else is said: as many as most processors take side by side.
+pub const MEMBERS: usize = 4;
 
 /// Members of the ensemble of a chaotic run.
-pub const MEMBERS_IN_CHAOS: usize = 3 * crate::lanes::LANES;
+pub const MEMBERS_IN_CHAOS: usize = 3 * MEMBERS;
 
 /// Digits of the largest rotations to which the members of a run agree that is not chaotic. One digit lets them part
 /// by a quarter of the rotation.

@@ -3,7 +3,7 @@
 //! The same sums in the same order as in [`super::run`] and [`super::totals`], lane by lane. A step in which something
 //! may have happened is left to the run, which goes through it by itself.
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, SimdMask};
 
 use super::events::NEAR_ZERO;
 use super::ground_path::LEAST_PIECE;
@@ -11,90 +11,87 @@ use super::lane_paths::{bound, keeps_to, scale, value};
 use super::lane_steps::{Landed, Stepping};
 use super::row::{GroundRow, LimitRow, MovingRow, Row, Samples, SumRow};
 use super::run::PROGRESS;
-use crate::lanes::{Numbers, from_row, lanes};
+use crate::lanes::{LANES, Numbers, Wide};
 use crate::model::Vector;
-
-type F<S> = f64x4<S>;
-type Mask<S> = mask64x4<S>;
 
 /// Keeps new numbers of some lanes.
 #[inline(always)]
-pub(super) fn keep<S: Simd>(which: Mask<S>, numbers: &mut Numbers, new: F<S>) {
-    *numbers = which.select(new, from_row(new.simd, numbers)).into();
+pub(super) fn keep<F: Wide>(which: F::Mask, numbers: &mut Numbers, new: F) {
+    which.select(new, F::of_row(new.token(), numbers)).put(numbers);
 }
 
 #[inline(always)]
-pub(super) fn keep_both<S: Simd>(which: Mask<S>, numbers: &mut [Numbers; 2], new: [F<S>; 2]) {
+pub(super) fn keep_both<F: Wide>(which: F::Mask, numbers: &mut [Numbers; 2], new: [F; 2]) {
     keep(which, &mut numbers[0], new[0]);
     keep(which, &mut numbers[1], new[1]);
 }
 
 /// Whether the paths of both bodies are surely clear of collapse and contact, and whether they may rise above the
 /// largest rotations so far.
-struct Paths<S: Simd> {
-    clear: Mask<S>,
-    rise: Mask<S>,
+struct Paths<F: Wide> {
+    clear: F::Mask,
+    rise: F::Mask,
 }
 
 /// What was found of the steps of a row.
-struct Settled<S: Simd> {
-    h: F<S>,
-    error: F<S>,
-    to: Onwards<S>,
-    rise: Mask<S>,
-    corner_force: F<S>,
+struct Settled<F: Wide> {
+    h: F,
+    error: F,
+    to: Onwards<F>,
+    rise: F::Mask,
+    corner_force: F,
 }
 
 /// Where a piece of the record goes on, or the next begins.
-struct Onwards<S: Simd> {
-    offset_s: F<S>,
-    ended: Mask<S>,
+struct Onwards<F: Wide> {
+    offset_s: F,
+    ended: F::Mask,
     /// Number, start and length of the next piece, s.
-    piece: F<S>,
-    start_s: F<S>,
-    length_s: F<S>,
+    piece: F,
+    start_s: F,
+    length_s: F,
     /// Whether the step is followed by another in the same piece, or in one between samples.
-    goes_on: Mask<S>,
+    goes_on: F::Mask,
 }
 
 impl GroundRow {
     #[inline(always)]
-    fn onwards<S: Simd>(&self, simd: S, h: F<S>) -> Onwards<S> {
-        let (length_s, offset_s) = (from_row(simd, &self.length_s), from_row(simd, &self.offset_s));
+    fn onwards<F: Wide>(&self, simd: F::Token, h: F) -> Onwards<F> {
+        let (length_s, offset_s) = (F::of_row(simd, &self.length_s), F::of_row(simd, &self.offset_s));
         // The end of a piece is reached exactly, not up to a rounding.
         let offset_s = h.simd_eq(length_s - offset_s).select(length_s, offset_s + h);
         let ended = !offset_s.simd_lt(length_s);
-        let (piece, step_s) = (from_row(simd, &self.piece) + 1.0, from_row(simd, &self.step_s));
-        let start_s = (from_row(simd, &self.origin_s) + piece * step_s).max(F::splat(simd, 0.0));
-        let left_s = from_row(simd, &self.end_s) - start_s;
-        let between_samples = (piece + 1.0).simd_lt(from_row(simd, &self.samples));
+        let (piece, step_s) = (F::of_row(simd, &self.piece) + 1.0, F::of_row(simd, &self.step_s));
+        let start_s = (F::of_row(simd, &self.origin_s) + piece * step_s).max(F::splat(simd, 0.0));
+        let left_s = F::of_row(simd, &self.end_s) - start_s;
+        let between_samples = (piece + 1.0).simd_lt(F::of_row(simd, &self.samples));
         let goes_on = !ended | (between_samples & left_s.simd_gt(step_s * LEAST_PIECE));
         Onwards { offset_s, ended, piece, start_s, length_s: step_s.min(left_s), goes_on }
     }
 
     /// Moves on in some lanes; gives what is left of their pieces, s.
     #[inline(always)]
-    fn move_on<S: Simd>(&mut self, done: Mask<S>, to: &Onwards<S>, samples: &Samples) -> F<S> {
-        let simd = to.start_s.simd;
+    fn move_on<F: Wide>(&mut self, done: F::Mask, to: &Onwards<F>, samples: &Samples) -> F {
+        let simd = to.start_s.token();
         let ended = done & to.ended;
         let reached_s = to.ended.select(F::splat(simd, 0.0), to.offset_s);
-        let offset_s = done.select(reached_s, from_row(simd, &self.offset_s));
-        self.offset_s = offset_s.into();
-        let length_s = ended.select(to.length_s, from_row(simd, &self.length_s));
+        let offset_s = done.select(reached_s, F::of_row(simd, &self.offset_s));
+        offset_s.put(&mut self.offset_s);
+        let length_s = ended.select(to.length_s, F::of_row(simd, &self.length_s));
         if !ended.any_true() {
             return length_s - offset_s;
         }
         let at = self.k.map(|k| k + 1);
         let pair = |i: usize| samples[i].get(at[i]..at[i] + 2).unwrap_or(&[Vector { x: 0.0, y: 0.0 }; 2]);
-        let pairs = [pair(0), pair(1), pair(2), pair(3)];
-        let per_step = from_row(simd, &self.samples_per_s);
-        let from = [lanes(simd, |i| pairs[i][0].x), lanes(simd, |i| pairs[i][0].y)];
-        let next = [lanes(simd, |i| pairs[i][1].x), lanes(simd, |i| pairs[i][1].y)];
+        let pairs: [_; LANES] = std::array::from_fn(|i| if i < F::LEN { pair(i) } else { &[] });
+        let per_step = F::of_row(simd, &self.samples_per_s);
+        let from = [F::of_each(simd, |i| pairs[i][0].x), F::of_each(simd, |i| pairs[i][0].y)];
+        let next = [F::of_each(simd, |i| pairs[i][1].x), F::of_each(simd, |i| pairs[i][1].y)];
         let slope = [(next[0] - from[0]) * per_step, (next[1] - from[1]) * per_step];
         keep_both(ended, &mut self.slope, slope);
         keep_both(ended, &mut self.from, [from[0] + slope[0] * 0.0, from[1] + slope[1] * 0.0]);
         keep(ended, &mut self.start_s, to.start_s);
-        self.length_s = length_s.into();
+        length_s.put(&mut self.length_s);
         keep(ended, &mut self.piece, to.piece);
         let bits = ended.to_bitmask();
         self.k = std::array::from_fn(|i| self.k[i] + (bits >> i & 1) as usize);
@@ -104,13 +101,13 @@ impl GroundRow {
 
 impl LimitRow {
     #[inline(always)]
-    fn paths<S: Simd>(&self, as_one: bool, moving: &MovingRow, landed: &Landed<S>, h: F<S>) -> Paths<S> {
-        let simd = h.simd;
+    fn paths<F: Wide>(&self, as_one: bool, moving: &MovingRow, landed: &Landed<F>, h: F) -> Paths<F> {
+        let simd = h.token();
         let scale = scale(h);
         let lower = moving.path(0, landed, scale);
-        let stands = |i: usize, bound: F<S>| bound.simd_lt(from_row(simd, &self.collapse_rad[i]));
-        let rises = |i: usize, bound: F<S>| bound.simd_gt(from_row(simd, &self.theta_max_rad[i]));
-        let sides = [from_row(simd, &self.sides[0]), from_row(simd, &self.sides[1])];
+        let stands = |i: usize, bound: F| bound.simd_lt(F::of_row(simd, &self.collapse_rad[i]));
+        let rises = |i: usize, bound: F| bound.simd_gt(F::of_row(simd, &self.theta_max_rad[i]));
+        let sides = [F::of_row(simd, &self.sides[0]), F::of_row(simd, &self.sides[1])];
         // What is no number compares to nothing.
         let sum = landed.sum(0);
         let bound_1 = bound(&lower);
@@ -127,63 +124,63 @@ impl LimitRow {
 
     /// Smallest corner force of the joint that is closed, over the weight, and whether it surely stays closed.
     #[inline(always)]
-    pub fn corner_force<S: Simd>(&self, joint: [F<S>; 3]) -> (F<S>, Mask<S>) {
-        let (simd, end) = (joint[0].simd, self.least_at_corners(joint));
-        let start = from_row(simd, &self.corner_force);
+    pub fn corner_force<F: Wide>(&self, joint: [F; 3]) -> (F, F::Mask) {
+        let (simd, end) = (joint[0].token(), self.least_at_corners(joint));
+        let start = F::of_row(simd, &self.corner_force);
         let size = start.abs().max(end.abs()) + (end - start).abs();
         let stays = end.simd_ge(0.0) & start.min(end).simd_gt(size * NEAR_ZERO);
-        (end, stays | from_row(simd, &self.closed).simd_eq(0.0))
+        (end, stays | F::of_row(simd, &self.closed).simd_eq(0.0))
     }
 
     /// As [`crate::model::RockingWall::smallest_corner_force`] of the joint that is closed.
     #[inline(always)]
-    pub fn least_at_corners<S: Simd>(&self, [_, normal, moment]: [F<S>; 3]) -> F<S> {
-        let (half, lever) = (normal * 0.5, moment * from_row(normal.simd, &self.per_width));
-        (half + lever).min_precise(half - lever) * from_row(normal.simd, &self.per_weight)
+    pub fn least_at_corners<F: Wide>(&self, [_, normal, moment]: [F; 3]) -> F {
+        let (half, lever) = (normal * 0.5, moment * F::of_row(normal.token(), &self.per_width));
+        (half + lever).min_precise(half - lever) * F::of_row(normal.token(), &self.per_weight)
     }
 
     /// Whether the pivots are under tension as they were.
     #[inline(always)]
-    fn same_tension<S: Simd>(&self, normals: [F<S>; 2]) -> Mask<S> {
-        let simd = normals[0].simd;
+    fn same_tension<F: Wide>(&self, normals: [F; 2]) -> F::Mask {
+        let simd = normals[0].token();
         let none = F::splat(simd, 0.0);
-        let now = |normal: F<S>| normal.simd_lt(0.0).select(F::splat(simd, 1.0), none);
-        now(normals[0]).simd_eq(from_row(simd, &self.tension[0]))
-            & now(normals[1]).simd_eq(from_row(simd, &self.tension[1]))
+        let now = |normal: F| normal.simd_lt(0.0).select(F::splat(simd, 1.0), none);
+        now(normals[0]).simd_eq(F::of_row(simd, &self.tension[0]))
+            & now(normals[1]).simd_eq(F::of_row(simd, &self.tension[1]))
     }
 }
 
 impl SumRow {
     /// As [`super::totals::Totals::forces`] of one joint.
     #[inline(always)]
-    fn force<S: Simd>(&mut self, done: Mask<S>, i: usize, [shear, normal]: [F<S>; 2]) {
-        let friction = from_row(normal.simd, &self.friction[i]);
+    fn force<F: Wide>(&mut self, done: F::Mask, i: usize, [shear, normal]: [F; 2]) {
+        let friction = F::of_row(normal.token(), &self.friction[i]);
         let rises = done & normal.simd_gt(0.0) & shear.abs().simd_gt(friction * normal);
         // A division only where the demand does rise.
         if rises.any_true() {
-            self.friction[i] = rises.select(shear.abs() / normal, friction).into();
+            rises.select(shear.abs() / normal, friction).put(&mut self.friction[i]);
         }
-        let compression_n = from_row(normal.simd, &self.compression_n[i]);
+        let compression_n = F::of_row(normal.token(), &self.compression_n[i]);
         keep(done, &mut self.compression_n[i], compression_n.max_precise(normal));
     }
 
     /// As [`super::totals::Totals::top`].
     #[inline(always)]
-    fn top<S: Simd>(&mut self, done: Mask<S>, displacement_m: F<S>, time_s: F<S>) {
-        let largest_m = from_row(time_s.simd, &self.top_m);
+    fn top<F: Wide>(&mut self, done: F::Mask, displacement_m: F, time_s: F) {
+        let largest_m = F::of_row(time_s.token(), &self.top_m);
         let rises = done & displacement_m.abs().simd_gt(largest_m.abs());
         keep(rises, &mut self.top_m, displacement_m);
         keep(rises, &mut self.top_time_s, time_s);
     }
 
     #[inline(always)]
-    pub fn add<S: Simd>(done: Mask<S>, sum: &mut Numbers, more: F<S>) {
-        *sum = (from_row(more.simd, sum) + done.select(more, F::splat(more.simd, 0.0))).into();
+    pub fn add<F: Wide>(done: F::Mask, sum: &mut Numbers, more: F) {
+        (F::of_row(more.token(), sum) + done.select(more, F::splat(more.token(), 0.0))).put(sum);
     }
 
     /// As [`super::totals::Totals::energy`].
     #[inline(always)]
-    fn energy<S: Simd>(&mut self, done: Mask<S>, [work_j, loss_j]: [F<S>; 2]) {
+    fn energy<F: Wide>(&mut self, done: F::Mask, [work_j, loss_j]: [F; 2]) {
         Self::add(done, &mut self.ground_work_j, work_j);
         Self::add(done, &mut self.effect_loss_j, loss_j);
         Self::add(done, &mut self.passed_through_j, work_j.abs() + loss_j.abs());
@@ -193,9 +190,9 @@ impl SumRow {
 impl Row {
     /// Keeps the steps in which nothing happened, and requests those that follow. Gives the bits of the lanes that are left.
     #[inline(always)]
-    pub fn settle<S: Simd, M: Stepping<S>>(&mut self, motions: &M, alone: bool, landed: &Landed<S>) -> u64 {
-        let simd = landed.position[0].simd;
-        let h = from_row(simd, &self.moving.h);
+    pub fn settle<F: Wide, M: Stepping<F>>(&mut self, motions: &M, alone: bool, landed: &Landed<F>) -> u64 {
+        let simd = landed.position[0].token();
+        let h = F::of_row(simd, &self.moving.h);
         let error = self.errors.of(landed.position_error, landed.velocity_error, h);
         let to = self.ground.onwards(simd, h);
         let paths = self.limits.paths(M::AS_ONE, &self.moving, landed, h);
@@ -209,8 +206,8 @@ impl Row {
         let settled = Settled { h, error, to, rise: paths.rise, corner_force };
         if alone && left == 0 {
             // In all lanes, so that the next step need not wait for all that was looked at. Only one is ever told of.
-            let taken = Mask::from_bitmask(simd, self.taken);
-            self.go_on([Mask::splat(simd, true), taken], motions, landed, &settled);
+            let taken = <F::Mask>::from_bitmask(simd, self.taken);
+            self.go_on([<F::Mask>::splat(simd, true), taken], motions, landed, &settled);
         } else {
             self.go_on([done, done], motions, landed, &settled);
         }
@@ -219,35 +216,35 @@ impl Row {
 
     /// Requests shorter steps in place of those of the lanes that are left whose errors are too large. Gives the bits of these lanes.
     #[inline(always)]
-    pub fn reject<S: Simd>(&mut self, simd: S, landed: &Landed<S>, left: u64) -> u64 {
-        let (h, step_s) = (from_row(simd, &self.moving.h), from_row(simd, &self.ground.step_s));
+    pub fn reject<F: Wide>(&mut self, simd: F::Token, landed: &Landed<F>, left: u64) -> u64 {
+        let (h, step_s) = (F::of_row(simd, &self.moving.h), F::of_row(simd, &self.ground.step_s));
         let error = self.errors.of(landed.position_error, landed.velocity_error, h);
         // Whether a step could be shorter at all is looked at by the run.
         let could_be_shorter = h.simd_ge(step_s * PROGRESS);
-        let advances = from_row(simd, &self.limits.advances).simd_eq(1.0);
+        let advances = F::of_row(simd, &self.limits.advances).simd_eq(1.0);
         // So is whether it may try another.
         let [steps, rejected, most_steps] =
-            [&self.sums.steps, &self.sums.rejected_steps, &self.sums.most_steps].map(|n| from_row(simd, n));
+            [&self.sums.steps, &self.sums.rejected_steps, &self.sums.most_steps].map(|n| F::of_row(simd, n));
         let goes_on = could_be_shorter & advances & (steps + rejected + 1.0).simd_lt(most_steps);
-        let too_large = Mask::from_bitmask(simd, left) & error.simd_gt(1.0) & goes_on;
+        let too_large = <F::Mask>::from_bitmask(simd, left) & error.simd_gt(1.0) & goes_on;
         if !too_large.any_true() {
             return 0;
         }
-        self.errors.propose_shorter(too_large.to_bitmask(), error.into(), h.into());
+        self.errors.propose_shorter(too_large.to_bitmask(), &error.numbers(), &h.numbers());
         SumRow::add(too_large, &mut self.sums.rejected_steps, F::splat(simd, 1.0));
-        let left_s = from_row(simd, &self.ground.length_s) - from_row(simd, &self.ground.offset_s);
+        let left_s = F::of_row(simd, &self.ground.length_s) - F::of_row(simd, &self.ground.offset_s);
         self.request(too_large, left_s);
         too_large.to_bitmask()
     }
 
     /// Keeps the steps of some lanes, and looks at maxima and at lengths that change in `told` of them.
     #[inline(always)]
-    fn go_on<S: Simd, M: Stepping<S>>(
+    fn go_on<F: Wide, M: Stepping<F>>(
         &mut self,
-        [done, told]: [Mask<S>; 2],
+        [done, told]: [F::Mask; 2],
         motions: &M,
-        landed: &Landed<S>,
-        &Settled { h, error, ref to, rise, corner_force }: &Settled<S>,
+        landed: &Landed<F>,
+        &Settled { h, error, ref to, rise, corner_force }: &Settled<F>,
     ) {
         if self.watched {
             self.shown = (done & self.is_wanted(h)).to_bitmask();
@@ -271,16 +268,16 @@ impl Row {
 
     /// Whether steps of these lengths from here are wanted by those who watch.
     #[inline(always)]
-    pub fn is_wanted<S: Simd>(&self, h: F<S>) -> Mask<S> {
-        let of = |numbers: &Numbers| from_row(h.simd, numbers);
+    pub fn is_wanted<F: Wide>(&self, h: F) -> F::Mask {
+        let of = |numbers: &Numbers| F::of_row(h.token(), numbers);
         let start_s = of(&self.ground.start_s) + of(&self.ground.offset_s);
         (start_s + h).simd_gt(of(&self.wants_from_s))
     }
 
     /// Requests the next steps of some lanes, with so much left of their pieces in s.
     #[inline(always)]
-    pub fn request<S: Simd>(&mut self, done: Mask<S>, left_s: F<S>) {
-        let simd = left_s.simd;
+    pub fn request<F: Wide>(&mut self, done: F::Mask, left_s: F) {
+        let simd = left_s.token();
         let next = self.errors.next_s(left_s);
         keep(done, &mut self.moving.h, next);
         let shorter = next.simd_lt(left_s).select(F::splat(simd, 1.0), F::splat(simd, 0.0));
@@ -288,19 +285,19 @@ impl Row {
     }
 
     #[inline(always)]
-    fn far_from_kinks<S: Simd>(&self, landed: &Landed<S>, h: F<S>) -> Mask<S> {
-        let advances = from_row(h.simd, &self.limits.advances).simd_eq(1.0);
+    fn far_from_kinks<F: Wide>(&self, landed: &Landed<F>, h: F) -> F::Mask {
+        let advances = F::of_row(h.token(), &self.limits.advances).simd_eq(1.0);
         if !self.kinks.any {
             return advances;
         }
-        let before_m_s = from_row(h.simd, &self.limits.top_velocity_m_s);
+        let before_m_s = F::of_row(h.token(), &self.limits.top_velocity_m_s);
         advances & self.kinks.far(&self.moving, before_m_s, landed, h)
     }
 
     /// The smallest corner forces, and whether closed joints surely stay closed and the pivots are under tension as
     /// they were.
     #[inline(always)]
-    fn stay_closed<S: Simd>(&self, as_one: bool, landed: &Landed<S>) -> (F<S>, Mask<S>) {
+    fn stay_closed<F: Wide>(&self, as_one: bool, landed: &Landed<F>) -> (F, F::Mask) {
         // On sharp edges, walls that turn as one have a closed crack, or none. Others have the ground closed, or nothing.
         let closed = if as_one { landed.reactions.crack } else { landed.reactions.ground };
         let (corner_force, stays) = self.limits.corner_force(closed);
@@ -309,18 +306,18 @@ impl Row {
 
     /// Normal forces through the ground and the crack, 0 where there is none.
     #[inline(always)]
-    fn normals<S: Simd>(&self, landed: &Landed<S>) -> [F<S>; 2] {
+    fn normals<F: Wide>(&self, landed: &Landed<F>) -> [F; 2] {
         let normal = landed.reactions.crack[1];
-        let cracked = from_row(normal.simd, &self.limits.cracked).simd_eq(1.0);
-        [landed.reactions.ground[1], cracked.select(normal, F::splat(normal.simd, 0.0))]
+        let cracked = F::of_row(normal.token(), &self.limits.cracked).simd_eq(1.0);
+        [landed.reactions.ground[1], cracked.select(normal, F::splat(normal.token(), 0.0))]
     }
 
     /// Adds the steps of some lanes up.
     #[inline(always)]
-    pub fn account<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>, h: F<S>) {
+    pub fn account<F: Wide>(&mut self, done: F::Mask, landed: &Landed<F>, h: F) {
         let normals = self.normals(landed);
-        let (simd, sums, ground) = (h.simd, &mut self.sums, &self.ground);
-        let start_s = from_row(simd, &ground.start_s) + from_row(simd, &ground.offset_s);
+        let (simd, sums, ground) = (h.token(), &mut self.sums, &self.ground);
+        let start_s = F::of_row(simd, &ground.start_s) + F::of_row(simd, &ground.offset_s);
         SumRow::add(done, &mut sums.steps, F::splat(simd, 1.0));
         SumRow::add(done, &mut sums.pattern_time_s, h);
         sums.top(done, landed.reactions.top[0], start_s + h);
@@ -331,17 +328,17 @@ impl Row {
 
     /// Raises the largest displacement of tops that turn back inside the step, as [`super::run`] does.
     #[inline(always)]
-    pub fn turn_top<S: Simd, M: Stepping<S>>(
+    pub fn turn_top<F: Wide, M: Stepping<F>>(
         &mut self,
-        done: Mask<S>,
+        done: F::Mask,
         motions: &M,
-        landed: &Landed<S>,
-        h: F<S>,
+        landed: &Landed<F>,
+        h: F,
     ) {
-        let (simd, now) = (h.simd, landed.reactions.top[1]);
-        let before = from_row(simd, &self.limits.top_velocity_m_s);
+        let (simd, now) = (h.token(), landed.reactions.top[1]);
+        let before = F::of_row(simd, &self.limits.top_velocity_m_s);
         let most_m = landed.reactions.top[0].abs() + (before.abs() + now.abs()) * 2.0 * h;
-        let rises = most_m.simd_gt(from_row(simd, &self.sums.top_m).abs());
+        let rises = most_m.simd_gt(F::of_row(simd, &self.sums.top_m).abs());
         let turns = done & rises & (before * now).simd_lt(0.0);
         if !turns.any_true() {
             return;
@@ -354,13 +351,13 @@ impl Row {
             false => value(self.moving.path(1, landed, scale), share),
         };
         let x_c = motions.top_displacement_m([lower, upper]);
-        let start_s = from_row(simd, &self.ground.start_s) + from_row(simd, &self.ground.offset_s);
+        let start_s = F::of_row(simd, &self.ground.start_s) + F::of_row(simd, &self.ground.offset_s);
         self.sums.top(turns, x_c, start_s + share * h);
     }
 
     /// Makes the ends of the steps of some lanes the present.
     #[inline(always)]
-    fn moving_on<S: Simd>(&mut self, done: Mask<S>, landed: &Landed<S>) {
+    fn moving_on<F: Wide>(&mut self, done: F::Mask, landed: &Landed<F>) {
         keep_both(done, &mut self.moving.position, landed.position);
         keep_both(done, &mut self.moving.velocity, landed.velocity);
         keep_both(done, &mut self.moving.acceleration, landed.acceleration);

@@ -1,40 +1,31 @@
 //! The steps of a row of walls on beds, and whether their joints surely keep their contact.
 
-use fearless_simd::{Simd, SimdBase, f64x4, mask64x4};
-
 use super::events::ROUNDINGS;
 use super::lane_paths::{bound, scale};
 use super::lane_steps::{GroundLanes, Landed, Stepping, apart, as_rate, landed_by};
 use super::lane_values::TwoRotations;
 use super::row::{BedLimitRow, MovingRow, Row};
-use crate::lanes::{Numbers, from_row};
+use crate::lanes::{Numbers, Wide};
 use crate::model::{BeddedMotions, MotionRow, Pose, ReactionLanes};
 use crate::solver::{Field, Rate};
 
-type F<S> = f64x4<S>;
-
 /// Walls on beds that turn as one, or apart.
-pub(super) struct OnBeds<S: Simd, const AS_ONE: bool>(pub BeddedMotions<S>);
+pub(super) struct OnBeds<F: Wide, const AS_ONE: bool>(pub BeddedMotions<F>);
 
 /// Walls on beds under the ground's motion, and the reactions once they have landed.
-struct BeddedShaken<'a, S: Simd> {
-    motions: &'a BeddedMotions<S>,
-    ground: GroundLanes<S>,
+struct BeddedShaken<'a, F: Wide> {
+    motions: &'a BeddedMotions<F>,
+    ground: GroundLanes<F>,
     /// That of the last stage, whose positions are those of the end.
-    pose: Option<Pose<F<S>>>,
-    reactions: Option<ReactionLanes<S>>,
+    pose: Option<Pose<F>>,
+    reactions: Option<ReactionLanes<F>>,
 }
 
-impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<'_, S> {
+impl<F: Wide> Field<TwoRotations<F>> for BeddedShaken<'_, F> {
     #[inline(always)]
-    fn rate(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
-        as_rate(apart(
-            after_s.simd,
+    fn rate(&mut self, after_s: F, theta: TwoRotations<F>, omega: TwoRotations<F>) -> Rate<TwoRotations<F>> {
+        as_rate(apart::<F, _>(
+            after_s.token(),
             #[inline(always)]
             || {
                 let pose = self.pose.insert(self.motions.pose(theta.0));
@@ -44,12 +35,7 @@ impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<'_, S> {
     }
 
     #[inline(always)]
-    fn land(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
+    fn land(&mut self, after_s: F, theta: TwoRotations<F>, omega: TwoRotations<F>) -> Rate<TwoRotations<F>> {
         let pose = self.pose.get_or_insert_with(|| self.motions.pose(theta.0));
         let (rate, reactions) =
             self.motions.rate_and_reactions(pose, [theta.0, omega.0], self.ground.at(after_s));
@@ -58,12 +44,12 @@ impl<S: Simd> Field<TwoRotations<S>> for BeddedShaken<'_, S> {
     }
 }
 
-impl<S: Simd, const AS_ONE: bool> Stepping<S> for OnBeds<S, AS_ONE> {
+impl<F: Wide, const AS_ONE: bool> Stepping<F> for OnBeds<F, AS_ONE> {
     const AS_ONE: bool = AS_ONE;
     const ON_BEDS: bool = true;
 
     #[inline(always)]
-    fn step(&self, simd: S, row: &Row) -> Landed<S> {
+    fn step(&self, simd: F::Token, row: &Row) -> Landed<F> {
         let ground = GroundLanes::of_row(simd, &row.ground);
         let mut shaken = BeddedShaken { motions: &self.0, ground, pose: None, reactions: None };
         let stride = row.moving.stride(simd, &mut shaken);
@@ -72,7 +58,7 @@ impl<S: Simd, const AS_ONE: bool> Stepping<S> for OnBeds<S, AS_ONE> {
     }
 
     #[inline(always)]
-    fn top_displacement_m(&self, theta: [F<S>; 2]) -> F<S> {
+    fn top_displacement_m(&self, theta: [F; 2]) -> F {
         self.0.top_displacement_m(&self.0.pose(theta))
     }
 
@@ -86,7 +72,7 @@ impl BedLimitRow {
     /// Whether the rotations across joints on beds surely stay between the limits of their contact, as
     /// [`super::bed_events::first_bed_change`] finds it.
     #[inline(always)]
-    pub fn keep_contact<S: Simd>(&self, moving: &MovingRow, landed: &Landed<S>, h: F<S>) -> mask64x4<S> {
+    pub fn keep_contact<F: Wide>(&self, moving: &MovingRow, landed: &Landed<F>, h: F) -> F::Mask {
         let [lower, upper] = [moving.path(0, landed, scale(h)), moving.path(1, landed, scale(h))];
         let size = bound(&lower) + bound(&upper);
         let opening = moving.opening_of_crack(landed, scale(h));
@@ -94,12 +80,12 @@ impl BedLimitRow {
     }
 
     #[inline(always)]
-    fn stays_between<S: Simd>(&self, joint: usize, c: &[F<S>; 6], size: F<S>) -> mask64x4<S> {
-        let of = |numbers: &Numbers| from_row(size.simd, numbers);
+    fn stays_between<F: Wide>(&self, joint: usize, c: &[F; 6], size: F) -> F::Mask {
+        let of = |numbers: &Numbers| F::of_row(size.token(), numbers);
         let least = c[0].min(c[1]).min(c[2].min(c[3])).min(c[4].min(c[5]));
         let most = c[0].max(c[1]).max(c[2].max(c[3])).max(c[4].max(c[5]));
         let (low, high) = (of(&self.low_rad[joint]), of(&self.high_rad[joint]));
-        let rounding = |limit: F<S>| size.max(limit.abs()) * (ROUNDINGS * f64::EPSILON);
+        let rounding = |limit: F| size.max(limit.abs()) * (ROUNDINGS * f64::EPSILON);
         (least - low).simd_gt(rounding(low)) & (high - most).simd_gt(rounding(high))
     }
 }

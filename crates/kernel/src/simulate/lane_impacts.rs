@@ -4,7 +4,7 @@
 //! The same sums in the same order as a run does by itself ([`super::run`]): the search for the impact, the step up to it, its
 //! correction, the accounts, the impact, and the motion after it. Where anything else may happen the step is left to the run.
 
-use fearless_simd::{Simd, SimdBase, SimdMask, f64x4, mask64x4};
+use fearless_simd::SimdMask;
 
 use super::events::ROUNDINGS;
 use super::lane_accounts::{keep, keep_both};
@@ -13,12 +13,9 @@ use super::lane_steps::{GroundLanes, Landed};
 use super::row::{LimitRow, Row, SumRow};
 use super::run::{PROGRESS, SHORT};
 use super::totals::LITTLE;
-use crate::lanes::{Numbers, exchange, from_row};
+use crate::lanes::{Numbers, Wide, exchange};
 use crate::model::{CrackRow, Motions, PivotRow, RateLanes, ReactionLanes, StrikeRow};
 use crate::solver::{only_roots, turn_negative_once};
-
-type F<S> = f64x4<S>;
-type Mask<S> = mask64x4<S>;
 
 /// What the impacts of the walls of a row need.
 #[derive(Debug, Default)]
@@ -44,48 +41,48 @@ pub(super) struct ImpactRow {
 }
 
 /// The end of a step to an impact, moved onto it.
-struct Reached<S: Simd> {
-    landed: Landed<S>,
-    h: F<S>,
+struct Reached<F: Wide> {
+    landed: Landed<F>,
+    h: F,
     /// Offset reached in the piece, s.
-    offset_s: F<S>,
+    offset_s: F,
 }
 
 /// What an impact leaves.
-struct Left<S: Simd> {
-    theta: [F<S>; 2],
-    omega: [F<S>; 2],
-    loss_j: F<S>,
+struct Left<F: Wide> {
+    theta: [F; 2],
+    omega: [F; 2],
+    loss_j: F,
 }
 
 /// The motion after an impact.
-struct TurnedOn<S: Simd> {
-    rate: RateLanes<S>,
-    reactions: ReactionLanes<S>,
-    corner_force: F<S>,
+struct TurnedOn<F: Wide> {
+    rate: RateLanes<F>,
+    reactions: ReactionLanes<F>,
+    corner_force: F,
 }
 
 impl ImpactRow {
     /// What impacts of walls leave that turn as one, and which of them turn on: as [`crate::model::RockingWall::impact`].
     #[inline(always)]
-    fn whole<S: Simd>(&self, before: F<S>) -> (Left<S>, Mask<S>) {
-        let of = |numbers: &Numbers| from_row(before.simd, numbers);
+    fn whole<F: Wide>(&self, before: F) -> (Left<F>, F::Mask) {
+        let of = |numbers: &Numbers| F::of_row(before.token(), numbers);
         let plastic = of(&self.here.plastic) * before;
         let omega = of(&self.here.coefficient) * plastic;
         let loss_j = of(&self.here.before_j) * before * before - of(&self.here.after_j) * omega * omega;
-        let left = Left { theta: [F::splat(before.simd, 0.0); 2], omega: [omega; 2], loss_j };
+        let left = Left { theta: [F::splat(before.token(), 0.0); 2], omega: [omega; 2], loss_j };
         (left, plastic.abs().simd_ge(of(&self.capture_rad_s)))
     }
 
     /// The same of impacts at cracks that were open on these sides, where the ground is out of reach.
     #[inline(always)]
-    fn at_crack<S: Simd, const AS_ONE: bool>(
+    fn at_crack<F: Wide, const AS_ONE: bool>(
         &self,
-        motions: [&Motions<S, AS_ONE, false>; 2],
-        landed: &Landed<S>,
-        sides: [F<S>; 2],
-    ) -> (Left<S>, Mask<S>) {
-        let of = |numbers: &Numbers| from_row(sides[0].simd, numbers);
+        motions: [&Motions<F, AS_ONE, false>; 2],
+        landed: &Landed<F>,
+        sides: [F; 2],
+    ) -> (Left<F>, F::Mask) {
+        let of = |numbers: &Numbers| F::of_row(sides[0].token(), numbers);
         let theta = landed.position[0];
         let limits = [of(&self.here.coefficient), of(&self.capture_rad_s)];
         let (impact, turns_on) = self.cracks.strike(motions, (theta, landed.velocity), -sides[1], limits);
@@ -97,8 +94,8 @@ impl ImpactRow {
 impl SumRow {
     /// As [`super::totals::Totals::surely_outdo`].
     #[inline(always)]
-    fn surely_outdo<S: Simd>(&self, i: usize, limits: &LimitRow, [shear, normal]: [F<S>; 2]) -> Mask<S> {
-        let of = |numbers: &Numbers| from_row(normal.simd, numbers);
+    fn surely_outdo<F: Wide>(&self, i: usize, limits: &LimitRow, [shear, normal]: [F; 2]) -> F::Mask {
+        let of = |numbers: &Numbers| F::of_row(normal.token(), numbers);
         of(&limits.tension[i]).simd_eq(0.0)
             & (shear.abs() * (1.0 + LITTLE)).simd_lt(of(&self.friction[i]) * normal)
             & (normal * (1.0 + LITTLE)).simd_lt(of(&self.compression_n[i]))
@@ -107,7 +104,7 @@ impl SumRow {
 
 /// The opening of the joint that closes: at the ground, or at the crack.
 #[inline(always)]
-fn gap<S: Simd, const AS_ONE: bool>([lower, upper]: [F<S>; 2]) -> F<S> {
+fn gap<F: Wide, const AS_ONE: bool>([lower, upper]: [F; 2]) -> F {
     if AS_ONE { lower } else { upper - lower }
 }
 
@@ -120,31 +117,31 @@ impl Row {
     /// Finds impacts in the steps of the lanes that are left, and goes through those that were to be reached. Gives the bits of
     /// the lanes that go on so.
     #[inline(always)]
-    pub fn meet_impacts<S: Simd, const AS_ONE: bool>(
+    pub fn meet_impacts<F: Wide, const AS_ONE: bool>(
         &mut self,
-        simd: S,
-        landed: &Landed<S>,
+        simd: F::Token,
+        landed: &Landed<F>,
         left: u64,
     ) -> u64 {
-        let known = from_row(simd, &self.impacts.known).simd_eq(1.0) & Mask::from_bitmask(simd, left);
-        let reaches = from_row(simd, &self.impacts.reaches).simd_eq(1.0);
-        let found = self.find_impacts::<S, AS_ONE>(known & !reaches, landed);
-        let gone = self.go_through_impacts::<S, AS_ONE>(known & reaches, landed);
+        let known = F::of_row(simd, &self.impacts.known).simd_eq(1.0) & <F::Mask>::from_bitmask(simd, left);
+        let reaches = F::of_row(simd, &self.impacts.reaches).simd_eq(1.0);
+        let found = self.find_impacts::<F, AS_ONE>(known & !reaches, landed);
+        let gone = self.go_through_impacts::<F, AS_ONE>(known & reaches, landed);
         (found | gone).to_bitmask()
     }
 
     /// Requests steps up to the impacts inside those of some lanes, where nothing else happens.
     #[inline(always)]
-    fn find_impacts<S: Simd, const AS_ONE: bool>(&mut self, which: Mask<S>, landed: &Landed<S>) -> Mask<S> {
+    fn find_impacts<F: Wide, const AS_ONE: bool>(&mut self, which: F::Mask, landed: &Landed<F>) -> F::Mask {
         if !which.any_true() {
             return which;
         }
-        let simd = landed.position[0].simd;
+        let simd = landed.position[0].token();
         let all = |value: f64| F::splat(simd, value);
-        let h = from_row(simd, &self.moving.h);
-        let (path, clear) = self.closing_path::<S, AS_ONE>(landed, h);
+        let h = F::of_row(simd, &self.moving.h);
+        let (path, clear) = self.closing_path::<F, AS_ONE>(landed, h);
         let error = self.errors.of(landed.position_error, landed.velocity_error, h);
-        let advances = from_row(simd, &self.limits.advances).simd_eq(1.0);
+        let advances = F::of_row(simd, &self.limits.advances).simd_eq(1.0);
         let found = which & clear & advances & error.simd_le(1.0);
         if !found.any_true() {
             return found;
@@ -160,10 +157,10 @@ impl Row {
 
     /// The gap of the joint that may close over the steps, and where it does so once and nothing else happens.
     #[inline(always)]
-    fn closing_path<S: Simd, const AS_ONE: bool>(&self, landed: &Landed<S>, h: F<S>) -> ([F<S>; 6], Mask<S>) {
-        let (simd, scale, limits) = (h.simd, scale(h), &self.limits);
-        let side = |i: usize| from_row(simd, &limits.sides[i]);
-        let stands = |i: usize, size: F<S>| size.simd_lt(from_row(simd, &limits.collapse_rad[i]));
+    fn closing_path<F: Wide, const AS_ONE: bool>(&self, landed: &Landed<F>, h: F) -> ([F; 6], F::Mask) {
+        let (simd, scale, limits) = (h.token(), scale(h), &self.limits);
+        let side = |i: usize| F::of_row(simd, &limits.sides[i]);
+        let stands = |i: usize, size: F| size.simd_lt(F::of_row(simd, &limits.collapse_rad[i]));
         let lower = self.moving.path(0, landed, scale);
         let (size, sum) = (bound(&lower), landed.sum(0));
         let finite = sum.simd_eq(sum);
@@ -186,44 +183,44 @@ impl Row {
 
     /// Goes through the impacts that some lanes have reached.
     #[inline(always)]
-    fn go_through_impacts<S: Simd, const AS_ONE: bool>(
+    fn go_through_impacts<F: Wide, const AS_ONE: bool>(
         &mut self,
-        which: Mask<S>,
-        landed: &Landed<S>,
-    ) -> Mask<S> {
+        which: F::Mask,
+        landed: &Landed<F>,
+    ) -> F::Mask {
         if !which.any_true() {
             return which;
         }
-        let simd = landed.position[0].simd;
-        let (reached, on_time) = self.onto_impact::<S, AS_ONE>(landed);
+        let simd = landed.position[0].token();
+        let (reached, on_time) = self.onto_impact::<F, AS_ONE>(landed);
         let may = which & on_time;
         // What leads up to an impact is shown by the run.
         let may = if self.watched { may & !self.is_wanted(reached.h) } else { may };
         if !may.any_true() {
             return may;
         }
-        let before = Motions::<S, AS_ONE, false>::new(simd, &mut self.motions);
-        self.motions.turn_over(simd, may, &mut self.impacts.pivots_there);
-        let after = Motions::<S, AS_ONE, false>::new(simd, &mut self.motions);
-        let (left, turns_on) = self.struck::<S, AS_ONE>([&before, &after], &reached.landed);
+        let before = Motions::<F, AS_ONE, false>::new(simd, &mut self.motions);
+        self.motions.turn_over::<F>(may, &mut self.impacts.pivots_there);
+        let after = Motions::<F, AS_ONE, false>::new(simd, &mut self.motions);
+        let (left, turns_on) = self.struck::<F, AS_ONE>([&before, &after], &reached.landed);
         let (turned, stays_closed) = self.turned_on(&after, &reached, &left);
         let (gone, back) = (may & turns_on & stays_closed, may & !(turns_on & stays_closed));
         if back.any_true() {
-            self.motions.turn_over(simd, back, &mut self.impacts.pivots_there);
+            self.motions.turn_over::<F>(back, &mut self.impacts.pivots_there);
         }
         self.account_for_flight(gone, &before, &reached);
-        self.turn_on::<S, AS_ONE>(gone, &reached, &left, &turned);
+        self.turn_on::<F, AS_ONE>(gone, &reached, &left, &turned);
         gone
     }
 
     /// The ends of steps moved onto the impact, and where it may be so: by little, with forces that need no second look, and
     /// joints that fall back.
     #[inline(always)]
-    fn onto_impact<S: Simd, const AS_ONE: bool>(&self, landed: &Landed<S>) -> (Reached<S>, Mask<S>) {
-        let simd = landed.position[0].simd;
-        let of = |numbers: &Numbers| from_row(simd, numbers);
+    fn onto_impact<F: Wide, const AS_ONE: bool>(&self, landed: &Landed<F>) -> (Reached<F>, F::Mask) {
+        let simd = landed.position[0].token();
+        let of = |numbers: &Numbers| F::of_row(simd, numbers);
         let (theta, omega, theta_dd) = (landed.position, landed.velocity, landed.acceleration);
-        let late_s = gap::<S, AS_ONE>(theta) / gap::<S, AS_ONE>(omega);
+        let late_s = gap::<F, AS_ONE>(theta) / gap::<F, AS_ONE>(omega);
         let (short_s, h, step_s) = (-late_s, of(&self.moving.h) - late_s, of(&self.ground.step_s));
         let position = |i: usize| theta[i] + short_s * (omega[i] + short_s * 0.5 * theta_dd[i]);
         let velocity = |i: usize| omega[i] + short_s * theta_dd[i];
@@ -235,7 +232,7 @@ impl Row {
         let outdone = self.sums.surely_outdo(0, &self.limits, [ground[0], ground[1]])
             & (self.sums.surely_outdo(1, &self.limits, [crack[0], crack[1]])
                 | of(&self.limits.cracked).simd_eq(0.0));
-        let falls_back = gap::<S, AS_ONE>(velocity) * of(&self.limits.sides[joint(AS_ONE)]);
+        let falls_back = gap::<F, AS_ONE>(velocity) * of(&self.limits.sides[joint(AS_ONE)]);
         let on_time = late_s.abs().simd_le(step_s * SHORT)
             & h.simd_ge(step_s * PROGRESS)
             & offset_s.simd_lt(of(&self.ground.length_s))
@@ -247,50 +244,50 @@ impl Row {
 
     /// What the impacts leave, by the motions before and after, and where these are surely those after.
     #[inline(always)]
-    fn struck<S: Simd, const AS_ONE: bool>(
+    fn struck<F: Wide, const AS_ONE: bool>(
         &self,
-        motions: [&Motions<S, AS_ONE, false>; 2],
-        landed: &Landed<S>,
-    ) -> (Left<S>, Mask<S>) {
-        let simd = landed.position[0].simd;
+        motions: [&Motions<F, AS_ONE, false>; 2],
+        landed: &Landed<F>,
+    ) -> (Left<F>, F::Mask) {
+        let simd = landed.position[0].token();
         if AS_ONE {
             return self.impacts.whole(landed.velocity[0]);
         }
-        let sides = [0, 1].map(|i| from_row(simd, &self.limits.sides[i]));
+        let sides = [0, 1].map(|i| F::of_row(simd, &self.limits.sides[i]));
         self.impacts.at_crack(motions, landed, sides)
     }
 
     /// The motion after the impact, and whether a crack that is closed stays so in it.
     #[inline(always)]
-    fn turned_on<S: Simd, const AS_ONE: bool>(
+    fn turned_on<F: Wide, const AS_ONE: bool>(
         &self,
-        after: &Motions<S, AS_ONE, false>,
-        reached: &Reached<S>,
-        left: &Left<S>,
-    ) -> (TurnedOn<S>, Mask<S>) {
-        let simd = reached.h.simd;
+        after: &Motions<F, AS_ONE, false>,
+        reached: &Reached<F>,
+        left: &Left<F>,
+    ) -> (TurnedOn<F>, F::Mask) {
+        let simd = reached.h.token();
         let ground = GroundLanes::of_row(simd, &self.ground).at(reached.h);
         let (rate, reactions) =
             after.rate_and_reactions(&after.configuration(left.theta), left.omega, ground);
         let corner_force = self.limits.least_at_corners(reactions.crack);
-        let stays = corner_force.simd_ge(0.0) | from_row(simd, &self.limits.closed).simd_eq(0.0);
+        let stays = corner_force.simd_ge(0.0) | F::of_row(simd, &self.limits.closed).simd_eq(0.0);
         (TurnedOn { rate, reactions, corner_force }, stays)
     }
 
     /// Adds up the steps to the impacts, as [`Row::settle`] does whole ones.
     #[inline(always)]
-    fn account_for_flight<S: Simd, const AS_ONE: bool>(
+    fn account_for_flight<F: Wide, const AS_ONE: bool>(
         &mut self,
-        gone: Mask<S>,
-        motions: &Motions<S, AS_ONE, false>,
-        reached: &Reached<S>,
+        gone: F::Mask,
+        motions: &Motions<F, AS_ONE, false>,
+        reached: &Reached<F>,
     ) {
         let Reached { landed, h, .. } = reached;
         keep(gone, &mut self.moving.h, *h);
         let scale = scale(*h);
         let lower = bound(&self.moving.path(0, landed, scale));
         let upper = if AS_ONE { lower } else { bound(&self.moving.path(1, landed, scale)) };
-        let rises = |i: usize, size: F<S>| size.simd_gt(from_row(h.simd, &self.limits.theta_max_rad[i]));
+        let rises = |i: usize, size: F| size.simd_gt(F::of_row(h.token(), &self.limits.theta_max_rad[i]));
         let rises = gone & (rises(0, lower) | rises(1, upper));
         if rises.any_true() {
             self.landed.store_motion(landed);
@@ -302,24 +299,24 @@ impl Row {
 
     /// Makes the motion after the impacts the present.
     #[inline(always)]
-    fn turn_on<S: Simd, const AS_ONE: bool>(
+    fn turn_on<F: Wide, const AS_ONE: bool>(
         &mut self,
-        gone: Mask<S>,
-        reached: &Reached<S>,
-        left: &Left<S>,
-        after: &TurnedOn<S>,
+        gone: F::Mask,
+        reached: &Reached<F>,
+        left: &Left<F>,
+        after: &TurnedOn<F>,
     ) {
-        let simd = reached.h.simd;
+        let simd = reached.h.token();
         let all = |value: f64| F::splat(simd, value);
         let impacts = &mut self.impacts;
         SumRow::add(gone, &mut impacts.here.count, all(1.0));
         SumRow::add(gone, &mut impacts.loss_j, left.loss_j);
         SumRow::add(gone, &mut self.sums.passed_through_j, left.loss_j.abs());
         keep(gone, &mut impacts.reaches, all(0.0));
-        impacts.here.exchange(simd, gone, &mut impacts.there);
-        exchange(simd, gone, &mut self.sums.pattern_time_s, &mut impacts.time_there_s);
+        impacts.here.exchange::<F>(gone, &mut impacts.there);
+        exchange::<F>(gone, &mut self.sums.pattern_time_s, &mut impacts.time_there_s);
         let side = &mut self.limits.sides[joint(AS_ONE)];
-        let other = -from_row(simd, side);
+        let other = -F::of_row(simd, side);
         keep(gone, side, other);
         keep(gone, &mut self.limits.advances, all(1.0));
         keep(gone, &mut self.limits.corner_force, after.corner_force);
@@ -329,6 +326,6 @@ impl Row {
         keep_both(gone, &mut self.moving.acceleration, after.rate.theta_dd);
         keep_both(gone, &mut self.moving.powers_w, after.rate.powers_w);
         keep(gone, &mut self.ground.offset_s, reached.offset_s);
-        self.request(gone, from_row(simd, &self.ground.length_s) - reached.offset_s);
+        self.request(gone, F::of_row(simd, &self.ground.length_s) - reached.offset_s);
     }
 }

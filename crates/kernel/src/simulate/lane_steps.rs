@@ -1,59 +1,57 @@
 //! The steps of a row of runs on sharp edges, in vector lanes.
 
-use fearless_simd::{Level, Simd, SimdBase, f64x4};
+use fearless_simd::{Level, Simd};
 
 use super::lane_beds::OnBeds;
 use super::lane_values::{OneRotation, TwoRotations};
 use super::row::{GroundRow, MovingRow, Row};
 use crate::instructions::dispatch_lanes;
-use crate::lanes::{Numbers, from_row};
+use crate::lanes::{Numbers, Wide};
 use crate::model::{
     BeddedMotions, Freedom, LaneKind, MotionRow, Motions, RateLanes, ReactionLanes, sin_cos_lanes,
 };
 use crate::solver::{Field, Nystrom, Rate, Stride};
 
-type F<S> = f64x4<S>;
-
 /// Calls what every stage of a step does as a function of its own, compiled for the same instructions. Rare laws
 /// are longer than ones that are everywhere: six times over they would fill the cache of instructions, and the
 /// compiler's time.
 #[inline(always)]
-pub(super) fn apart<S: Simd, R>(simd: S, stage: impl FnOnce() -> R) -> R {
+pub(super) fn apart<F: Wide, R>(simd: F::Token, stage: impl FnOnce() -> R) -> R {
     simd.vectorize(stage)
 }
 
 /// What a step gave every lane.
-pub(super) struct Landed<S: Simd> {
-    pub position: [F<S>; 2],
-    pub velocity: [F<S>; 2],
-    pub acceleration: [F<S>; 2],
+pub(super) struct Landed<F: Wide> {
+    pub position: [F; 2],
+    pub velocity: [F; 2],
+    pub acceleration: [F; 2],
     /// What the quadratures gained, and their rates at the end, W.
-    pub quadrature: [F<S>; 2],
-    pub powers_w: [F<S>; 2],
-    pub position_error: [F<S>; 2],
-    pub velocity_error: [F<S>; 2],
-    pub reactions: ReactionLanes<S>,
+    pub quadrature: [F; 2],
+    pub powers_w: [F; 2],
+    pub position_error: [F; 2],
+    pub velocity_error: [F; 2],
+    pub reactions: ReactionLanes<F>,
 }
 
 /// The ground acceleration under every run.
-pub(super) struct GroundLanes<S: Simd> {
-    pub from: [F<S>; 2],
-    pub slope: [F<S>; 2],
-    pub from_s: F<S>,
+pub(super) struct GroundLanes<F: Wide> {
+    pub from: [F; 2],
+    pub slope: [F; 2],
+    pub from_s: F,
 }
 
-impl<S: Simd> GroundLanes<S> {
+impl<F: Wide> GroundLanes<F> {
     #[inline(always)]
-    pub fn of_row(simd: S, row: &GroundRow) -> Self {
+    pub fn of_row(simd: F::Token, row: &GroundRow) -> Self {
         Self {
-            from: [from_row(simd, &row.from[0]), from_row(simd, &row.from[1])],
-            slope: [from_row(simd, &row.slope[0]), from_row(simd, &row.slope[1])],
-            from_s: from_row(simd, &row.offset_s),
+            from: [F::of_row(simd, &row.from[0]), F::of_row(simd, &row.from[1])],
+            slope: [F::of_row(simd, &row.slope[0]), F::of_row(simd, &row.slope[1])],
+            from_s: F::of_row(simd, &row.offset_s),
         }
     }
 
     #[inline(always)]
-    pub fn at(&self, after_s: F<S>) -> [F<S>; 2] {
+    pub fn at(&self, after_s: F) -> [F; 2] {
         let offset_s = self.from_s + after_s;
         [self.from[0] + self.slope[0] * offset_s, self.from[1] + self.slope[1] * offset_s]
     }
@@ -63,24 +61,24 @@ impl<S: Simd> GroundLanes<S> {
 ///
 /// What a stage leaves for the landing is no `Option`: those are copied through memory, and a copy of what was just written,
 /// wider than it was written, waits for the writing.
-struct ShakenMotion<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> {
-    motions: &'a Motions<S, AS_ONE, FURTHER>,
-    ground: GroundLanes<S>,
+struct ShakenMotion<'a, F: Wide, const AS_ONE: bool, const FURTHER: bool> {
+    motions: &'a Motions<F, AS_ONE, FURTHER>,
+    ground: GroundLanes<F>,
     /// Sines and cosines of both rotations at the last stage, whose positions are those of the end.
-    turns: [(F<S>, F<S>); 2],
-    reactions: ReactionLanes<S>,
+    turns: [(F, F); 2],
+    reactions: ReactionLanes<F>,
 }
 
-impl<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'a, S, AS_ONE, FURTHER> {
+impl<'a, F: Wide, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'a, F, AS_ONE, FURTHER> {
     #[inline(always)]
-    fn new(motions: &'a Motions<S, AS_ONE, FURTHER>, ground: GroundLanes<S>) -> Self {
-        let none = F::splat(ground.from_s.simd, 0.0);
+    fn new(motions: &'a Motions<F, AS_ONE, FURTHER>, ground: GroundLanes<F>) -> Self {
+        let none = F::splat(ground.from_s.token(), 0.0);
         let reactions = ReactionLanes { ground: [none; 3], crack: [none; 3], top: [none; 3] };
         Self { motions, ground, turns: [(none, none); 2], reactions }
     }
 
     #[inline(always)]
-    fn land_at(&mut self, after_s: F<S>, omega: [F<S>; 2]) -> RateLanes<S> {
+    fn land_at(&mut self, after_s: F, omega: [F; 2]) -> RateLanes<F> {
         let turned = self.motions.turned(self.turns);
         let (rate, reactions) = self.motions.rate_and_reactions(&turned, omega, self.ground.at(after_s));
         self.reactions = reactions;
@@ -89,11 +87,11 @@ impl<'a, S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'a, S, A
 }
 
 /// The one rotation and the power of the ground, where nothing is lost.
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<OneRotation<S>>
-    for ShakenMotion<'_, S, AS_ONE, FURTHER>
+impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Field<OneRotation<F>>
+    for ShakenMotion<'_, F, AS_ONE, FURTHER>
 {
     #[inline(always)]
-    fn rate(&mut self, after_s: F<S>, theta: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
+    fn rate(&mut self, after_s: F, theta: OneRotation<F>, omega: OneRotation<F>) -> Rate<OneRotation<F>> {
         let turn = sin_cos_lanes(theta.0);
         self.turns = [turn; 2];
         let ground = self.ground.at(after_s);
@@ -102,15 +100,15 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<OneRotation<S>>
     }
 
     #[inline(always)]
-    fn land(&mut self, after_s: F<S>, _: OneRotation<S>, omega: OneRotation<S>) -> Rate<OneRotation<S>> {
+    fn land(&mut self, after_s: F, _: OneRotation<F>, omega: OneRotation<F>) -> Rate<OneRotation<F>> {
         let rate = self.land_at(after_s, [omega.0; 2]);
         Rate { acceleration: OneRotation(rate.theta_dd[0]), quadrature: OneRotation(rate.powers_w[0]) }
     }
 }
 
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'_, S, AS_ONE, FURTHER> {
+impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'_, F, AS_ONE, FURTHER> {
     #[inline(always)]
-    fn rate_at(&mut self, after_s: F<S>, theta: [F<S>; 2], omega: [F<S>; 2]) -> RateLanes<S> {
+    fn rate_at(&mut self, after_s: F, theta: [F; 2], omega: [F; 2]) -> RateLanes<F> {
         let ground = self.ground.at(after_s);
         if AS_ONE {
             let turn = sin_cos_lanes(theta[0]);
@@ -124,19 +122,14 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> ShakenMotion<'_, S, AS_ON
 }
 
 /// Both rotations, equal where walls turn as one, and both powers.
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
-    for ShakenMotion<'_, S, AS_ONE, FURTHER>
+impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<F>>
+    for ShakenMotion<'_, F, AS_ONE, FURTHER>
 {
     #[inline(always)]
-    fn rate(
-        &mut self,
-        after_s: F<S>,
-        theta: TwoRotations<S>,
-        omega: TwoRotations<S>,
-    ) -> Rate<TwoRotations<S>> {
+    fn rate(&mut self, after_s: F, theta: TwoRotations<F>, omega: TwoRotations<F>) -> Rate<TwoRotations<F>> {
         if FURTHER {
-            return as_rate(apart(
-                after_s.simd,
+            return as_rate(apart::<F, _>(
+                after_s.token(),
                 #[inline(always)]
                 || self.rate_at(after_s, theta.0, omega.0),
             ));
@@ -145,28 +138,28 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Field<TwoRotations<S>>
     }
 
     #[inline(always)]
-    fn land(&mut self, after_s: F<S>, _: TwoRotations<S>, omega: TwoRotations<S>) -> Rate<TwoRotations<S>> {
+    fn land(&mut self, after_s: F, _: TwoRotations<F>, omega: TwoRotations<F>) -> Rate<TwoRotations<F>> {
         as_rate(self.land_at(after_s, omega.0))
     }
 }
 
 #[inline(always)]
-pub(super) fn as_rate<S: Simd>(rate: RateLanes<S>) -> Rate<TwoRotations<S>> {
+pub(super) fn as_rate<F: Wide>(rate: RateLanes<F>) -> Rate<TwoRotations<F>> {
     Rate { acceleration: TwoRotations(rate.theta_dd), quadrature: TwoRotations(rate.powers_w) }
 }
 
 /// A step of walls that turn as one and lose nothing between impacts.
 #[inline(always)]
-fn monolithic_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
-    simd: S,
-    motions: &Motions<S, AS_ONE, FURTHER>,
+fn monolithic_step<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
+    simd: F::Token,
+    motions: &Motions<F, AS_ONE, FURTHER>,
     row: &Row,
-) -> Landed<S> {
+) -> Landed<F> {
     let mut shaken = ShakenMotion::new(motions, GroundLanes::of_row(simd, &row.ground));
-    let of = |numbers: &[Numbers; 2]| OneRotation(from_row(simd, &numbers[0]));
+    let of = |numbers: &[Numbers; 2]| OneRotation(F::of_row(simd, &numbers[0]));
     let moving = &row.moving;
     let start = Rate { acceleration: of(&moving.acceleration), quadrature: of(&moving.powers_w) };
-    let h = from_row(simd, &moving.h);
+    let h = F::of_row(simd, &moving.h);
     let stride = Nystrom::stride(of(&moving.position), of(&moving.velocity), start, h, &mut shaken);
     let none = F::splat(simd, 0.0);
     Landed {
@@ -184,21 +177,22 @@ fn monolithic_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
 impl MovingRow {
     /// The step of both rotations of every run.
     #[inline(always)]
-    pub fn stride<S: Simd>(
+    pub fn stride<F: Wide>(
         &self,
-        simd: S,
-        shaken: &mut impl Field<TwoRotations<S>>,
-    ) -> Stride<TwoRotations<S>> {
-        let of =
-            |numbers: &[Numbers; 2]| TwoRotations([from_row(simd, &numbers[0]), from_row(simd, &numbers[1])]);
+        simd: F::Token,
+        shaken: &mut impl Field<TwoRotations<F>>,
+    ) -> Stride<TwoRotations<F>> {
+        let of = |numbers: &[Numbers; 2]| {
+            TwoRotations([F::of_row(simd, &numbers[0]), F::of_row(simd, &numbers[1])])
+        };
         let start = Rate { acceleration: of(&self.acceleration), quadrature: of(&self.powers_w) };
-        Nystrom::stride(of(&self.position), of(&self.velocity), start, from_row(simd, &self.h), shaken)
+        Nystrom::stride(of(&self.position), of(&self.velocity), start, F::of_row(simd, &self.h), shaken)
     }
 }
 
 /// What a step of both rotations gave.
 #[inline(always)]
-pub(super) fn landed_by<S: Simd>(stride: Stride<TwoRotations<S>>, reactions: ReactionLanes<S>) -> Landed<S> {
+pub(super) fn landed_by<F: Wide>(stride: Stride<TwoRotations<F>>, reactions: ReactionLanes<F>) -> Landed<F> {
     Landed {
         position: stride.position.0,
         velocity: stride.velocity.0,
@@ -213,29 +207,29 @@ pub(super) fn landed_by<S: Simd>(stride: Stride<TwoRotations<S>>, reactions: Rea
 
 /// A step of walls on sharp edges by both rotations.
 #[inline(always)]
-fn two_body_step<S: Simd, const AS_ONE: bool, const FURTHER: bool>(
-    simd: S,
-    motions: &Motions<S, AS_ONE, FURTHER>,
+fn two_body_step<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
+    simd: F::Token,
+    motions: &Motions<F, AS_ONE, FURTHER>,
     row: &Row,
-) -> Landed<S> {
+) -> Landed<F> {
     let mut shaken = ShakenMotion::new(motions, GroundLanes::of_row(simd, &row.ground));
     let stride = row.moving.stride(simd, &mut shaken);
     landed_by(stride, shaken.reactions)
 }
 
 /// The motions of a row, as they take their step.
-pub(super) trait Stepping<S: Simd> {
+pub(super) trait Stepping<F: Wide> {
     /// Whether both bodies turn by one rotation, and whether joints are on beds.
     const AS_ONE: bool;
     const ON_BEDS: bool;
 
-    fn step(&self, simd: S, row: &Row) -> Landed<S>;
+    fn step(&self, simd: F::Token, row: &Row) -> Landed<F>;
 
     /// Displacement of the top at rotations, m.
-    fn top_displacement_m(&self, theta: [F<S>; 2]) -> F<S>;
+    fn top_displacement_m(&self, theta: [F; 2]) -> F;
 
     /// Goes through what happened in the steps of lanes that are left, where the row can: the bits of these lanes.
-    fn meet(&mut self, _: S, _: &mut Row, _: &Landed<S>, _: u64) -> u64 {
+    fn meet(&mut self, _: F::Token, _: &mut Row, _: &Landed<F>, _: u64) -> u64 {
         0
     }
 
@@ -244,12 +238,12 @@ pub(super) trait Stepping<S: Simd> {
 }
 
 /// A wall on sharp edges, which steps by one rotation where it can.
-impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S, AS_ONE, FURTHER> {
+impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Stepping<F> for Motions<F, AS_ONE, FURTHER> {
     const AS_ONE: bool = AS_ONE;
     const ON_BEDS: bool = false;
 
     #[inline(always)]
-    fn step(&self, simd: S, row: &Row) -> Landed<S> {
+    fn step(&self, simd: F::Token, row: &Row) -> Landed<F> {
         if AS_ONE && !FURTHER {
             return monolithic_step(simd, self, row);
         }
@@ -257,19 +251,19 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S
     }
 
     #[inline(always)]
-    fn top_displacement_m(&self, theta: [F<S>; 2]) -> F<S> {
+    fn top_displacement_m(&self, theta: [F; 2]) -> F {
         Motions::top_displacement_m(self, &self.configuration(theta))
     }
 
     #[inline(always)]
-    fn meet(&mut self, simd: S, row: &mut Row, landed: &Landed<S>, left: u64) -> u64 {
+    fn meet(&mut self, simd: F::Token, row: &mut Row, landed: &Landed<F>, left: u64) -> u64 {
         if FURTHER {
             return 0;
         }
-        let met = apart(
+        let met = apart::<F, _>(
             simd,
             #[inline(always)]
-            || row.meet_impacts::<S, AS_ONE>(simd, landed, left),
+            || row.meet_impacts::<F, AS_ONE>(simd, landed, left),
         );
         *self = Self::new(simd, &mut row.motions);
         met
@@ -284,7 +278,7 @@ impl<S: Simd, const AS_ONE: bool, const FURTHER: bool> Stepping<S> for Motions<S
 /// Steps of a row until something happens to one of the runs in it: gives its lane, and those of others to which
 /// something does at once.
 #[inline(always)]
-fn steps_until<S: Simd>(simd: S, mut motions: impl Stepping<S>, alone: bool, row: &mut Row) -> u64 {
+fn steps_until<F: Wide>(simd: F::Token, mut motions: impl Stepping<F>, alone: bool, row: &mut Row) -> u64 {
     loop {
         let landed = motions.step(simd, row);
         let mut left = row.settle(&motions, alone, &landed);
@@ -303,14 +297,18 @@ fn steps_until<S: Simd>(simd: S, mut motions: impl Stepping<S>, alone: bool, row
 }
 
 #[inline(always)]
-fn edges_until<S: Simd, const AS_ONE: bool, const FURTHER: bool>(simd: S, alone: bool, row: &mut Row) -> u64 {
-    let motions = Motions::<S, AS_ONE, FURTHER>::new(simd, &mut row.motions);
+fn edges_until<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
+    simd: F::Token,
+    alone: bool,
+    row: &mut Row,
+) -> u64 {
+    let motions = Motions::<F, AS_ONE, FURTHER>::new(simd, &mut row.motions);
     steps_until(simd, motions, alone, row)
 }
 
 #[inline(always)]
-fn beds_until<S: Simd, const AS_ONE: bool>(simd: S, freedom: Freedom, row: &mut Row) -> u64 {
-    let motions = OnBeds::<S, AS_ONE>(BeddedMotions::new(simd, &mut row.motions, freedom));
+fn beds_until<F: Wide, const AS_ONE: bool>(simd: F::Token, freedom: Freedom, row: &mut Row) -> u64 {
+    let motions = OnBeds::<F, AS_ONE>(BeddedMotions::new(simd, &mut row.motions, freedom));
     steps_until(simd, motions, false, row)
 }
 
@@ -318,22 +316,22 @@ fn beds_until<S: Simd, const AS_ONE: bool>(simd: S, freedom: Freedom, row: &mut 
 pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row) -> u64 {
     match kind {
         LaneKind::AsOne { further: false } => {
-            dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, false, row))
+            dispatch_lanes!(level, Lanes of f64x8, simd => edges_until::<Lanes<_>, true, false>(simd, false, row))
         }
         LaneKind::Apart { further: false } => {
-            dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, false, row))
+            dispatch_lanes!(level, Lanes of f64x8, simd => edges_until::<Lanes<_>, false, false>(simd, false, row))
         }
         LaneKind::AsOne { further: true } => {
-            dispatch_lanes!(level, simd => edges_until::<_, true, true>(simd, false, row))
+            dispatch_lanes!(level, Lanes of f64x8, simd => edges_until::<Lanes<_>, true, true>(simd, false, row))
         }
         LaneKind::Apart { further: true } => {
-            dispatch_lanes!(level, simd => edges_until::<_, false, true>(simd, false, row))
+            dispatch_lanes!(level, Lanes of f64x8, simd => edges_until::<Lanes<_>, false, true>(simd, false, row))
         }
         LaneKind::Bedded(Freedom::Monolithic) => {
-            dispatch_lanes!(level, simd => beds_until::<_, true>(simd, Freedom::Monolithic, row))
+            dispatch_lanes!(level, Lanes of f64x8, simd => beds_until::<Lanes<_>, true>(simd, Freedom::Monolithic, row))
         }
         LaneKind::Bedded(freedom) => {
-            dispatch_lanes!(level, simd => beds_until::<_, false>(simd, freedom, row))
+            dispatch_lanes!(level, Lanes of f64x8, simd => beds_until::<Lanes<_>, false>(simd, freedom, row))
         }
     }
 }
@@ -341,8 +339,8 @@ pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row) -> u64 {
 /// The same of one run in a row of its own, on sharp edges and without further laws.
 pub(super) fn advance_alone(level: Level, as_one: bool, row: &mut Row) {
     if as_one {
-        dispatch_lanes!(level, simd => edges_until::<_, true, false>(simd, true, row));
+        dispatch_lanes!(level, Lanes of f64x4, simd => edges_until::<Lanes<_>, true, false>(simd, true, row));
     } else {
-        dispatch_lanes!(level, simd => edges_until::<_, false, false>(simd, true, row));
+        dispatch_lanes!(level, Lanes of f64x4, simd => edges_until::<Lanes<_>, false, false>(simd, true, row));
     }
 }

@@ -2,21 +2,18 @@
 
 use std::ops::Mul;
 
-use fearless_simd::{Simd, SimdBase, f64x4};
-
 use crate::fused::fused_lanes;
+use crate::lanes::Wide;
 use crate::solver::Values;
-
-type F<S> = f64x4<S>;
 
 /// One coordinate of every run, or both of them.
 #[derive(Clone, Copy)]
-pub(super) struct OneRotation<S: Simd>(pub F<S>);
+pub(super) struct OneRotation<F: Wide>(pub F);
 
 #[derive(Clone, Copy)]
-pub(super) struct TwoRotations<S: Simd>(pub [F<S>; 2]);
+pub(super) struct TwoRotations<F: Wide>(pub [F; 2]);
 
-impl<S: Simd> Mul<f64> for OneRotation<S> {
+impl<F: Wide> Mul<f64> for OneRotation<F> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -24,25 +21,25 @@ impl<S: Simd> Mul<f64> for OneRotation<S> {
     }
 }
 
-impl<S: Simd> Values for OneRotation<S> {
-    type Length = F<S>;
+impl<F: Wide> Values for OneRotation<F> {
+    type Length = F;
     #[inline(always)]
-    fn over(self, length: F<S>) -> Self {
+    fn over(self, length: F) -> Self {
         Self(self.0 * length)
     }
 
     #[inline(always)]
-    fn over_plus(self, length: F<S>, other: Self) -> Self {
+    fn over_plus(self, length: F, other: Self) -> Self {
         Self(fused_lanes(self.0, length, other.0))
     }
 
     #[inline(always)]
     fn times_plus(self, factor: f64, other: Self) -> Self {
-        Self(fused_lanes(self.0, F::splat(self.0.simd, factor), other.0))
+        Self(fused_lanes(self.0, F::splat(self.0.token(), factor), other.0))
     }
 }
 
-impl<S: Simd> Mul<f64> for TwoRotations<S> {
+impl<F: Wide> Mul<f64> for TwoRotations<F> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
@@ -50,20 +47,20 @@ impl<S: Simd> Mul<f64> for TwoRotations<S> {
     }
 }
 
-impl<S: Simd> Values for TwoRotations<S> {
-    type Length = F<S>;
+impl<F: Wide> Values for TwoRotations<F> {
+    type Length = F;
     #[inline(always)]
-    fn over(self, length: F<S>) -> Self {
+    fn over(self, length: F) -> Self {
         Self([self.0[0] * length, self.0[1] * length])
     }
 
     #[inline(always)]
-    fn over_plus(self, length: F<S>, other: Self) -> Self {
+    fn over_plus(self, length: F, other: Self) -> Self {
         Self([fused_lanes(self.0[0], length, other.0[0]), fused_lanes(self.0[1], length, other.0[1])])
     }
 
     #[inline(always)]
     fn times_plus(self, factor: f64, other: Self) -> Self {
-        self.over_plus(F::splat(self.0[0].simd, factor), other)
+        self.over_plus(F::splat(self.0[0].token(), factor), other)
     }
 }

@@ -7,11 +7,11 @@
 //! some λ. A λ that suits all corners exists while every bound from below lies below every bound from above.
 //! These conditions are linear in the ground acceleration again.
 
-use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4};
+use fearless_simd::{Level, SimdMask, f64x4};
 
 use super::ground_path::Piece;
 use crate::instructions::dispatch;
-use crate::lanes::{LANES, lanes};
+use crate::lanes::Wide;
 use crate::model::{Contact, G_M_S2, RockingWall, State, Vector};
 
 /// Corner forces at rest: `x` times a_x plus `y` times a_y plus `constant`.
@@ -102,24 +102,24 @@ impl RestLimits {
         if !self.with_friction.is_empty() {
             return (0, 0.0);
         }
-        dispatch!(level, simd => self.lanes_hold_over(simd, samples))
+        dispatch!(level, simd => self.lanes_hold_over::<f64x4<_>>(simd, samples))
     }
 
     #[inline(always)]
-    fn lanes_hold_over<S: Simd>(&self, simd: S, samples: &[Vector]) -> (usize, f64) {
-        let constant = |value: f64| f64x4::splat(simd, value);
+    fn lanes_hold_over<F: Wide>(&self, simd: F::Token, samples: &[Vector]) -> (usize, f64) {
+        let constant = |value: f64| F::splat(simd, value);
         let corners = self.corners.map(|corner| [corner.x, corner.y, corner.constant].map(constant));
         let (mut count, mut friction) = (0, constant(0.0));
-        for four in samples.chunks_exact(LANES) {
-            let (x, y) = (lanes(simd, |i| four[i].x), lanes(simd, |i| four[i].y));
-            let at = |[per_x, per_y, still]: [f64x4<S>; 3]| (per_x * x + per_y * y + still).simd_ge(0.0);
+        for four in samples.chunks_exact(F::LEN) {
+            let (x, y) = (F::of_each(simd, |i| four[i].x), F::of_each(simd, |i| four[i].y));
+            let at = |[per_x, per_y, still]: [F; 3]| (per_x * x + per_y * y + still).simd_ge(0.0);
             if !(at(corners[0]) & at(corners[1]) & at(corners[2]) & at(corners[3])).all_true() {
                 break;
             }
             friction = friction.max_precise(x.abs() / (y + G_M_S2));
-            count += LANES;
+            count += F::LEN;
         }
-        (count, <[f64; LANES]>::from(friction).into_iter().fold(0.0, f64::max))
+        (count, friction.as_slice().iter().copied().fold(0.0, f64::max))
     }
 
     #[inline]

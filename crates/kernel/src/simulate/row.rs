@@ -5,14 +5,12 @@
 
 use std::sync::Arc;
 
-use fearless_simd::Simd;
-
 use super::ground_path::Piece;
 use super::lane_impacts::ImpactRow;
 use super::lane_steps::Landed;
 use super::response::Peak;
 use super::totals::raise_rotations;
-use crate::lanes::{LANES, Numbers};
+use crate::lanes::{LANES, Numbers, Wide};
 use crate::model::{JointForce, JointForces, MotionRow, Reactions, Vector};
 use crate::solver::{ErrorRow, Point, Quintic, Step};
 
@@ -223,22 +221,22 @@ impl LimitRow {
 
 impl LandedRow {
     #[inline(always)]
-    pub fn store_motion<S: Simd>(&mut self, landed: &Landed<S>) {
-        self.position = landed.position.map(Numbers::from);
-        self.velocity = landed.velocity.map(Numbers::from);
-        self.acceleration = landed.acceleration.map(Numbers::from);
+    pub fn store_motion<F: Wide>(&mut self, landed: &Landed<F>) {
+        self.position = landed.position.map(F::numbers);
+        self.velocity = landed.velocity.map(F::numbers);
+        self.acceleration = landed.acceleration.map(F::numbers);
     }
 
     #[inline(always)]
-    pub fn store<S: Simd>(&mut self, landed: &Landed<S>) {
+    pub fn store<F: Wide>(&mut self, landed: &Landed<F>) {
         self.store_motion(landed);
-        self.quadrature = landed.quadrature.map(Numbers::from);
-        self.powers_w = landed.powers_w.map(Numbers::from);
-        self.position_error = landed.position_error.map(Numbers::from);
-        self.velocity_error = landed.velocity_error.map(Numbers::from);
-        self.ground = landed.reactions.ground.map(Numbers::from);
-        self.crack = landed.reactions.crack.map(Numbers::from);
-        self.top = landed.reactions.top.map(Numbers::from);
+        self.quadrature = landed.quadrature.map(F::numbers);
+        self.powers_w = landed.powers_w.map(F::numbers);
+        self.position_error = landed.position_error.map(F::numbers);
+        self.velocity_error = landed.velocity_error.map(F::numbers);
+        self.ground = landed.reactions.ground.map(F::numbers);
+        self.crack = landed.reactions.crack.map(F::numbers);
+        self.top = landed.reactions.top.map(F::numbers);
     }
 
     /// The end of the step in a lane.
@@ -268,7 +266,7 @@ impl Row {
     #[inline(never)]
     pub fn remember(&mut self) {
         self.before.clone_from(&self.moving);
-        self.before_s = std::array::from_fn(|i| self.ground.start_s[i] + self.ground.offset_s[i]);
+        self.before_s = Numbers(std::array::from_fn(|i| self.ground.start_s[i] + self.ground.offset_s[i]));
     }
 
     /// The motion in a lane over the step before the one that is to follow, and when it began, s.

@@ -11,12 +11,12 @@ use super::lane_steps::advance;
 use super::response::Response;
 use super::row::Row;
 use super::run::Run;
-use crate::instructions::lanes_pay;
+use crate::instructions::{lanes_of, lanes_pay};
 use crate::lanes::LANES;
 use crate::model::{Contact, LaneKind, Reactions, Regime};
 
-/// Runs in the pool at once: enough that mostly there are as many of a kind as lanes.
-const AT_ONCE: usize = 6 * LANES;
+/// Runs in the pool at once, beside each lane: enough that mostly there are as many of a kind as lanes.
+const PER_LANE: usize = 6;
 
 /// A wall under a shaking, ready to run beside others from a time in seconds on.
 pub struct Prepared<O = ()> {
@@ -84,6 +84,8 @@ struct Pool<'w, O> {
     /// Vector instructions that this processor has, and whether walls go side by side by them.
     level: Level,
     lanes_pay: bool,
+    /// How many walls step side by side.
+    lanes: usize,
 }
 
 /// A row and the slots of the runs in it, with the branch of the laws in which they boarded.
@@ -133,13 +135,23 @@ impl<'w, O: Observer> Pool<'w, O> {
         next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
         done: &'w mut dyn FnMut(usize, Response),
     ) -> Self {
-        let queues = LaneKind::ALL.map(|_| Vec::with_capacity(AT_ONCE));
-        let (slots, lanes_pay) = (Vec::with_capacity(AT_ONCE), lanes_pay(level));
-        Self { next, done, slots, queues, rows: Default::default(), level, lanes_pay }
+        let lanes = lanes_of(level);
+        let at_once = || Vec::with_capacity(PER_LANE * lanes);
+        let (slots, queues) = (Vec::with_capacity(PER_LANE * lanes), LaneKind::ALL.map(|_| at_once()));
+        Self {
+            next,
+            done,
+            slots,
+            queues,
+            rows: Default::default(),
+            level,
+            lanes_pay: lanes_pay(level),
+            lanes,
+        }
     }
 
     fn all(&mut self) {
-        while self.slots.len() < AT_ONCE {
+        while self.slots.len() < PER_LANE * self.lanes {
             let Some(run) = self.begin_next() else { break };
             self.slots.push(Some(run));
             self.queue_step(self.slots.len() - 1);
@@ -204,14 +216,14 @@ impl<'w, O: Observer> Pool<'w, O> {
             let row = &mut self.rows[kind.index()].row;
             let left = advance(self.level, kind, row);
             let shown = std::mem::take(&mut row.shown);
-            for i in 0..LANES {
+            for i in 0..self.lanes {
                 if left >> i & 1 == 1 {
                     self.attend(kind, i);
                 } else if shown >> i & 1 == 1 {
                     self.show(kind, i);
                 }
             }
-            if self.rows[kind.index()].count() + self.queues[kind.index()].len() < LANES {
+            if self.rows[kind.index()].count() + self.queues[kind.index()].len() < self.lanes {
                 return;
             }
         }
@@ -219,7 +231,7 @@ impl<'w, O: Observer> Pool<'w, O> {
 
     /// Lets runs that wait board the free lanes of a row.
     fn fill(&mut self, kind: LaneKind) {
-        for i in 0..LANES {
+        for i in 0..self.lanes {
             if self.rows[kind.index()].slots[i].is_some() {
                 continue;
             }

@@ -1,14 +1,13 @@
 //! Roots of several polynomials in Bernstein form side by side; the same sums in the same order as in [`super::Bernstein`].
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
+use crate::lanes::Wide;
+use fearless_simd::{Select, SimdMask};
 
 use super::bernstein::{MOST_CORRECTIONS, SAME_SHARE, binomials, taylor};
 
-type F<S> = f64x4<S>;
-
 /// Which polynomials are positive at their start and negative at their end, with one change of sign between.
 #[inline(always)]
-pub(crate) fn turn_negative_once<S: Simd, const N: usize>(c: &[F<S>; N]) -> mask64x4<S> {
+pub(crate) fn turn_negative_once<F: Wide, const N: usize>(c: &[F; N]) -> F::Mask {
     let mut once = c[0].simd_gt(0.0) & c[N - 1].simd_lt(0.0);
     for i in 1..N - 1 {
         once &= c[i].simd_gt(0.0) | c[i + 1].simd_lt(0.0);
@@ -18,8 +17,8 @@ pub(crate) fn turn_negative_once<S: Simd, const N: usize>(c: &[F<S>; N]) -> mask
 
 /// Shares at which those of `which` do, as [`super::Bernstein::first_root`] has it. Others have any.
 #[inline(always)]
-pub(crate) fn only_roots<S: Simd, const N: usize>(which: mask64x4<S>, c: &[F<S>; N]) -> F<S> {
-    let (simd, powers) = (c[0].simd, powers(c));
+pub(crate) fn only_roots<F: Wide, const N: usize>(which: F::Mask, c: &[F; N]) -> F {
+    let (simd, powers) = (c[0].token(), powers(c));
     let none = F::splat(simd, 0.0);
     let (mut low, mut high) = (none, F::splat(simd, 1.0));
     let (mut share, mut open) = (c[0] / (c[0] - c[N - 1]), which);
@@ -47,7 +46,7 @@ pub(crate) fn only_roots<S: Simd, const N: usize>(which: mask64x4<S>, c: &[F<S>;
 
 /// As [`super::Bernstein`] has the coefficients of the powers.
 #[inline(always)]
-fn powers<S: Simd, const N: usize>(c: &[F<S>; N]) -> [F<S>; N] {
+fn powers<F: Wide, const N: usize>(c: &[F; N]) -> [F; N] {
     let mut differences = *c;
     for k in 1..N {
         for i in (k..N).rev() {
@@ -65,16 +64,17 @@ fn powers<S: Simd, const N: usize>(c: &[F<S>; N]) -> [F<S>; N] {
 mod tests {
     use super::*;
     use crate::instructions::{dispatch_lanes, lanes_pay};
-    use crate::lanes::{LANES, lanes};
+    use crate::lanes::{LANES, Wide};
     use crate::solver::Bernstein;
     use fearless_simd::Level;
 
-    /// Which of four fall once, and where.
+    /// Which of the first few fall once, and where.
     #[inline(always)]
-    fn side_by_side<S: Simd>(simd: S, four: &[Bernstein<6>]) -> (u64, [f64; LANES]) {
-        let c: [F<S>; 6] = std::array::from_fn(|k| lanes(simd, |i| four[i].0[k]));
+    fn side_by_side<F: Wide>(simd: F::Token, falls: &[Bernstein<6>]) -> Vec<Option<f64>> {
+        let c: [F; 6] = std::array::from_fn(|k| F::of_each(simd, |i| falls[i].0[k]));
         let once = turn_negative_once(&c);
-        (once.to_bitmask(), only_roots(once, &c).into())
+        let (bits, roots) = (once.to_bitmask(), only_roots(once, &c));
+        (0..F::LEN).map(|i| (bits >> i & 1 == 1).then_some(roots[i])).collect()
     }
 
     #[test]
@@ -91,12 +91,13 @@ mod tests {
         });
         let falls: Vec<_> = falls.collect();
         let (mut crossing, mut others) = (0, 0);
-        for four in falls.chunks_exact(LANES) {
-            let (once, roots) = dispatch_lanes!(level, simd => side_by_side(simd, four));
-            for i in 0..LANES {
-                if once >> i & 1 == 1 {
+        for falls in falls.chunks_exact(LANES) {
+            let four = dispatch_lanes!(level, Four of f64x4, simd => side_by_side::<Four<_>>(simd, falls));
+            let most = dispatch_lanes!(level, Most of f64x8, simd => side_by_side::<Most<_>>(simd, falls));
+            for (fall, root) in falls.iter().zip(four).chain(falls.iter().zip(most)) {
+                if root.is_some() {
                     crossing += 1;
-                    assert_eq!(four[i].first_root(), Some(roots[i]), "{:?}", four[i]);
+                    assert_eq!(fall.first_root(), root, "{fall:?}");
                 } else {
                     others += 1;
                 }

@@ -2,11 +2,11 @@
 
 use std::ops::Mul;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, SimdMask};
 use wide::f64x2;
 
 use super::nystrom::Step;
-use crate::lanes::{LANES, Numbers, from_row};
+use crate::lanes::{LANES, Numbers, Wide};
 
 /// What an error is measured against.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -170,8 +170,8 @@ impl ErrorRow {
 
     /// As [`Controller::error`].
     #[inline(always)]
-    pub fn of<S: Simd>(&self, position: [f64x4<S>; 2], velocity: [f64x4<S>; 2], h: f64x4<S>) -> f64x4<S> {
-        let of = |numbers: &Numbers| from_row(h.simd, numbers);
+    pub fn of<F: Wide>(&self, position: [F; 2], velocity: [F; 2], h: F) -> F {
+        let of = |numbers: &Numbers| F::of_row(h.token(), numbers);
         let time_s = of(&self.time_s);
         let along =
             |i: usize| position[i].abs().max_precise(velocity[i].abs() * time_s) * of(&self.per_position[i]);
@@ -180,8 +180,8 @@ impl ErrorRow {
 
     /// As [`Controller::accepts`] proposes, of steps that it does accept.
     #[inline(always)]
-    pub fn propose<S: Simd>(&mut self, accepted: mask64x4<S>, error: f64x4<S>, h: f64x4<S>) {
-        let proposed_s = from_row(h.simd, &self.proposed_s);
+    pub fn propose<F: Wide>(&mut self, accepted: F::Mask, error: F, h: F) {
+        let proposed_s = F::of_row(h.token(), &self.proposed_s);
         let whole = h.simd_ge(proposed_s * 0.99);
         let below_most = proposed_s.simd_lt(h * MOST_FACTOR);
         if !(accepted & (whole | below_most)).any_true() {
@@ -191,12 +191,12 @@ impl ErrorRow {
             below_most & (error * to_estimate_order(proposed_s)).simd_lt(to_estimate_order(h * SAFETY));
         let changes = accepted & (whole | longer);
         if changes.any_true() {
-            self.propose_longer(changes.to_bitmask(), error.into(), h.into());
+            self.propose_longer(changes.to_bitmask(), &error.numbers(), &h.numbers());
         }
     }
 
     #[cold]
-    fn propose_longer(&mut self, which: u64, error: Numbers, h: Numbers) {
+    fn propose_longer(&mut self, which: u64, error: &Numbers, h: &Numbers) {
         for i in (0..LANES).filter(|i| which >> i & 1 == 1) {
             self.proposed_s[i] = longer_s(h[i], error[i]);
         }
@@ -204,7 +204,7 @@ impl ErrorRow {
 
     /// As [`Controller::accepts`] proposes, of steps that it does not accept.
     #[cold]
-    pub fn propose_shorter(&mut self, which: u64, error: Numbers, h: Numbers) {
+    pub fn propose_shorter(&mut self, which: u64, error: &Numbers, h: &Numbers) {
         for i in (0..LANES).filter(|i| which >> i & 1 == 1) {
             self.proposed_s[i] = shorter_s(h[i], error[i]);
         }
@@ -212,8 +212,8 @@ impl ErrorRow {
 
     /// As [`Controller::next_s`].
     #[inline(always)]
-    pub fn next_s<S: Simd>(&self, remaining_s: f64x4<S>) -> f64x4<S> {
-        let proposed_s = from_row(remaining_s.simd, &self.proposed_s);
+    pub fn next_s<F: Wide>(&self, remaining_s: F) -> F {
+        let proposed_s = F::of_row(remaining_s.token(), &self.proposed_s);
         let fits = remaining_s.simd_le(proposed_s);
         if fits.all_true() {
             return remaining_s;
@@ -244,8 +244,8 @@ mod tests {
     }
 
     #[inline(always)]
-    fn next_side_by_side<S: Simd>(simd: S, errors: &ErrorRow, remaining_s: &Numbers) -> Numbers {
-        errors.next_s(from_row(simd, remaining_s)).into()
+    fn next_side_by_side<F: Wide>(simd: F::Token, errors: &ErrorRow, remaining_s: &Numbers) -> Vec<f64> {
+        errors.next_s(F::of_row(simd, remaining_s)).as_slice().to_vec()
     }
 
     #[test]
@@ -262,16 +262,19 @@ mod tests {
         });
         let parts: Vec<f64> = parts.collect();
         for remaining_s in parts.windows(LANES) {
-            let remaining_s: Numbers = std::array::from_fn(|i| remaining_s[i]);
             for only in 0..=LANES {
                 // Alone beside lengths of a whole proposal, and all of them.
-                let asked: Numbers =
-                    std::array::from_fn(|i| if only == LANES || only == i { remaining_s[i] } else { 0.0037 });
+                let length_s = |i: usize| if only == LANES || only == i { remaining_s[i] } else { 0.0037 };
+                let asked = Numbers(std::array::from_fn(length_s));
                 let controller = Controller::new(scale, 1.0, 0.0037);
                 let mut errors = ErrorRow::default();
                 (0..LANES).for_each(|i| errors.put(i, &controller));
-                let found = dispatch_lanes!(level, simd => next_side_by_side(simd, &errors, &asked));
-                assert_eq!(found, asked.map(|length_s| controller.next_s(length_s)), "{asked:?}");
+                let found = [
+                    dispatch_lanes!(level, Four of f64x4, simd => next_side_by_side::<Four<_>>(simd, &errors, &asked)),
+                    dispatch_lanes!(level, Most of f64x8, simd => next_side_by_side::<Most<_>>(simd, &errors, &asked)),
+                ];
+                let expected = asked.map(|length_s| controller.next_s(length_s));
+                assert!(found.iter().all(|found| *found == expected[..found.len()]), "{asked:?}");
             }
         }
     }

@@ -1,7 +1,7 @@
 //! Walls on beds side by side, in the lanes of vector registers: the equations of [`super::motion`] over several
 //! numbers at once.
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, SimdMask};
 
 use super::super::joint_forces::Masses;
 use super::super::mass_matrix::Freedom;
@@ -9,35 +9,33 @@ use super::super::vector::Vector;
 use super::motion::{BeddedMotion, Rolls};
 use super::roll::{Roll, RollingBed};
 use super::shape::JointShape;
-use crate::lanes::{Numbers, from_row};
-
-type F<S> = f64x4<S>;
+use crate::lanes::{Numbers, Wide};
 
 /// One joint of several walls, each in its own state of contact.
-pub(crate) struct JointLanes<S: Simd> {
-    on_edge: Branch<S>,
-    whole: Branch<S>,
-    in_part: Branch<S>,
-    half_m: F<S>,
-    side: F<S>,
-    rolling: RollingBed<F<S>>,
+pub(crate) struct JointLanes<F: Wide> {
+    on_edge: Branch<F>,
+    whole: Branch<F>,
+    in_part: Branch<F>,
+    half_m: F,
+    side: F,
+    rolling: RollingBed<F>,
 }
 
 /// The lanes that are in a state of contact.
-struct Branch<S: Simd> {
-    lanes: mask64x4<S>,
+struct Branch<F: Wide> {
+    lanes: F::Mask,
     any: bool,
 }
 
-impl<S: Simd> Branch<S> {
+impl<F: Wide> Branch<F> {
     #[inline(always)]
-    fn new(lanes: mask64x4<S>) -> Self {
+    fn new(lanes: F::Mask) -> Self {
         Self { lanes, any: lanes.any_true() }
     }
 
     /// What the joints of these lanes do, the others as they were.
     #[inline(always)]
-    fn put(&self, here: Roll<F<S>>, there: Roll<F<S>>) -> Roll<F<S>> {
+    fn put(&self, here: Roll<F>, there: Roll<F>) -> Roll<F> {
         Roll {
             place: self.vector(here.place, there.place),
             slope: self.vector(here.slope, there.slope),
@@ -48,7 +46,7 @@ impl<S: Simd> Branch<S> {
     }
 
     #[inline(always)]
-    fn vector(&self, here: Vector<F<S>>, there: Vector<F<S>>) -> Vector<F<S>> {
+    fn vector(&self, here: Vector<F>, there: Vector<F>) -> Vector<F> {
         Vector::new(self.lanes.select(here.x, there.x), self.lanes.select(here.y, there.y))
     }
 }
@@ -98,10 +96,10 @@ impl JointRow {
     }
 }
 
-impl<S: Simd> JointLanes<S> {
+impl<F: Wide> JointLanes<F> {
     #[inline(always)]
-    fn new(simd: S, row: &JointRow) -> Self {
-        let of = |numbers: &Numbers| from_row(simd, numbers);
+    fn new(simd: F::Token, row: &JointRow) -> Self {
+        let of = |numbers: &Numbers| F::of_row(simd, numbers);
         let (half_m, side) = (of(&row.half_m), of(&row.side));
         Self {
             on_edge: Branch::new(!half_m.simd_eq(0.0)),
@@ -124,9 +122,9 @@ impl<S: Simd> JointLanes<S> {
     }
 }
 
-impl<S: Simd> Rolls<F<S>> for JointLanes<S> {
+impl<F: Wide> Rolls<F> for JointLanes<F> {
     #[inline(always)]
-    fn roll(&self, phi: F<S>) -> Roll<F<S>> {
+    fn roll(&self, phi: F) -> Roll<F> {
         let mut roll = Roll::none(phi);
         if self.on_edge.any {
             roll = self.on_edge.put(Roll::about_edge(self.half_m, phi), roll);
@@ -174,11 +172,11 @@ impl BedRow {
     }
 }
 
-impl<S: Simd> BeddedMotion<F<S>, JointLanes<S>> {
+impl<F: Wide> BeddedMotion<F, JointLanes<F>> {
     /// The equations of the walls of a row, in which these rotations are free.
     #[inline(always)]
-    pub fn of_row(simd: S, row: &BedRow, freedom: Freedom) -> Self {
-        let of = |numbers: &Numbers| from_row(simd, numbers);
+    pub fn of_row(simd: F::Token, row: &BedRow, freedom: Freedom) -> Self {
+        let of = |numbers: &Numbers| F::of_row(simd, numbers);
         let vector = |of_both: &[Numbers; 2]| Vector::new(of(&of_both[0]), of(&of_both[1]));
         Self {
             joints: [JointLanes::new(simd, &row.joints[0]), JointLanes::new(simd, &row.joints[1])],

@@ -3,22 +3,20 @@
 
 use std::sync::Arc;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Select, Simd, SimdMask};
 
 use super::super::contact::Joint;
 use super::laws::{FormulaLaw, FormulaLaws, NO_MOMENTS};
-use crate::lanes::{LANES, lanes};
-
-type F<S> = f64x4<S>;
+use crate::lanes::{LANES, Numbers, Wide};
 
 /// The formulas of the walls of a row.
 pub(crate) type FormulaRow = [FormulaLaws; LANES];
 
 /// The same while the walls step.
-pub(in crate::model) struct FormulaLanes<S: Simd> {
+pub(in crate::model) struct FormulaLanes<F: Wide> {
     of: FormulaRow,
     /// The lanes that have any.
-    written: mask64x4<S>,
+    written: F::Mask,
     any: bool,
     at_joints: bool,
     /// The first lane that has any, where all that have any have the same.
@@ -38,10 +36,10 @@ fn alike(of: &FormulaRow) -> Option<usize> {
     of.iter().all(same).then_some(first)
 }
 
-impl<S: Simd> FormulaLanes<S> {
+impl<F: Wide> FormulaLanes<F> {
     #[inline(always)]
-    pub fn new(simd: S, of: FormulaRow) -> Self {
-        let written = lanes(simd, |i| f64::from(u8::from(!of[i].is_empty()))).simd_eq(1.0);
+    pub fn new(simd: F::Token, of: FormulaRow) -> Self {
+        let written = F::of_each(simd, |i| f64::from(u8::from(!of[i].is_empty()))).simd_eq(1.0);
         let at_joints = of.iter().any(FormulaLaws::act_at_joints);
         Self { any: written.any_true(), alike: alike(&of), of, written, at_joints }
     }
@@ -52,7 +50,7 @@ impl<S: Simd> FormulaLanes<S> {
 
     /// A force at the top and that of formulas, N, at displacements in m and velocities in m/s.
     #[inline(always)]
-    pub fn with_top_force_n(&self, force_n: F<S>, x_c_m: F<S>, v_c_m_s: F<S>) -> F<S> {
+    pub fn with_top_force_n(&self, force_n: F, x_c_m: F, v_c_m_s: F) -> F {
         if !self.any {
             return force_n;
         }
@@ -63,27 +61,27 @@ impl<S: Simd> FormulaLanes<S> {
     #[inline(always)]
     pub fn with_joint_moments_n_m(
         &self,
-        moments_n_m: [F<S>; 2],
-        theta: impl Fn() -> [F<S>; 2],
-        omega: [F<S>; 2],
-    ) -> [F<S>; 2] {
+        moments_n_m: [F; 2],
+        theta: impl Fn() -> [F; 2],
+        omega: [F; 2],
+    ) -> [F; 2] {
         if !self.any {
             return moments_n_m;
         }
         let written_n_m = match self.at_joints {
             true => self.joint_moments_n_m(theta(), omega),
-            false => NO_MOMENTS.map(|none| F::splat(omega[0].simd, none)),
+            false => NO_MOMENTS.map(|none| F::splat(omega[0].token(), none)),
         };
         let with = |j: usize| self.written.select(moments_n_m[j] + written_n_m[j], moments_n_m[j]);
         [with(0), with(1)]
     }
 
     #[inline(never)]
-    fn top_forces_n(&self, x_c_m: F<S>, v_c_m_s: F<S>) -> F<S> {
-        let simd = x_c_m.simd;
+    fn top_forces_n(&self, x_c_m: F, v_c_m_s: F) -> F {
+        let simd = x_c_m.token();
         let Some(first) = self.alike else {
-            let (x_c_m, v_c_m_s) = (<[f64; LANES]>::from(x_c_m), <[f64; LANES]>::from(v_c_m_s));
-            return lanes(simd, |i| match self.of[i].is_empty() {
+            let (x_c_m, v_c_m_s) = (x_c_m.numbers(), v_c_m_s.numbers());
+            return F::of_each(simd, |i| match self.of[i].is_empty() {
                 true => 0.0,
                 false => self.of[i].top_force_n(x_c_m[i], v_c_m_s[i]),
             });
@@ -96,15 +94,15 @@ impl<S: Simd> FormulaLanes<S> {
 
     /// [`FormulaLaws::joint_moments_n_m`] of every lane.
     #[inline(never)]
-    fn joint_moments_n_m(&self, theta: [F<S>; 2], omega: [F<S>; 2]) -> [F<S>; 2] {
-        let simd = omega[0].simd;
+    fn joint_moments_n_m(&self, theta: [F; 2], omega: [F; 2]) -> [F; 2] {
+        let simd = omega[0].token();
         let Some(first) = self.alike else {
-            let of = |pair: [F<S>; 2]| pair.map(<[f64; LANES]>::from);
+            let of = |pair: [F; 2]| pair.map(F::numbers);
             let (theta, omega) = (of(theta), of(omega));
-            let both = |of: &[[f64; LANES]; 2], i: usize| [of[0][i], of[1][i]];
+            let both = |of: &[Numbers; 2], i: usize| [of[0][i], of[1][i]];
             let moments: [[f64; 2]; LANES] =
                 std::array::from_fn(|i| self.of[i].joint_moments_n_m(|| both(&theta, i), both(&omega, i)));
-            return [0, 1].map(|j| lanes(simd, |i| moments[i][j]));
+            return [0, 1].map(|j| F::of_each(simd, |i| moments[i][j]));
         };
         simd.vectorize(
             #[inline(always)]
@@ -119,8 +117,8 @@ impl<S: Simd> FormulaLanes<S> {
 
     /// The sum of the formulas that act at a place, N or N m, where all lanes have those of the `first`: in the order of one wall's.
     #[inline(always)]
-    fn sum_of_alike(&self, first: usize, joint: Option<Joint>, q: F<S>, rate: F<S>) -> F<S> {
-        let simd = q.simd;
+    fn sum_of_alike(&self, first: usize, joint: Option<Joint>, q: F, rate: F) -> F {
+        let simd = q.token();
         let (q, rate) = (self.or_that_of(first, q), self.or_that_of(first, rate));
         // As a sum of numbers begins.
         let mut sum = F::splat(simd, -0.0);
@@ -134,8 +132,8 @@ impl<S: Simd> FormulaLanes<S> {
 
     /// Numbers of the lanes, that of the `first` in lanes without a wall.
     #[inline(always)]
-    fn or_that_of(&self, first: usize, of: F<S>) -> F<S> {
-        self.written.select(of, F::splat(of.simd, <[f64; LANES]>::from(of)[first]))
+    fn or_that_of(&self, first: usize, of: F) -> F {
+        self.written.select(of, F::splat(of.token(), of.numbers()[first]))
     }
 
     /// The formula of a number in every lane; that of another wall where a lane has none.
@@ -147,6 +145,6 @@ impl<S: Simd> FormulaLanes<S> {
 
 /// Angles by their sines and cosines, as [`super::super::motion::Configuration`] has them.
 #[inline(never)]
-pub(in crate::model) fn angles(sin: [f64; LANES], cos: [f64; LANES]) -> [f64; LANES] {
-    std::array::from_fn(|i| sin[i].atan2(cos[i]))
+pub(in crate::model) fn angles<F: Wide>(sin: F, cos: F) -> F {
+    F::of_each(sin.token(), |i| sin[i].atan2(cos[i]))
 }

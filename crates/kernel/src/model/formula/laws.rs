@@ -2,14 +2,13 @@
 
 use std::sync::Arc;
 
-use fearless_simd::{Simd, f64x4};
-use mrbd_formula::{Branch, Branches, Formula, MOST_STATES, Place, Program, State};
+use mrbd_formula::{Branch, Branches, Formula, MOST_STATES, Place, Program, State, VARIABLES};
 
 use super::super::contact::Joint;
 use super::super::geometry::Pair;
 use super::super::regime::Side;
 use super::carried::Carried;
-use crate::lanes::{LANES, lanes};
+use crate::lanes::{LANES, Wide};
 
 /// The joint of a place, where it is at one.
 pub(super) fn joint_of(place: Place) -> Option<Joint> {
@@ -128,16 +127,19 @@ impl FormulaLaw {
 
     /// The same of one formula in the branches of the walls of a row.
     #[inline(always)]
-    pub(super) fn values<S: Simd>(laws: [&Self; LANES], q: f64x4<S>, rate: f64x4<S>) -> f64x4<S> {
-        let (simd, qs, rates) = (q.simd, <[f64; LANES]>::from(q), <[f64; LANES]>::from(rate));
-        let states: [State; LANES] = std::array::from_fn(|i| laws[i].state(qs[i], rates[i]));
-        let state = std::array::from_fn(|j| lanes(simd, |i| states[i][j]));
+    pub(super) fn values<F: Wide>(laws: [&Self; LANES], q: F, rate: F) -> F {
+        let (simd, qs, rates) = (q.token(), q.numbers(), rate.numbers());
+        let states: [State; LANES] =
+            std::array::from_fn(
+                |i| if i < F::LEN { laws[i].state(qs[i], rates[i]) } else { [0.0; VARIABLES] },
+            );
+        let state = std::array::from_fn(|j| F::of_each(simd, |i| states[i][j]));
         let found = laws[0].program.values(state, laws.map(|law| &law.branches));
-        if !laws.iter().zip(rates).any(|(law, rate)| law.goes_straight(rate)) {
+        if !(0..F::LEN).any(|i| laws[i].goes_straight(rates[i])) {
             return found;
         }
-        let found = <[f64; LANES]>::from(found);
-        lanes(simd, |i| {
+        let found = found.numbers();
+        F::of_each(simd, |i| {
             if laws[i].goes_straight(rates[i]) { laws[i].straight(qs[i], rates[i]) } else { found[i] }
         })
     }
