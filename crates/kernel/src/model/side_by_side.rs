@@ -17,7 +17,7 @@ use super::joint_forces::{JointForces, Reactions};
 use super::lane_laws::{FurtherLanes, SpringLanes};
 use super::mass_matrix::MassMatrix;
 use super::motion_row::MotionRow;
-use super::vector::{COS, SIN, sin_cos};
+use super::vector::{COS, SIN};
 use super::wall::G_M_S2;
 use crate::fused::fused_lanes as fused;
 use crate::lanes::{Numbers, Wide};
@@ -108,17 +108,19 @@ fn rotated<F: Wide>([x, y]: [F; 2], sin: F, cos: F) -> [F; 2] {
 
 #[inline(always)]
 pub(crate) fn sin_cos_lanes<F: Wide>(theta: F) -> (F, F) {
-    if theta.abs().simd_gt(FRAC_PI_4).any_true() {
-        return library_sin_cos(theta);
-    }
     let z = theta * theta;
     let zz = z * z;
     let [one, minus_half] = [F::splat(theta.token(), 1.0), F::splat(theta.token(), -0.5)];
     let sin = fused(theta * z, polynomial(&SIN, z, zz), theta);
-    (sin, fused(zz, polynomial(&COS, z, zz), fused(z, minus_half, one)))
+    let cos = fused(zz, polynomial(&COS, z, zz), fused(z, minus_half, one));
+    let beyond = theta.abs().simd_gt(FRAC_PI_4);
+    if beyond.any_true() {
+        return with_those_of_library(beyond.to_bitmask(), theta, (sin, cos));
+    }
+    (sin, cos)
 }
 
-/// In the order of [`sin_cos`].
+/// In the order of [`super::vector::sin_cos`].
 #[inline(always)]
 fn polynomial<F: Wide>(c: &[f64; 6], z: F, zz: F) -> F {
     fused(zz, fused(zz, pair(c, 4, z), pair(c, 2, z)), pair(c, 0, z))
@@ -130,11 +132,13 @@ fn pair<F: Wide>(c: &[f64; 6], n: usize, z: F) -> F {
     fused(z, F::splat(z.token(), c[n + 1]), F::splat(z.token(), c[n]))
 }
 
+/// Sines and cosines, in some lanes those of the library.
 #[cold]
-fn library_sin_cos<F: Wide>(theta: F) -> (F, F) {
-    let simd = theta.token();
-    let pairs = theta.numbers().map(sin_cos);
-    (F::of_each(simd, |i| pairs[i].0), F::of_each(simd, |i| pairs[i].1))
+fn with_those_of_library<F: Wide>(lanes: u64, theta: F, (mut sin, mut cos): (F, F)) -> (F, F) {
+    for i in (0..F::LEN).filter(|i| lanes >> i & 1 == 1) {
+        (sin[i], cos[i]) = theta[i].sin_cos();
+    }
+    (sin, cos)
 }
 
 impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHER> {
