@@ -11,7 +11,7 @@ use super::group::{Group, in_plan_order};
 use super::moved::{Comparison, moved};
 use super::quantile::quantiles;
 use super::resampled::Interval;
-use super::two_way::{Drawn, intervals};
+use super::two_way::{Drawn, Kept, intervals};
 use super::variants::variant_notes;
 use crate::error::{Error, Result};
 use crate::store::frame::{self, Frame};
@@ -83,10 +83,10 @@ fn rows(files: &[PathBuf], kind: Kind) -> PolarsResult<Vec<Distribution>> {
     let quantities: Vec<Quantity> =
         told.quantities.iter().map(|&name| Quantity::of(&frame, name)).collect::<PolarsResult<_>>()?;
     let places = Places::of(&frame)?;
-    let mut rows = Vec::new();
+    let (mut rows, mut kept) = (Vec::new(), Kept::default());
     for by_record in [false, true] {
         for group in in_plan_order(&frame, &told.keys(by_record))? {
-            rows.extend(told.distributions((&frame, &quantities, &places), &group, by_record)?);
+            rows.extend(told.distributions((&frame, &quantities, &places), &group, by_record, &mut kept)?);
         }
     }
     Ok(rows)
@@ -137,6 +137,7 @@ impl Places {
         by_record: bool,
         quantities: usize,
         value: impl Fn(usize, usize) -> Option<Option<f64>>,
+        kept: &mut Kept,
     ) -> Vec<[Option<Interval>; 7]> {
         let all = group.rows.iter().map(|&row| self.records[row] as usize + 1);
         let records = if by_record { 1 } else { all.max().unwrap_or(1) };
@@ -153,7 +154,7 @@ impl Places {
         };
         let at_once = (LISTED_AT_ONCE / group.rows.len().max(1)).max(1);
         let some = |first: usize| (first..quantities.min(first + at_once)).map(runs_of).collect();
-        (0..quantities).step_by(at_once).flat_map(|first| intervals(some(first), records)).collect()
+        (0..quantities).step_by(at_once).flat_map(|first| intervals(some(first), records, kept)).collect()
     }
 }
 
@@ -213,6 +214,7 @@ impl Told {
         (frame, quantities, places): (&Frame, &[Quantity], &Places),
         group: &Group,
         by_record: bool,
+        kept: &mut Kept,
     ) -> PolarsResult<Vec<Distribution>> {
         let first = group.first(frame);
         let [ended, numbered, beyond_text] = self.ended;
@@ -224,7 +226,7 @@ impl Told {
             Some(text) if text == beyond_text => Some(None),
             _ => None,
         };
-        let intervals = places.intervals(group, by_record, quantities.len(), value);
+        let intervals = places.intervals(group, by_record, quantities.len(), value, kept);
         let one = |(quantity, intervals): (&Quantity, _)| {
             let numbers = group.sorted(&quantity.numbers, ended, numbered);
             Ok(Distribution {

@@ -21,6 +21,12 @@ const MOST_LOOKS: usize = 10_000_000;
 /// Draws that go through the runs together, in vector lanes.
 const TOGETHER: usize = 8;
 
+/// Draws are kept for the next group of runs up to this: a thousand of four thousand façades.
+const MOST_KEPT_BYTES: usize = 16_000_000;
+
+/// The quantiles of a quantity in each of the draws that go together; `None` where all weigh nothing.
+type Quantiles = [Option<[Option<f64>; 7]>; TOGETHER];
+
 /// A count in each of these draws. All of a draw are about as many as its runs, of which no memory holds four thousand million.
 type Counts = [u32; TOGETHER];
 
@@ -35,10 +41,51 @@ pub(super) struct Drawn {
     pub facade: u32,
 }
 
+/// How often records and façades count in draws that go together.
+struct Together {
+    of_records: Vec<Counts>,
+    of_facades: Vec<Counts>,
+}
+
+impl Together {
+    /// The `k`-th of them, of so many records and façades.
+    fn drawn([records, facades]: [usize; 2], k: usize) -> Self {
+        let first = (k * TOGETHER) as u64;
+        let mut rngs: [ChaCha8Rng; TOGETHER] = std::array::from_fn(|i| rng_of(first + i as u64));
+        let of_records = counts_together(records, &mut rngs);
+        Self { of_records, of_facades: counts_together(facades, &mut rngs) }
+    }
+}
+
+/// Draws of so many records and façades, for one group of runs after another that has as many.
+#[derive(Default)]
+pub(super) struct Kept {
+    of: [usize; 2],
+    together: Vec<Together>,
+}
+
+impl Kept {
+    /// Keeps so many draws of these, where there is room for them.
+    fn keep(&mut self, of: [usize; 2], draws: usize) {
+        let fit = draws * of.iter().sum::<usize>() * size_of::<u32>() <= MOST_KEPT_BYTES;
+        if self.of != of || !fit {
+            *self = Self { of, together: Vec::new() };
+        }
+        if fit {
+            let more = self.together.len()..draws.div_ceil(TOGETHER);
+            self.together.par_extend(more.into_par_iter().map(|k| Together::drawn(of, k)));
+        }
+    }
+}
+
 /// Intervals of the quantiles at [`LEVELS`] of several quantities of the same runs, under so many records.
 ///
 /// A draw takes the same façades and records for all quantities.
-pub(super) fn intervals(mut quantities: Vec<Vec<Drawn>>, records: usize) -> Vec<[Option<Interval>; 7]> {
+pub(super) fn intervals(
+    mut quantities: Vec<Vec<Drawn>>,
+    records: usize,
+    kept: &mut Kept,
+) -> Vec<[Option<Interval>; 7]> {
     // What is no number stands at the end.
     quantities.par_iter_mut().for_each(|runs| runs.sort_unstable_by(|a, b| a.value.total_cmp(&b.value)));
     let facades = quantities.iter().flatten().map(|run| run.facade as usize + 1).max().unwrap_or(0);
@@ -47,28 +94,35 @@ pub(super) fn intervals(mut quantities: Vec<Vec<Drawn>>, records: usize) -> Vec<
         return vec![[None; 7]; quantities.len()];
     }
     let most = quantities.iter().map(Vec::len).max().unwrap_or(0);
-    let draws = ((MOST_LOOKS / most) as u64).clamp(FEWEST_DRAWS, DRAWS);
-    let draw = |up_to: &mut Vec<Counts>, first: u64| {
-        let mut rngs: [ChaCha8Rng; TOGETHER] = std::array::from_fn(|i| rng_of(first + i as u64));
-        let of_records = counts_together(records, &mut rngs);
-        let of_facades = counts_together(facades, &mut rngs);
-        // A plain loop goes in vector lanes; an array made by a function of its index did not.
-        let weigh = |run: &Drawn, all: &mut Counts| {
-            let (record, facade) = (&of_records[run.record as usize], &of_facades[run.facade as usize]);
-            for i in 0..TOGETHER {
-                all[i] += record[i] * facade[i];
-            }
-        };
-        quantities.iter().map(|runs| weighted(runs, weigh, up_to)).collect::<Vec<_>>()
+    let draws = ((MOST_LOOKS / most) as u64).clamp(FEWEST_DRAWS, DRAWS) as usize;
+    let of = [records, facades];
+    kept.keep(of, draws);
+    let quantiles = |up_to: &mut Vec<Counts>, k: usize| match kept.together.get(k) {
+        Some(together) => together.quantiles(&quantities, up_to),
+        None => Together::drawn(of, k).quantiles(&quantities, up_to),
     };
-    let firsts = (0..draws.div_ceil(TOGETHER as u64)).into_par_iter().map(|k| k * TOGETHER as u64);
-    let drawn: Vec<_> = firsts.map_init(Vec::new, draw).collect();
+    let drawn: Vec<_> = (0..draws.div_ceil(TOGETHER)).into_par_iter().map_init(Vec::new, quantiles).collect();
     let of = |quantity: usize| {
-        let all = drawn.iter().flat_map(|together| together[quantity]).take(draws as usize);
+        let all = drawn.iter().flat_map(|together| together[quantity]).take(draws);
         let at = |level: usize| all.clone().filter_map(move |one| Some(one?[level]));
         std::array::from_fn(|level| interval(at(level), by_size))
     };
     (0..quantities.len()).map(of).collect()
+}
+
+impl Together {
+    /// The quantiles of every quantity in every draw. `up_to` is room for them.
+    fn quantiles(&self, quantities: &[Vec<Drawn>], up_to: &mut Vec<Counts>) -> Vec<Quantiles> {
+        // A plain loop goes in vector lanes; an array made by a function of its index did not.
+        let weigh = |run: &Drawn, all: &mut Counts| {
+            let (record, facade) =
+                (&self.of_records[run.record as usize], &self.of_facades[run.facade as usize]);
+            for i in 0..TOGETHER {
+                all[i] += record[i] * facade[i];
+            }
+        };
+        quantities.iter().map(|runs| weighted(runs, weigh, up_to)).collect()
+    }
 }
 
 /// How often each of some is drawn in as many draws.
@@ -89,11 +143,7 @@ fn counts_together(of: usize, rngs: &mut [ChaCha8Rng; TOGETHER]) -> Vec<Counts> 
 /// `up_to` is room for how many they are up to each run.
 ///
 /// They are those of [`super::quantiles`] of the runs repeated.
-fn weighted(
-    runs: &[Drawn],
-    weigh: impl Fn(&Drawn, &mut Counts),
-    up_to: &mut Vec<Counts>,
-) -> [Option<[Option<f64>; 7]>; TOGETHER] {
+fn weighted(runs: &[Drawn], weigh: impl Fn(&Drawn, &mut Counts), up_to: &mut Vec<Counts>) -> Quantiles {
     up_to.clear();
     let mut all = [0; TOGETHER];
     up_to.extend(runs.iter().map(|run| {
@@ -173,7 +223,7 @@ mod tests {
     }
 
     fn of_one(runs: Vec<Drawn>, records: usize) -> [Option<Interval>; 7] {
-        intervals(vec![runs], records)[0]
+        intervals(vec![runs], records, &mut Kept::default())[0]
     }
 
     #[test]
@@ -182,7 +232,20 @@ mod tests {
         let fall = |facade: u32, record: u32| (facade + record < 12).then(|| f64::from(facade));
         let both = [runs(8, 7, root), runs(8, 7, fall)];
         let alone = both.clone().map(|runs| of_one(runs, 7));
-        assert_eq!(intervals(both.to_vec(), 7), alone);
+        assert_eq!(intervals(both.to_vec(), 7, &mut Kept::default()), alone);
+    }
+
+    #[test]
+    fn analytic_draws_that_are_kept_are_those_drawn_anew() {
+        let square = |facade: u32, record: u32| Some(f64::from(facade * facade + record));
+        let mut kept = Kept::default();
+        // Of few runs all draws are made, of many fewer.
+        for (facades, records) in [(8, 7), (8, 7), (9, 7), (9, 1), (3000, 7), (3000, 7), (20_000, 1)] {
+            let runs = vec![runs(facades, records, square)];
+            let anew = intervals(runs.clone(), records as usize, &mut Kept::default());
+            assert_eq!(intervals(runs, records as usize, &mut kept), anew, "{facades} under {records}");
+            assert_eq!(kept.together.is_empty(), facades > 10_000, "{facades} under {records}");
+        }
     }
 
     #[test]
