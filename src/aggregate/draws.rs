@@ -228,9 +228,10 @@ pub(super) fn interval<T: Copy>(
     by_size: impl Fn(&T, &T) -> Ordering,
 ) -> Option<[T; 2]> {
     let mut drawn: Vec<T> = drawn.collect();
-    drawn.sort_unstable_by(by_size);
     let last = drawn.len().checked_sub(1)? as f64;
-    Some([drawn[(INTERVAL[0] * last).floor() as usize], drawn[(INTERVAL[1] * last).ceil() as usize]])
+    let (low, high) = ((INTERVAL[0] * last).floor() as usize, (INTERVAL[1] * last).ceil() as usize);
+    let low = *drawn.select_nth_unstable_by(low, &by_size).1;
+    Some([low, *drawn.select_nth_unstable_by(high, by_size).1])
 }
 
 #[cfg(test)]

@@ -107,7 +107,7 @@ pub(super) fn intervals(
         let at = |level: usize| all.clone().filter_map(move |one| Some(one?[level]));
         std::array::from_fn(|level| interval(at(level), by_size))
     };
-    (0..quantities.len()).map(of).collect()
+    (0..quantities.len()).into_par_iter().map(of).collect()
 }
 
 impl Together {
