@@ -76,6 +76,9 @@ impl Standing {
     }
 }
 
+/// Blocks that may wait to be stored, for each thread: threads end several at once, and a disk takes its time over one.
+const WAITING_PER_THREAD: usize = 4;
+
 /// Runs that are put together at once, of one record or of several: a file keeps its runs in memory until a group of rows is full.
 const WRITTEN_AT_ONCE: u64 = 50_000;
 
@@ -158,7 +161,7 @@ pub fn run_missing<S: Simulate + Sync>(
     let missing: Vec<Block> =
         layout.iter().filter(|block| work.shard.has(block.index) && !standing.has(block)).collect();
     discard_damaged(work.folder, &layout, standing)?;
-    let (sender, whole) = mpsc::sync_channel(work.pool.current_num_threads());
+    let (sender, whole) = mpsc::sync_channel(WAITING_PER_THREAD * work.pool.current_num_threads());
     let at_work = &AtWork::new(&missing, work.stop);
     let mut tally = Tally::default();
     std::thread::scope(|scope| {

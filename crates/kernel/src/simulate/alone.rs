@@ -52,9 +52,7 @@ fn step_in_lane<O: Observer>(level: Level, as_one: bool, run: &mut Run<O>, row: 
     row.taken = 1 << LANE;
     loop {
         advance_alone(level, as_one, row);
-        if row.limits.advances[LANE] != 1.0 || !run.approaches_event_in(row, LANE) {
-            run.alight(row, LANE);
-            run.finish_step(&mut row.step(LANE), &row.landed.reactions(LANE));
+        if run.goes_through(row, LANE).is_some() {
             return;
         }
     }

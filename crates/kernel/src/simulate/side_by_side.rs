@@ -262,13 +262,9 @@ impl<'w, O: Observer> Pool<'w, O> {
         let Some(slot) = slots[i] else { return };
         let mut in_lane = Contact::REST;
         if let Some((_, run)) = &mut self.slots[slot] {
-            if row.limits.advances[i] == 1.0 && run.approaches_event_in(row, i) {
-                return;
-            }
+            let Some(contact) = run.goes_through(row, i) else { return };
             slots[i] = None;
-            run.alight(row, i);
-            in_lane = run.contact();
-            run.finish_step(&mut row.step(i), &row.landed.reactions(i));
+            in_lane = contact;
         }
         let number = |pool: &Self| pool.slots[slot].as_ref().map(|(number, _)| *number);
         let before = number(self);

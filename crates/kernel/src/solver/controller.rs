@@ -7,6 +7,7 @@ use wide::f64x2;
 
 use super::nystrom::Step;
 use crate::lanes::{LANES, Numbers, Wide};
+use crate::model::number::Number;
 
 /// What an error is measured against.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,8 +52,23 @@ fn to_estimate_order<N: Copy + Mul<Output = N>>(ratio: N) -> N {
 /// would take longer than a stage of the step, and is not the same on every machine.
 #[inline]
 fn inverse_sixth_root(x: f64) -> f64 {
-    let corrected = |root: f64| root * (7.0 - x * to_estimate_order(root)) / 6.0;
-    corrected(corrected(f64::from_bits(SEVEN_SIXTHS.wrapping_sub(x.to_bits() / 6))))
+    corrected(x, corrected(x, near_inverse_sixth_root(x)))
+}
+
+/// The same of several numbers side by side.
+#[inline(always)]
+fn inverse_sixth_roots<F: Wide>(x: F) -> F {
+    corrected(x, corrected(x, F::of_each(x.token(), |i| near_inverse_sixth_root(x[i]))))
+}
+
+#[inline(always)]
+fn near_inverse_sixth_root(x: f64) -> f64 {
+    f64::from_bits(SEVEN_SIXTHS.wrapping_sub(x.to_bits() / 6))
+}
+
+#[inline(always)]
+fn corrected<N: Number>(x: N, root: N) -> N {
+    root * (root.constant(7.0) - x * to_estimate_order(root)) / root.constant(6.0)
 }
 
 /// Below this error the length grows by [`MOST_FACTOR`]: nine tenths of (SAFETY / MOST_FACTOR)⁶, for the power's roundings.
@@ -191,14 +207,9 @@ impl ErrorRow {
             below_most & (error * to_estimate_order(proposed_s)).simd_lt(to_estimate_order(h * SAFETY));
         let changes = accepted & (whole | longer);
         if changes.any_true() {
-            self.propose_longer(changes.to_bitmask(), &error.numbers(), &h.numbers());
-        }
-    }
-
-    #[cold]
-    fn propose_longer(&mut self, which: u64, error: &Numbers, h: &Numbers) {
-        for i in (0..LANES).filter(|i| which >> i & 1 == 1) {
-            self.proposed_s[i] = longer_s(h[i], error[i]);
+            let by_error = h * (inverse_sixth_roots(error) * SAFETY).min_precise(MOST_FACTOR);
+            let longer_s = error.simd_lt(ERROR_OF_MOST).select(h * MOST_FACTOR, by_error);
+            changes.select(longer_s, proposed_s).put(&mut self.proposed_s);
         }
     }
 

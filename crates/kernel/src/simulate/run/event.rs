@@ -7,8 +7,8 @@ use super::super::history::Observer;
 use super::super::response::Work;
 use super::super::row::Row;
 use super::{Run, Stop, Task, failed};
-use crate::model::{Joint, Kink, Pair, Reactions, State, Touching, Vector, opening};
-use crate::solver::{Point, Quintic, STAGES, Step};
+use crate::model::{Contact, Joint, Kink, Pair, Reactions, State, Touching, Vector, opening};
+use crate::solver::{Controller, Point, Quintic, STAGES, Step};
 
 /// An opening is placed this share of a sample step after the instant its corner force vanishes. So the joint
 /// does accelerate apart, and nothing moves by more than roundings.
@@ -29,6 +29,26 @@ const MOST_EVENTS_AT_ONCE: u32 = 50_000;
 const MOST_TURNS_AT_ONCE: u32 = 8;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
 pub(in super::super) const PROGRESS: f64 = 1e-6;
+
+/// What a run finds in a step that its lane has taken and left to it.
+enum Look {
+    /// An event, up to which a step is requested.
+    Approached,
+    /// Nothing, so that the step may be kept.
+    Nothing(Quiet),
+    /// What it must go through by itself.
+    Further,
+}
+
+/// A step in which nothing happens.
+struct Quiet {
+    step: Step,
+    motion: Quintic,
+    /// It has accepted the step.
+    controller: Controller,
+    /// Smallest corner force of the closed joints at its end.
+    end_force: Option<f64>,
+}
 
 impl<O: Observer> Run<O> {
     /// Steps that the run may still try. Looked at where a step is not kept, as some never are of a motion that changes too fast.
@@ -78,16 +98,30 @@ impl<O: Observer> Run<O> {
         let change = first_bed_change(&self.wall, self.contact, self.opened, step, &motion);
         match sooner(event, change) {
             None => {
-                self.corner_force = end_force;
-                self.keep(piece.start_s + from_s, step, &motion, reactions);
-                self.stalled = 0;
-                // The end of a piece is reached exactly, not up to a rounding.
-                let reached = step.h == piece.length_s - from_s;
-                self.offset_s = if reached { piece.length_s } else { from_s + step.h };
+                self.keep_whole(piece, step, &motion, reactions, end_force);
                 Ok(())
             }
             Some((event, share)) => self.approach_event(event, share, piece, step.h),
         }
+    }
+
+    /// Keeps a step in which nothing happens.
+    #[inline]
+    fn keep_whole(
+        &mut self,
+        piece: &Piece,
+        step: &Step,
+        motion: &Quintic,
+        reactions: &Reactions,
+        end_force: Option<f64>,
+    ) {
+        let from_s = self.offset_s;
+        self.corner_force = end_force;
+        self.keep(piece.start_s + from_s, step, motion, reactions);
+        self.stalled = 0;
+        // The end of a piece is reached exactly, not up to a rounding.
+        let reached = step.h == piece.length_s - from_s;
+        self.offset_s = if reached { piece.length_s } else { from_s + step.h };
     }
 
     /// What happens first to the joints, and a collapse.
@@ -104,30 +138,54 @@ impl<O: Observer> Run<O> {
         first_event(self.wall.edges_of(self.contact), motion, self.collapse_rad, corner_force, force_at)
     }
 
-    /// Requests a step up to the first event inside the one that a row has taken in a lane, without alighting. False
-    /// where there is none, or the step may not be kept.
-    pub fn approaches_event_in(&mut self, row: &mut Row, i: usize) -> bool {
+    /// Goes through a step that a row has taken in a lane and not kept. It has alighted after that, from the contact state that is
+    /// given; none where it stays aboard and a step is requested up to an event inside this one.
+    pub fn goes_through(&mut self, row: &mut Row, i: usize) -> Option<Contact> {
+        let advances = row.limits.advances[i] == 1.0;
+        let found = if advances { self.look_in(row, i) } else { Look::Further };
+        if matches!(found, Look::Approached) {
+            return None;
+        }
+        self.alight(row, i);
+        let in_lane = self.contact;
+        match found {
+            Look::Nothing(quiet) => self.keep_quiet(&quiet, &row.landed.reactions(i)),
+            _ => self.finish_step(&mut row.step(i), &row.landed.reactions(i)),
+        }
+        Some(in_lane)
+    }
+
+    /// Looks for events inside a step to advance. Requests a step up to the first of them in the lane.
+    fn look_in(&mut self, row: &mut Row, i: usize) -> Look {
         self.follow_lane(row, i);
         let (step, piece, from_s) = (row.step(i), row.ground.at(i), row.ground.offset_s[i]);
         if self.wall.piecewise_laws().is_some() || self.wall.wall().gives() {
-            return false;
+            return Look::Further;
         }
         let mut controller = self.controller;
         row.errors.tell(i, &mut controller);
         if !controller.accepts(&step) {
-            return false;
+            return Look::Further;
         }
         let motion = Quintic::new(&step.start, &step.end, step.h);
         let end_force = self.wall.smallest_reserve(self.contact, &row.landed.reactions(i));
         let corner_force = (self.corner_force.map(|_| row.limits.corner_force[i]), end_force);
         let Some((event, share)) = self.first_event(&motion, corner_force, &piece, from_s) else {
-            return false;
+            return Look::Nothing(Quiet { step, motion, controller, end_force });
         };
         self.totals.work.evaluations += STAGES;
         row.errors.put(i, &controller);
         self.request_up_to(event.into(), share, step.h);
         self.board_task(row, i);
-        true
+        Look::Approached
+    }
+
+    /// Keeps a step in which nothing happens, of a run that has alighted after it.
+    fn keep_quiet(&mut self, quiet: &Quiet, reactions: &Reactions) {
+        let Some(piece) = self.piece else { return };
+        self.totals.work.evaluations += STAGES;
+        self.controller = quiet.controller;
+        self.keep_whole(&piece, &quiet.step, &quiet.motion, reactions, quiet.end_force);
     }
 
     /// An event as far as sharp edges go: joints on beds take no part in their impacts.
