@@ -9,7 +9,7 @@ use parquet::arrow::ArrowWriter;
 use parquet::basic::{Compression, Encoding as Bytes, ZstdLevel};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
-use parquet::file::properties::WriterProperties;
+use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::schema::types::ColumnPath;
 use tempfile::NamedTempFile;
 
@@ -146,6 +146,10 @@ fn properties<R>(
         Encoding::Drawn => drawn,
         Encoding::Repeating => false,
     };
+    if pages == Pages::Plain {
+        // Nobody looks for rows in it.
+        builder = builder.set_statistics_enabled(EnabledStatistics::None).set_offset_index_disabled(true);
+    }
     for column in columns.iter().filter(distinct) {
         let path = ColumnPath::from(column.name);
         builder = builder.set_column_dictionary_enabled(path.clone(), false);
