@@ -1,8 +1,8 @@
 //! Which vector instructions are worth compiling for.
 //!
 //! On x86-64 there are three: AVX-512, AVX2, which comes with products and sums rounded once, and the least that every
-//! processor has. What lies between lacks such products, which are then most of the time. Of AVX-512 registers are used no wider
-//! than those of AVX2: there are twice as many, so that less goes to the stack and back. Eight lanes do not pay.
+//! processor has. What lies between lacks such products, which are then most of the time. By AVX-512 eight walls go side by side, by
+//! others four; a run alone takes four lanes by either.
 //! All give the same bits, and each takes the compiler its time.
 
 use fearless_simd::Level;

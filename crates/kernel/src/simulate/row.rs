@@ -1,4 +1,4 @@
-//! Runs in a row: all that the steps of four runs need and change, number by number as vector registers take it.
+//! Runs in a row: all that the steps of the runs in it need and change, number by number as vector registers take it.
 //!
 //! A run boards a lane of the row and alights where something happens that is not the same for every run: an event,
 //! a step that is too long, a new maximum. Until then it takes no work of its own.
