@@ -24,6 +24,9 @@ const TOGETHER: usize = 8;
 /// Draws are kept for the next group of runs up to this: a thousand of four thousand façades.
 const MOST_KEPT_BYTES: usize = 16_000_000;
 
+/// How many runs are before one is noted of so many of them at most: of each of a million would take more memory than the runs do.
+const MOST_MARKS: usize = 1 << 16;
+
 /// The quantiles of a quantity in each of the draws that go together; `None` where all weigh nothing.
 type Quantiles = [Option<[Option<f64>; 7]>; TOGETHER];
 
@@ -140,25 +143,33 @@ fn counts_together(of: usize, rngs: &mut [ChaCha8Rng; TOGETHER]) -> Vec<Counts> 
 
 /// The quantiles of runs in increasing order, each as often as `weigh` adds it to what all are so far, in every draw; `None` where all weigh
 /// nothing.
-/// `up_to` is room for how many they are up to each run.
+/// `up_to` is room for how many they are before some of the runs.
 ///
 /// They are those of [`super::quantiles`] of the runs repeated.
 fn weighted(runs: &[Drawn], weigh: impl Fn(&Drawn, &mut Counts), up_to: &mut Vec<Counts>) -> Quantiles {
+    let each = runs.len().div_ceil(MOST_MARKS).max(1);
     up_to.clear();
     let mut all = [0; TOGETHER];
-    up_to.extend(runs.iter().map(|run| {
-        weigh(run, &mut all);
-        all
+    up_to.extend(runs.chunks(each).map(|some| {
+        let before = all;
+        some.iter().for_each(|run| weigh(run, &mut all));
+        before
     }));
-    std::array::from_fn(|draw| Some(levels(runs, up_to, draw, all[draw].checked_sub(1)?)))
+    let value = |draw: usize, rank: u32| {
+        let mark = up_to.partition_point(|before| before[draw] <= rank) - 1;
+        let mut counts = up_to[mark];
+        let reached = |run: &&Drawn| {
+            weigh(run, &mut counts);
+            counts[draw] > rank
+        };
+        let run = runs[mark * each..].iter().find(reached);
+        run.map(|run| run.value).filter(|value| value.is_finite())
+    };
+    std::array::from_fn(|draw| Some(levels(|rank| value(draw, rank), all[draw].checked_sub(1)?)))
 }
 
-/// The quantiles of one draw, the last of whose runs repeated has this rank.
-fn levels(runs: &[Drawn], up_to: &[Counts], draw: usize, last: u32) -> [Option<f64>; 7] {
-    let statistic = |rank: u32| {
-        let run = &runs[up_to.partition_point(|up_to| up_to[draw] <= rank)];
-        Some(run.value).filter(|value| value.is_finite())
-    };
+/// The quantiles of one draw by the values at its ranks, of which this is the last.
+fn levels(statistic: impl Fn(u32) -> Option<f64>, last: u32) -> [Option<f64>; 7] {
     LEVELS.map(|level| {
         let rank = level * f64::from(last);
         let (lower, beyond) = (rank as u32, rank.fract());
@@ -220,6 +231,17 @@ mod tests {
         }
         let nothing = weighted(&runs(3, 1, |_, _| Some(1.0)), |_, _| (), &mut Vec::new());
         assert_eq!(nothing, [None; TOGETHER]);
+    }
+
+    #[test]
+    fn analytic_marks_that_are_far_apart_lead_to_the_same_runs() {
+        let facades = 3 * MOST_MARKS as u32;
+        let runs = runs(facades, 1, |facade, _| Some(f64::from(facade)));
+        let times = |run: &Drawn| run.facade * 7 % 5;
+        let repeated: Vec<f64> = runs.iter().flat_map(|run| vec![run.value; times(run) as usize]).collect();
+        let weigh = |run: &Drawn, all: &mut Counts| all[3] += times(run);
+        let found = weighted(&runs, weigh, &mut Vec::new())[3].expect("weights");
+        assert_eq!(found, quantiles(&repeated, 0));
     }
 
     fn of_one(runs: Vec<Drawn>, records: usize) -> [Option<Interval>; 7] {
