@@ -1,5 +1,7 @@
 //! A step, or the part of it up to its first event: found, located, applied.
 
+use std::ops::ControlFlow;
+
 use super::super::bed_events::first_bed_change;
 use super::super::events::{EdgeEvent, Event, first_event, first_kink, left_to_kink, sooner};
 use super::super::ground_path::Piece;
@@ -29,16 +31,6 @@ const MOST_EVENTS_AT_ONCE: u32 = 50_000;
 const MOST_TURNS_AT_ONCE: u32 = 8;
 /// Progress, as a share of a sample step, that an event must make not to count as stalled.
 pub(in super::super) const PROGRESS: f64 = 1e-6;
-
-/// What a run finds in a step that its lane has taken and left to it.
-enum Look {
-    /// An event, up to which a step is requested.
-    Approached,
-    /// Nothing, so that the step may be kept.
-    Nothing(Quiet),
-    /// What it must go through by itself.
-    Further,
-}
 
 /// A step in which nothing happens.
 struct Quiet {
@@ -142,42 +134,41 @@ impl<O: Observer> Run<O> {
     /// given; none where it stays aboard and a step is requested up to an event inside this one.
     pub fn goes_through(&mut self, row: &mut Row, i: usize) -> Option<Contact> {
         let advances = row.limits.advances[i] == 1.0;
-        let found = if advances { self.look_in(row, i) } else { Look::Further };
-        if matches!(found, Look::Approached) {
-            return None;
-        }
+        let found = if advances { self.look_in(row, i) } else { ControlFlow::Continue(None) };
+        let ControlFlow::Continue(quiet) = found else { return None };
         self.alight(row, i);
         let in_lane = self.contact;
-        match found {
-            Look::Nothing(quiet) => self.keep_quiet(&quiet, &row.landed.reactions(i)),
-            _ => self.finish_step(&mut row.step(i), &row.landed.reactions(i)),
+        match quiet {
+            Some(quiet) => self.keep_quiet(&quiet, &row.landed.reactions(i)),
+            None => self.finish_step(&mut row.step(i), &row.landed.reactions(i)),
         }
         Some(in_lane)
     }
 
-    /// Looks for events inside a step to advance. Requests a step up to the first of them in the lane.
-    fn look_in(&mut self, row: &mut Row, i: usize) -> Look {
+    /// Looks for events inside a step to advance, and breaks off where it requests a step up to the first of them in the lane. Gives the
+    /// step where nothing happens in it; nothing where the run must go through it by itself.
+    fn look_in(&mut self, row: &mut Row, i: usize) -> ControlFlow<(), Option<Quiet>> {
         self.follow_lane(row, i);
         let (step, piece, from_s) = (row.step(i), row.ground.at(i), row.ground.offset_s[i]);
         if self.wall.piecewise_laws().is_some() || self.wall.wall().gives() {
-            return Look::Further;
+            return ControlFlow::Continue(None);
         }
         let mut controller = self.controller;
         row.errors.tell(i, &mut controller);
         if !controller.accepts(&step) {
-            return Look::Further;
+            return ControlFlow::Continue(None);
         }
         let motion = Quintic::new(&step.start, &step.end, step.h);
         let end_force = self.wall.smallest_reserve(self.contact, &row.landed.reactions(i));
         let corner_force = (self.corner_force.map(|_| row.limits.corner_force[i]), end_force);
         let Some((event, share)) = self.first_event(&motion, corner_force, &piece, from_s) else {
-            return Look::Nothing(Quiet { step, motion, controller, end_force });
+            return ControlFlow::Continue(Some(Quiet { step, motion, controller, end_force }));
         };
         self.totals.work.evaluations += STAGES;
         row.errors.put(i, &controller);
         self.request_up_to(event.into(), share, step.h);
         self.board_task(row, i);
-        Look::Approached
+        ControlFlow::Break(())
     }
 
     /// Keeps a step in which nothing happens, of a run that has alighted after it.
