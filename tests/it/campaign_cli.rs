@@ -76,8 +76,10 @@ fn regress_killed_at_random_moments_nothing_finished_is_lost() {
 #[cfg(unix)]
 #[test]
 fn regress_an_interrupt_stops_cleanly_and_says_how_to_go_on() {
-    // A tolerance at which a run takes long enough to be interrupted.
-    let folder = study(&SMALL.replace("[sweep]\n", "[assumptions]\ntolerance = 1e-11\n[sweep]\n"));
+    // Runs enough, each long enough by its tolerance, to be interrupted: a block that waits for the disk holds no other up.
+    let slenderness: Vec<f64> = (0..20).map(|k| 10.0 + 0.4 * f64::from(k)).collect();
+    let pipeline = SMALL.replace("[sweep]\n", "[assumptions]\ntolerance = 1e-11\n[sweep]\n");
+    let folder = study(&pipeline.replace("[10.0, 14.0, 18.0]", &format!("{slenderness:?}")));
     let whole = undisturbed(&folder);
     for signal in ["INT", "TERM"] {
         let child = start(folder.path(), &["--threads", "1"]);
