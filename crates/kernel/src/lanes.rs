@@ -8,7 +8,8 @@ pub(crate) use mrbd_formula::Lanes;
 use crate::model::number::Number;
 
 /// Walls side by side at most. Processors with registers for eight numbers take eight, others four: eight in two registers each
-/// took 1.1 times as long, for two of five instructions went to the stack and back.
+/// took 1.1 times as long, for two of five instructions went to the stack and back. Where units are as wide as these registers eight
+/// take 0.78 to 0.95 of the time of four; one that does them half by half took 0.94 on sharp edges, and 1.1 times as long on beds.
 pub(crate) const LANES: usize = mrbd_formula::MOST_LANES;
 
 /// One number of every wall of a row, in memory; the first few where fewer go side by side. Where registers are as long as what the

@@ -15,7 +15,7 @@ use super::parameters::ImpactLaw;
 use super::rocking::{RockingWall, State, opening};
 use crate::instructions::dispatch;
 
-/// Contact states side by side.
+/// Contact states side by side: nine are looked at, so that eight would leave as many over as four.
 pub(super) const BESIDE: usize = 4;
 
 /// Separations and impulses within this share of the motion before count as zero: some hundred roundings.

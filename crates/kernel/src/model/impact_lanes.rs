@@ -128,7 +128,7 @@ impl<'a, F: Wide> Candidates<'a, F> {
 }
 
 impl RockingWall {
-    /// As [`RockingWall::margin`] of four contact states of a wall on sharp edges.
+    /// As [`RockingWall::margin`] of as many contact states of a wall on sharp edges as there are numbers.
     #[inline(always)]
     pub(super) fn margins_on_edges<F: Wide>(
         &self,

@@ -129,10 +129,8 @@ impl FormulaLaw {
     #[inline(always)]
     pub(super) fn values<F: Wide>(laws: [&Self; LANES], q: F, rate: F) -> F {
         let (simd, qs, rates) = (q.token(), q.numbers(), rate.numbers());
-        let states: [State; LANES] =
-            std::array::from_fn(
-                |i| if i < F::LEN { laws[i].state(qs[i], rates[i]) } else { [0.0; VARIABLES] },
-            );
+        let of = |i: usize| if i < F::LEN { laws[i].state(qs[i], rates[i]) } else { [0.0; VARIABLES] };
+        let states: [State; LANES] = std::array::from_fn(of);
         let state = std::array::from_fn(|j| F::of_each(simd, |i| states[i][j]));
         let found = laws[0].program.values(state, laws.map(|law| &law.branches));
         if !(0..F::LEN).any(|i| laws[i].goes_straight(rates[i])) {
