@@ -17,16 +17,6 @@ pub(crate) fn lanes_pay(level: Level) -> bool {
     pay
 }
 
-/// How many walls step side by side.
-pub(crate) fn lanes_of(level: Level) -> usize {
-    #[cfg(target_arch = "x86_64")]
-    if level.as_avx512().is_some() {
-        return 8;
-    }
-    let _ = level;
-    4
-}
-
 /// Does an operation by the vector instructions of a token.
 #[cfg(target_arch = "x86_64")]
 macro_rules! vectorized {

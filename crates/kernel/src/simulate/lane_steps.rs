@@ -312,6 +312,15 @@ fn beds_until<F: Wide, const AS_ONE: bool>(simd: F::Token, freedom: Freedom, row
     steps_until(simd, motions, false, row)
 }
 
+fn width<F: Wide>(_: F::Token) -> usize {
+    F::LEN
+}
+
+/// How many walls [`advance`] steps side by side.
+pub(super) fn widest(level: Level) -> usize {
+    dispatch_lanes!(level, Lanes of f64x8, simd => width::<Lanes<_>>(simd))
+}
+
 /// The steps of walls of one kind until something happens to some of them: the bits of their lanes.
 pub(super) fn advance(level: Level, kind: LaneKind, row: &mut Row) -> u64 {
     match kind {

@@ -7,11 +7,11 @@ use fearless_simd::Level;
 
 use super::alone::to_its_end;
 use super::history::Observer;
-use super::lane_steps::advance;
+use super::lane_steps::{advance, widest};
 use super::response::Response;
 use super::row::Row;
 use super::run::Run;
-use crate::instructions::{lanes_of, lanes_pay};
+use crate::instructions::lanes_pay;
 use crate::lanes::LANES;
 use crate::model::{Contact, LaneKind, Reactions, Regime};
 
@@ -135,19 +135,11 @@ impl<'w, O: Observer> Pool<'w, O> {
         next: &'w mut dyn FnMut() -> Option<(usize, Prepared<O>)>,
         done: &'w mut dyn FnMut(usize, Response),
     ) -> Self {
-        let lanes = lanes_of(level);
+        let lanes_pay = lanes_pay(level);
+        let lanes = if lanes_pay { widest(level) } else { 1 };
         let at_once = || Vec::with_capacity(PER_LANE * lanes);
         let (slots, queues) = (Vec::with_capacity(PER_LANE * lanes), LaneKind::ALL.map(|_| at_once()));
-        Self {
-            next,
-            done,
-            slots,
-            queues,
-            rows: Default::default(),
-            level,
-            lanes_pay: lanes_pay(level),
-            lanes,
-        }
+        Self { next, done, slots, queues, rows: Default::default(), level, lanes_pay, lanes }
     }
 
     fn all(&mut self) {

@@ -1,9 +1,9 @@
 //! Roots of several polynomials in Bernstein form side by side; the same sums in the same order as in [`super::Bernstein`].
 
-use crate::lanes::Wide;
 use fearless_simd::{Select, SimdMask};
 
 use super::bernstein::{MOST_CORRECTIONS, SAME_SHARE, binomials, taylor};
+use crate::lanes::Wide;
 
 /// Which polynomials are positive at their start and negative at their end, with one change of sign between.
 #[inline(always)]
