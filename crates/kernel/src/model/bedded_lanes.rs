@@ -11,7 +11,7 @@ use crate::lanes::Wide;
 /// The motions of several walls on beds side by side, all with the same rotations free.
 pub(crate) struct BeddedMotions<F: Wide> {
     equations: BeddedMotion<F, JointLanes<F>>,
-    laws: LawLanes<F>,
+    laws: LawLanes<F, true>,
 }
 
 impl<F: Wide> BeddedMotions<F> {

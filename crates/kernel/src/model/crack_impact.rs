@@ -7,9 +7,10 @@
 use super::geometry::{Arms, TurnedArms};
 use super::impact::ROUNDING;
 use super::joint_forces::Masses;
-use super::mass_matrix::{Freedom, MassMatrix};
+use super::mass_matrix::Freedom;
 use super::rocking::RockingWall;
-use super::side_by_side::{ConfigurationLanes, Motions, sin_cos_lanes};
+use super::sharp::SharpMotion;
+use super::side_by_side::{Motions, sin_cos_lanes};
 use super::vector::Vector;
 use crate::lanes::{Numbers, Wide};
 
@@ -28,18 +29,6 @@ pub(crate) struct CrackRow {
 pub(crate) struct CrackImpact<F: Wide> {
     pub omega: [F; 2],
     pub loss_j: F,
-}
-
-impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHER> {
-    /// As [`super::motion::Motion::mass_matrix`].
-    #[inline(always)]
-    pub(super) fn mass_matrix(&self, t: &ConfigurationLanes<F>) -> MassMatrix<F> {
-        MassMatrix {
-            m11: self.inertias[0] + t.q[1] * t.q[1] * self.m_dp,
-            m12: (t.q[0] * t.u[0] + t.q[1] * t.u[1]) + self.m_dp * t.q[1] * t.c[1],
-            m22: self.inertias[1] + t.c[1] * t.c[1] * self.m_dp,
-        }
-    }
 }
 
 impl CrackRow {
@@ -69,16 +58,9 @@ impl CrackRow {
     /// As [`Arms::new`] has them of the contact states of these motions.
     #[inline(always)]
     fn arms<F: Wide, const AS_ONE: bool>(&self, motions: &Motions<F, AS_ONE, false>) -> Arms<F> {
-        let half = |body: usize| F::of_row(motions.o_x.token(), &self.halves_m[body]);
-        let vector = |[x, y]: [F; 2]| Vector::new(x, y);
-        Arms {
-            o_x: motions.o_x,
-            g1: vector([-motions.o_x, half(0)]),
-            q: vector(motions.q),
-            g2: vector([-motions.q_x, half(1)]),
-            c: vector(motions.c),
-            q_x: motions.q_x,
-        }
+        let SharpMotion { o_x, q_x, q, c, .. } = motions.sharp;
+        let half = |body: usize| F::of_row(o_x.token(), &self.halves_m[body]);
+        Arms { o_x, g1: Vector::new(-o_x, half(0)), q, g2: Vector::new(-q_x, half(1)), c, q_x }
     }
 
     /// What impacts of walls that turn by θ leave of the velocities, whose cracks open on these sides after, and which of them are
@@ -92,14 +74,14 @@ impl CrackRow {
         [coefficient, capture_rad_s]: [F; 2],
     ) -> (CrackImpact<F>, F::Mask) {
         let all = |value: f64| F::splat(theta.token(), value);
-        let (turns, masses) = ([sin_cos_lanes(theta); 2], self.masses(from.m_dp));
+        let (turns, masses) = ([sin_cos_lanes(theta); 2], self.masses(from.sharp.m_dp));
         let before = TurnedArms::new(&self.arms(from), turns).velocities(omega);
         let least = all(f64::MIN_POSITIVE);
         let speed = omega[0].abs().max_precise(least).max_precise(omega[1].abs().max_precise(least));
         let size =
             (masses.momentum_size(&before) * F::of_row(theta.token(), &self.slimness)).max_precise(least);
         let arms = TurnedArms::new(&self.arms(to), turns);
-        let mass = to.mass_matrix(&to.turned(turns));
+        let mass = to.sharp.mass_matrix(&to.turned(turns));
         let plastic = mass.solve(Freedom::Both, masses.momenta(&arms, &before));
         let opening = plastic[1] - plastic[0];
         let separates = (side * opening / speed).simd_gt(ROUNDING);
@@ -110,7 +92,7 @@ impl CrackRow {
         // From what the law cannot see: nothing.
         let scaled = |plastic: F| all(0.0) + coefficient * (plastic - all(0.0));
         let after = [scaled(plastic[0]), scaled(plastic[1])];
-        let before_j = from.mass_matrix(&from.turned(turns)).quadratic(omega) * 0.5;
+        let before_j = from.sharp.mass_matrix(&from.turned(turns)).quadratic(omega) * 0.5;
         (CrackImpact { omega: after, loss_j: before_j - mass.quadratic(after) * 0.5 }, turns_on)
     }
 }

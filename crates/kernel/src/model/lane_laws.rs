@@ -8,6 +8,7 @@ use super::formula::{FormulaLanes, FormulaRow};
 use super::laws::Laws;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
+use super::sharp::TopLaws;
 use crate::fused::fused_lanes as fused;
 use crate::lanes::{Numbers, Wide};
 
@@ -166,39 +167,75 @@ impl<F: Wide> SpringLanes<F> {
     }
 }
 
-/// The laws of walls on beds side by side.
-pub(crate) struct LawLanes<F: Wide> {
+/// The laws of walls side by side; further ones than a linear spring only where any has them.
+pub(crate) struct LawLanes<F: Wide, const FURTHER: bool> {
     spring: SpringLanes<F>,
-    further: FurtherLanes<F>,
+    further: Option<FurtherLanes<F>>,
 }
 
-impl<F: Wide> LawLanes<F> {
+impl<F: Wide, const FURTHER: bool> LawLanes<F, FURTHER> {
     #[inline(always)]
     pub fn new(simd: F::Token, row: &mut LawRow) -> Self {
-        Self { spring: SpringLanes::new(simd, row), further: FurtherLanes::new(simd, row) }
+        let further = if FURTHER { Some(FurtherLanes::new(simd, row)) } else { None };
+        Self { spring: SpringLanes::new(simd, row), further }
     }
 
     /// Puts back what [`LawLanes::new`] took out of the row.
     #[inline(always)]
     pub fn put_back(self, row: &mut LawRow) {
-        self.further.put_back(row);
+        if let Some(further) = self.further {
+            further.put_back(row);
+        }
     }
 }
 
-impl<F: Wide> Acting<F> for LawLanes<F> {
+impl<F: Wide, const FURTHER: bool> Acting<F> for LawLanes<F, FURTHER> {
     #[inline(always)]
     fn spring_force_n(&self, x_c_m: F) -> F {
-        self.further.spring_force_n(&self.spring, x_c_m)
+        match &self.further {
+            Some(further) => further.spring_force_n(&self.spring, x_c_m),
+            None => self.spring.force_n(x_c_m),
+        }
     }
 
     #[inline(always)]
     fn damping_force_n(&self, x_c_m: F, v_c_m_s: F) -> F {
-        self.further.damping_force_n(x_c_m, v_c_m_s)
+        match &self.further {
+            Some(further) => further.damping_force_n(x_c_m, v_c_m_s),
+            None => F::splat(x_c_m.token(), 0.0),
+        }
     }
 
     #[inline(always)]
-    fn joint_moments_n_m(&self, theta: [F; 2], omega: [F; 2]) -> [F; 2] {
-        self.further.joint_moments_n_m(|| theta, omega)
+    fn joint_moments_n_m(&self, theta: impl Fn() -> [F; 2], omega: [F; 2]) -> [F; 2] {
+        match &self.further {
+            Some(further) => further.joint_moments_n_m(theta, omega),
+            None => [F::splat(omega[0].token(), 0.0); 2],
+        }
+    }
+}
+
+impl<F: Wide, const FURTHER: bool> TopLaws<F> for LawLanes<F, FURTHER> {
+    #[inline(always)]
+    fn has_dampers(&self) -> bool {
+        FURTHER
+    }
+
+    #[inline(always)]
+    fn with(&self, number: F, further: F) -> F {
+        match &self.further {
+            Some(laws) => laws.damped.select(number + further, number),
+            None => number,
+        }
+    }
+
+    #[inline(always)]
+    fn where_damped(&self, number: F) -> F {
+        let none = F::splat(number.token(), 0.0);
+        match &self.further {
+            Some(laws) => laws.damped.select(number, none),
+            None => none,
+        }
     }
 }
 
@@ -255,17 +292,6 @@ impl<F: Wide> FurtherLanes<F> {
         let at_crack = self.at_crack * (w2 - w1);
         let moments = [fused(-self.at_ground, w1, at_crack), -at_crack];
         self.formulas.with_joint_moments_n_m(moments, theta, [w1, w2])
-    }
-
-    /// A number with a further one where a lane is damped, as it is where not.
-    #[inline(always)]
-    pub fn with(&self, number: F, further: F) -> F {
-        self.damped.select(number + further, number)
-    }
-
-    #[inline(always)]
-    pub fn where_damped(&self, number: F) -> F {
-        self.damped.select(number, F::splat(number.token(), 0.0))
     }
 }
 

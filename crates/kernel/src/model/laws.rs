@@ -1,10 +1,9 @@
 //! The forces on a wall beyond its weight and inertia. Some laws are smooth; those with kinks are smooth in
 //! each regime.
 
-use wide::f64x2;
-
 use super::effect::{EffectSums, Lanes, Yielding};
 use super::formula::FormulaLaws;
+use super::geometry::Pair;
 use super::regime::{Change, Kink, Regime, Side, TopMemory};
 use crate::fused::fused;
 
@@ -78,11 +77,10 @@ impl Laws {
 
     /// Generalised moments of the joint dampers on θ_1 and θ_2, N m.
     #[inline(always)]
-    pub fn joint_moments_n_m(&self, omega: f64x2) -> f64x2 {
+    pub fn joint_moments_n_m(&self, [omega_1, omega_2]: Pair) -> Pair {
         let [c_ground, c_crack] = self.joint_damping_n_m_s;
-        let [omega_1, omega_2] = omega.to_array();
         let at_crack = c_crack * (omega_2 - omega_1);
-        f64x2::new([fused(-c_ground, omega_1, at_crack), -at_crack])
+        [fused(-c_ground, omega_1, at_crack), -at_crack]
     }
 }
 

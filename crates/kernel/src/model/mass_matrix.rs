@@ -105,15 +105,15 @@ impl Motion {
     pub fn fastest_rate_per_s(&self, stiffness_n_per_m: f64, of_formulas: &Slopes) -> f64 {
         let laws = &self.laws;
         let top = |factor: f64| {
-            let (y_q, y_c) = (self.q.y, self.c.y);
+            let (y_q, y_c) = (self.sharp.q.y, self.sharp.c.y);
             MassMatrix { m11: factor * y_q * y_q, m12: factor * y_q * y_c, m22: factor * y_c * y_c }
         };
         // A cubic spring as it is at half the wall's thickness.
-        let cubic = (3.0 * laws.cubic_n_per_m3 * self.o_x * self.o_x).max(0.0);
+        let cubic = (3.0 * laws.cubic_n_per_m3 * self.sharp.o_x * self.sharp.o_x).max(0.0);
         let Slopes { top: [further_k, further_c], joints: [at_ground, at_crack], .. } = *of_formulas;
         let mut stiffness = top(stiffness_n_per_m + cubic + further_k);
-        stiffness.m11 += G_M_S2 * self.v.y;
-        stiffness.m22 += G_M_S2 * self.u.y;
+        stiffness.m11 += G_M_S2 * self.sharp.v.y;
+        stiffness.m22 += G_M_S2 * self.sharp.u.y;
         stiffness = stiffness.plus(&at_joints(at_ground[0], at_crack[0]));
         let [c_ground, c_crack] = laws.joint_damping_n_m_s;
         let damping = top(laws.viscous_n_s_per_m + further_c);

@@ -12,9 +12,8 @@ impl Motion {
             return bedded.energy_j(theta, omega) + at_top;
         }
         let t = self.configuration_at(theta);
-        let kinetic = 0.5 * self.mass_matrix_of(&t).quadratic(omega);
-        let [v_y, u_y] = t.s_y.to_array();
-        let lifted = (v_y - self.v.y) + (u_y - self.u.y);
+        let kinetic = 0.5 * self.sharp.mass_matrix(&t).quadratic(omega);
+        let lifted = (t.v.y - self.sharp.v.y) + (t.u.y - self.sharp.u.y);
         kinetic + G_M_S2 * lifted + self.laws.spring_energy_j(self.top_displacement_m(theta))
     }
 
@@ -30,8 +29,6 @@ impl Motion {
             let [x_c, _, _] = bedded.top(theta, [0.0; 2], [0.0; 2]);
             return x_c;
         }
-        let t = self.configuration_at(theta);
-        let [x_q, x_c] = t.x.to_array();
-        (x_q + x_c) + self.o_c
+        self.sharp.top_displacement_m(&self.configuration_at(theta))
     }
 }

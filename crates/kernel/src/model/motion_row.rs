@@ -4,6 +4,8 @@ use super::bed::BedRow;
 use super::lane_laws::LawRow;
 use super::mass_matrix::Freedom;
 use super::motion::Motion;
+use super::sharp::SharpMotion;
+use super::vector::Vector;
 use crate::lanes::{Numbers, Wide, exchange};
 
 /// The motions of the walls of a row, number by number as registers take them.
@@ -36,7 +38,7 @@ pub(crate) struct PivotRow {
 
 impl PivotRow {
     /// Puts that of a motion in a lane.
-    pub fn put(&mut self, i: usize, m: &Motion) {
+    pub fn put(&mut self, i: usize, m: &SharpMotion) {
         let put = |to: &mut [Numbers; 2], [first, second]: [f64; 2]| {
             to[0][i] = first;
             to[1][i] = second;
@@ -51,7 +53,7 @@ impl PivotRow {
         put(&mut self.whole_arm, [m.whole_arm.x, m.whole_arm.y]);
         put(&mut self.whole_moment, [m.whole_moment.x, m.whole_moment.y]);
         self.whole_inertia[i] = m.whole_inertia;
-        put(&mut self.inertias, m.inertias.to_array());
+        put(&mut self.inertias, m.inertias);
         self.lower_inertia[i] = m.lower_inertia;
     }
 
@@ -76,12 +78,37 @@ impl PivotRow {
 }
 
 impl MotionRow {
+    /// The equations of the walls of the row.
+    #[inline(always)]
+    pub fn sharp<F: Wide>(&self, simd: F::Token) -> SharpMotion<F> {
+        let one = |of: &Numbers| F::of_row(simd, of);
+        let two = |of: &[Numbers; 2]| Vector::new(one(&of[0]), one(&of[1]));
+        let pivots = &self.pivots;
+        SharpMotion {
+            o_x: one(&pivots.o_x),
+            o_c: one(&pivots.o_c),
+            q_x: one(&pivots.q_x),
+            q: two(&pivots.q),
+            c: two(&pivots.c),
+            v: two(&pivots.v),
+            u: two(&pivots.u),
+            inertias: [one(&pivots.inertias[0]), one(&pivots.inertias[1])],
+            lower_mass: one(&self.lower_mass),
+            upper_mass: one(&self.upper_mass),
+            lower_inertia: one(&pivots.lower_inertia),
+            whole_arm: two(&pivots.whole_arm),
+            whole_moment: two(&pivots.whole_moment),
+            whole_inertia: one(&pivots.whole_inertia),
+            m_dp: one(&self.laws.m_dp),
+        }
+    }
+
     /// Puts a motion in a lane.
     pub fn put(&mut self, i: usize, m: &Motion) {
         self.upper[i] = f64::from(u8::from(m.freedom == Freedom::Upper));
-        self.lower_mass[i] = m.lower_mass;
-        self.upper_mass[i] = m.upper_mass;
-        self.pivots.put(i, m);
+        self.lower_mass[i] = m.sharp.lower_mass;
+        self.upper_mass[i] = m.sharp.upper_mass;
+        self.pivots.put(i, &m.sharp);
         self.laws.put(i, m);
         if let Some(bedded) = m.on_beds() {
             self.beds.put(i, bedded);

@@ -7,6 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x4, f64x8};
 
+use super::formula::angles;
 use super::side_by_side::sin_cos_lanes;
 use super::vector::sin_cos;
 use crate::fused::{fused, fused_lanes};
@@ -41,6 +42,10 @@ pub trait Number:
 
     /// Sine and cosine by the polynomials of [`sin_cos`].
     fn sine_and_cosine(self) -> (Self, Self);
+
+    /// The angle with this sine and a cosine.
+    #[must_use]
+    fn angle(self, cosine: Self) -> Self;
 }
 
 impl Number for f64 {
@@ -77,6 +82,11 @@ impl Number for f64 {
     #[inline(always)]
     fn sine_and_cosine(self) -> (Self, Self) {
         sin_cos(self)
+    }
+
+    #[inline(always)]
+    fn angle(self, cosine: f64) -> f64 {
+        self.atan2(cosine)
     }
 }
 
@@ -116,6 +126,11 @@ macro_rules! number_in_lanes {
             #[inline(always)]
             fn sine_and_cosine(self) -> (Self, Self) {
                 sin_cos_lanes(self)
+            }
+
+            #[inline(always)]
+            fn angle(self, cosine: Self) -> Self {
+                angles(self, cosine)
             }
         }
     };

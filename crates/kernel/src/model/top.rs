@@ -1,13 +1,12 @@
 //! The top C: its displacement and velocity, what a force there does, and the motion while friction holds it.
 
-use wide::f64x2;
-
 use super::contact::Contact;
 use super::geometry::{Pair, Rotations};
 use super::mass_matrix::Freedom;
-use super::motion::{Configuration, Equations, Motion};
+use super::motion::Motion;
 use super::regime::TopMemory;
 use super::rocking::RockingWall;
+use super::sharp::{Configuration, Equations};
 
 impl Motion {
     /// The motion with the top held in place, a_C = 0, and the force by which friction holds it, N.
@@ -18,12 +17,13 @@ impl Motion {
     #[inline(never)]
     pub(super) fn with_held_top(
         &self,
-        equations: &Equations,
+        equations: &Equations<f64>,
         t: &Configuration,
         theta_dd: Pair,
     ) -> (Pair, f64) {
-        let free: f64 = (t.y * f64x2::new(theta_dd) - t.x * equations.squares).to_array().iter().sum();
-        let push = t.y.to_array();
+        let [w1, w2] = equations.squares;
+        let free = (t.q.y * theta_dd[0] - t.q.x * w1) + (t.c.y * theta_dd[1] - t.c.x * w2);
+        let push = [t.q.y, t.c.y];
         let per_force = equations.mass.solve(self.freedom, push);
         let holding_n = -free / (push[0] * per_force[0] + push[1] * per_force[1]);
         let theta_dd = match self.freedom {
@@ -39,10 +39,9 @@ impl Motion {
             return bedded.top(theta, omega, theta_dd);
         }
         let t = self.configuration_at(theta);
-        let omega = f64x2::new(omega);
-        let sum = |pair: f64x2| pair.to_array().iter().sum::<f64>();
-        let acceleration = sum(t.y * f64x2::new(theta_dd) - t.x * (omega * omega));
-        [sum(t.x) + self.o_c, sum(t.y * omega), acceleration]
+        let ([w1, w2], [dd_1, dd_2]) = (omega, theta_dd);
+        let acceleration = (t.q.y * dd_1 - t.q.x * (w1 * w1)) + (t.c.y * dd_2 - t.c.x * (w2 * w2));
+        [self.sharp.top_displacement_m(&t), t.q.y * w1 + t.c.y * w2, acceleration]
     }
 
     /// The velocities without those of the top: what can move in one way only stops.
@@ -52,7 +51,10 @@ impl Motion {
         }
         let [y_q, y_c] = match &self.bedded {
             Some(bedded) => bedded.top_levers_m(theta),
-            None => self.configuration_at(theta).y.to_array(),
+            None => {
+                let t = self.configuration_at(theta);
+                [t.q.y, t.c.y]
+            }
         };
         let share = (y_q * omega[0] + y_c * omega[1]) / (y_q * y_q + y_c * y_c);
         [omega[0] - share * y_q, omega[1] - share * y_c]
@@ -61,7 +63,7 @@ impl Motion {
     /// Largest speed the top could have at velocities of these sizes, m/s: what its roundings are relative
     /// to.
     pub fn top_speed_size(&self, omega: Pair) -> f64 {
-        self.q.y * omega[0].abs() + self.c.y * omega[1].abs()
+        self.sharp.q.y * omega[0].abs() + self.sharp.c.y * omega[1].abs()
     }
 }
 

@@ -44,7 +44,7 @@ pub(crate) trait Acting<N> {
     /// Force at the top against its velocity in m/s, and that of formulas, N.
     fn damping_force_n(&self, x_c_m: N, v_c_m_s: N) -> N;
     /// Moments of the joint dampers on θ_1 and θ_2, and those of formulas, N m.
-    fn joint_moments_n_m(&self, theta: [N; 2], omega: [N; 2]) -> [N; 2];
+    fn joint_moments_n_m(&self, theta: impl Fn() -> [N; 2], omega: [N; 2]) -> [N; 2];
 }
 
 /// The motion of one contact state of a wall with beds, or those of several walls side by side. The laws at the
@@ -206,7 +206,7 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
         let x_c = self.top_of(pose);
         let v = arms.velocities(omega);
         let damping_n = acting.damping_force_n(x_c, v.c.x);
-        let dampers = acting.joint_moments_n_m(theta, omega);
+        let dampers = acting.joint_moments_n_m(|| theta, omega);
         let force_n = acting.spring_force_n(x_c) + damping_n;
         let [stored, lost] = self.bed_moments(pose, [theta, omega]);
         let inertia = self.masses.momenta(arms, &drift);

@@ -143,7 +143,7 @@ impl<F: Wide> FormulaLanes<F> {
     }
 }
 
-/// Angles by their sines and cosines, as [`super::super::motion::Configuration`] has them.
+/// Angles by their sines and cosines, as [`super::super::sharp::Configuration`] has them.
 #[inline(never)]
 pub(in crate::model) fn angles<F: Wide>(sin: F, cos: F) -> F {
     F::of_each(sin.token(), |i| sin[i].atan2(cos[i]))

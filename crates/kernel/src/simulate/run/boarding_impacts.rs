@@ -17,7 +17,7 @@ impl<O: Observer> Run<O> {
             .is_some_and(|(onto, _)| impacts.here.put(i, wall, contact) && impacts.there.put(i, wall, onto));
         impacts.known[i] = f64::from(u8::from(known));
         if let Some((onto, _)) = onto {
-            impacts.pivots_there.put(i, wall.motion(onto));
+            impacts.pivots_there.put(i, &wall.motion(onto).sharp);
             impacts.contact_rad[i] = self.contact_rad;
             impacts.capture_rad_s[i] = wall.capture_rad_s();
         }
