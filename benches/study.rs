@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
 use mrbd::study::batch::{SideBySide, Simulate, run_all};
-use mrbd::study::campaign::{BLOCK_RUNS, Layout, Shard, Standing, Work, run_missing};
+use mrbd::study::campaign::{Layout, Shard, Standing, Work, run_missing};
 use mrbd::study::pipeline::Pipeline;
 use mrbd::study::plan::Plan;
 use mrbd::study::runs::{Earlier, Manifest, OutputFolder};
@@ -79,7 +79,7 @@ impl Study {
         spent(|| {
             let plan = Plan::load(&self.pipeline, None).expect("a plan");
             let manifest =
-                Manifest::of(&plan, &self.pipeline, &self.pipeline.suite, BLOCK_RUNS).expect("a manifest");
+                Manifest::of(&plan, &self.pipeline, &self.pipeline.suite, None).expect("a manifest");
             let folder = OutputFolder::prepare(out.path(), &manifest, &self.pipeline.text, Earlier::Refuse)
                 .expect("a folder");
             let standing = Standing::of(&folder, &Layout::of(folder.manifest())).expect("nothing done yet");

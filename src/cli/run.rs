@@ -12,7 +12,7 @@ use super::{output, progress, stop};
 use crate::classics::overturning;
 use crate::error::{Error, InputError, Result};
 use crate::study::batch::{Finished, SideBySide, Tally};
-use crate::study::campaign::{BLOCK_RUNS, Block, Layout, Shard, Standing, Work, run_missing};
+use crate::study::campaign::{Block, Layout, Shard, Standing, Work, run_missing};
 use crate::study::pipeline::Pipeline;
 use crate::study::plan::Plan;
 use crate::survey::sampling::Sampling;
@@ -50,9 +50,9 @@ pub struct RunCommand {
     /// JOB_COMPLETIONS. `mrbd merge DIR` puts the parts together.
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
-    /// Runs stored at once: a stop by force loses those at work, a few of these blocks.
-    #[arg(long, value_name = "N", default_value_t = NonZero::new(BLOCK_RUNS).unwrap_or(NonZero::<u64>::MIN))]
-    block_runs: NonZero<u64>,
+    /// Runs stored at once: a stop by force loses those at work, a few of these blocks. Without it 512 to 8192, by the size of the study.
+    #[arg(long, value_name = "N")]
+    block_runs: Option<NonZero<u64>>,
 }
 
 impl RunCommand {
@@ -79,7 +79,7 @@ impl RunCommand {
         let shard = self.shard()?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("outputs").join(&pipeline.name));
         let suite = self.suite.as_deref().unwrap_or(&pipeline.suite);
-        let manifest = Manifest::of(&plan, &pipeline, suite, self.block_runs.get())?;
+        let manifest = Manifest::of(&plan, &pipeline, suite, self.block_runs)?;
         let folder = OutputFolder::prepare(&out, &manifest, &pipeline.text, self.earlier())?;
         self.run(&plan, &folder, shard.unwrap_or(Shard::WHOLE))?;
         if shard.is_none() {
@@ -176,8 +176,8 @@ impl RunCommand {
         if let Some(suite) = &self.suite {
             command += &format!(" --suite {}", suite.display());
         }
-        if self.block_runs.get() != BLOCK_RUNS {
-            command += &format!(" --block-runs {}", self.block_runs);
+        if let Some(block_runs) = self.block_runs {
+            command += &format!(" --block-runs {block_runs}");
         }
         match &self.shard {
             Some(shard) => command + " --shard " + shard,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
@@ -30,7 +31,7 @@ fn manifest(plan: &Plan) -> Manifest {
         fs::write(&*path, "some input").expect("written");
     }
     let suite = pipeline.suite.clone();
-    Manifest::of(plan, &pipeline, &suite, BLOCK_RUNS).expect("a manifest")
+    Manifest::of(plan, &pipeline, &suite, NonZero::new(BLOCK_RUNS)).expect("a manifest")
 }
 
 pub fn prepare(folder: &Path, plan: &Plan, earlier: Earlier) -> mrbd::Result<OutputFolder> {

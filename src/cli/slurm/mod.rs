@@ -12,7 +12,7 @@ use clap::Args;
 use super::output;
 use crate::error::{Error, InputError, Result};
 use crate::store::write_durably;
-use crate::study::campaign::{BLOCK_RUNS, Layout};
+use crate::study::campaign::Layout;
 use crate::study::pipeline::Pipeline;
 use crate::study::plan::Plan;
 use crate::study::runs::Manifest;
@@ -45,9 +45,9 @@ pub struct SlurmCommand {
     /// Tasks of the array; without it 16, or one for each block of a smaller study.
     #[arg(long, value_name = "N")]
     tasks: Option<NonZero<u64>>,
-    /// Runs stored at once; a task has at least one such block to do.
-    #[arg(long, value_name = "N", default_value_t = NonZero::new(BLOCK_RUNS).unwrap_or(NonZero::<u64>::MIN))]
-    block_runs: NonZero<u64>,
+    /// Runs stored at once; a task has at least one such block to do. Without it 512 to 8192, by the size of the study.
+    #[arg(long, value_name = "N")]
+    block_runs: Option<NonZero<u64>>,
     /// Most tasks the cluster allows: MaxArraySize of `scontrol show config`, less 1. Slurm's own default is 1001.
     #[arg(long, value_name = "N", default_value = "1000")]
     array_limit: u64,
@@ -85,13 +85,13 @@ impl SlurmCommand {
         // Better refused here than by every task of the array.
         let plan = Plan::load(&pipeline, self.suite.as_deref())?;
         let suite = self.suite.as_deref().unwrap_or(&pipeline.suite);
-        let manifest = Manifest::of(&plan, &pipeline, suite, self.block_runs.get())?;
+        let manifest = Manifest::of(&plan, &pipeline, suite, self.block_runs)?;
         let tasks = self.tasks(Layout::of(&manifest).len())?;
         self.check_time()?;
         let out = self.out.clone().unwrap_or_else(|| Path::new("outputs").join(&pipeline.name));
         let beside = out.with_file_name(format!("{}-slurm", name_of(&out)));
         let folder = full(self.scripts.as_deref().unwrap_or(&beside))?;
-        let scripts = Scripts::of(&self.job(&pipeline.name, &out, &folder, tasks)?)?;
+        let scripts = Scripts::of(&self.job(&pipeline.name, &out, &folder, [tasks, manifest.block_runs])?)?;
         fs::create_dir_all(&folder).map_err(|e| Error::io("make the folder", &folder, e))?;
         for (name, text) in scripts.files() {
             write_durably(&folder.join(name), text.as_bytes())?;
@@ -136,7 +136,7 @@ impl SlurmCommand {
         }
     }
 
-    fn job(&self, name: &str, out: &Path, folder: &Path, tasks: u64) -> Result<Job> {
+    fn job(&self, name: &str, out: &Path, folder: &Path, [tasks, block_runs]: [u64; 2]) -> Result<Job> {
         let program = std::env::current_exe().map_err(|e| Error::io("find", Path::new("mrbd"), e))?;
         Ok(Job {
             name: name.to_owned(),
@@ -147,7 +147,7 @@ impl SlurmCommand {
             scripts: folder.to_path_buf(),
             tasks,
             at_once: self.at_once,
-            block_runs: self.block_runs.get(),
+            block_runs,
             cpus: self.cpus.get(),
             time: self.time.clone(),
             warning_s: self.warning_s.get(),

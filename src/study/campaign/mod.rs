@@ -21,7 +21,7 @@ use at_work::AtWork;
 use indicatif::ProgressBar;
 use rayon::ThreadPool;
 use rayon::prelude::*;
-pub use shard::{BLOCK_RUNS, Block, Layout, Shard};
+pub use shard::{Block, Layout, Shard, block_runs};
 
 /// What is done. Everything counted here was read and agrees with its checksum.
 #[derive(Debug, Default)]
@@ -95,21 +95,36 @@ pub fn compact(folder: &OutputFolder, standing: &Standing) -> Result<()> {
     check_complete(folder, &layout, standing)?;
     let checksums = &Mutex::new(());
     let put_together = |(record, name): (usize, &String)| {
-        if !standing.parts.contains_key(&record) {
-            let blocks = layout.of_record(record).filter_map(|block| standing.blocks.get(&block));
-            let part = folder.write_part(name, blocks)?;
-            // One file has the checksums of all.
-            let _one_at_a_time = checksums.lock().unwrap_or_else(PoisonError::into_inner);
-            folder.keep_part(name, part)?;
+        if standing.parts.contains_key(&record) {
+            return folder.remove_blocks(name);
         }
-        folder.remove_blocks(name)
+        let blocks = layout.of_record(record).filter_map(|block| standing.blocks.get(&block));
+        put_together(folder, name, blocks, checksums)
     };
     let records: Vec<(usize, &String)> = layout.records().iter().enumerate().collect();
-    let side_by_side = (WRITTEN_AT_ONCE / layout.runs_per_record().max(1)).max(1) as usize;
-    for some in records.chunks(side_by_side) {
+    for some in records.chunks(side_by_side(&layout)) {
         some.par_iter().copied().try_for_each(put_together)?;
     }
     folder.remove_leftovers()
+}
+
+/// Records that are put together side by side.
+fn side_by_side(layout: &Layout) -> usize {
+    (WRITTEN_AT_ONCE / layout.runs_per_record().max(1)).max(1) as usize
+}
+
+/// Puts the blocks of a record together, then removes them. One at a time has the lock on the file with the checksums of all.
+fn put_together<'a>(
+    folder: &OutputFolder,
+    record: &str,
+    blocks: impl Iterator<Item = &'a PathBuf>,
+    checksums: &Mutex<()>,
+) -> Result<()> {
+    let part = folder.write_part(record, blocks)?;
+    let one_at_a_time = checksums.lock().unwrap_or_else(PoisonError::into_inner);
+    folder.keep_part(record, part)?;
+    drop(one_at_a_time);
+    folder.remove_blocks(record)
 }
 
 fn check_complete(folder: &OutputFolder, layout: &Layout, standing: &Standing) -> Result<()> {
@@ -145,7 +160,8 @@ pub struct Work<'a, S> {
     pub progress: &'a ProgressBar,
 }
 
-/// Runs the blocks of a shard that are missing and stores each as soon as it is done; `watch` sees its runs.
+/// Runs the blocks of a shard that are missing and stores each as soon as it is done; `watch` sees its runs. Large
+/// records of a study that is not divided are put together as they are done.
 ///
 /// Threads take runs across the ends of blocks, and blocks are stored while others run. Being killed loses the blocks that are not
 /// whole, and those that wait to be stored.
@@ -163,17 +179,43 @@ pub fn run_missing<S: Simulate + Sync>(
     discard_damaged(work.folder, &layout, standing)?;
     let (sender, whole) = mpsc::sync_channel(WAITING_PER_THREAD * work.pool.current_num_threads());
     let at_work = &AtWork::new(&missing, work.stop);
+    let puts_together = work.shard == Shard::WHOLE && side_by_side(&layout) == 1;
+    let mut storing =
+        Storing { folder: work.folder, layout: &layout, puts_together, blocks: standing.blocks.clone() };
     let mut tally = Tally::default();
     std::thread::scope(|scope| {
         scope.spawn(move || at_work.run(work, sender));
         for (block, runs) in whole {
             watch(&runs);
-            let stored = work.folder.write_block(&layout.records()[block.record], block.index, &runs);
-            stored.inspect_err(|_| at_work.close())?;
+            storing.store(&block, &runs).inspect_err(|_| at_work.close())?;
             tally.count(&runs);
         }
         Ok(tally)
     })
+}
+
+/// The blocks of a study on the disk, by record, while others are run.
+struct Storing<'a> {
+    folder: &'a OutputFolder,
+    layout: &'a Layout,
+    /// Whether a record is put together as its last block is stored: no other process has any, and later it would be so alone.
+    puts_together: bool,
+    blocks: BTreeMap<u64, PathBuf>,
+}
+
+impl Storing<'_> {
+    /// Stores the runs of a block, and puts its record together if that was the last: while others are run no processor waits for it.
+    fn store(&mut self, block: &Block, runs: &[Finished]) -> Result<()> {
+        let name = &self.layout.records()[block.record];
+        let file = self.folder.write_block(name, block.index, runs)?;
+        self.blocks.insert(block.index, file);
+        let of_record = self.layout.of_record(block.record);
+        let stored = self.blocks.range(of_record.clone());
+        if !self.puts_together || (stored.clone().count() as u64) < of_record.end - of_record.start {
+            return Ok(());
+        }
+        put_together(self.folder, name, stored.map(|(_, file)| file), &Mutex::new(()))
+    }
 }
 
 /// A block that is done again takes the name of its damaged file; a record's file has to be told gone.

@@ -8,8 +8,19 @@ use std::str::FromStr;
 use crate::error::{InputError, Result};
 use crate::study::runs::Manifest;
 
-/// Runs a block, if nothing else is asked for: about a second of work of one thread, and few enough files.
-pub const BLOCK_RUNS: u64 = 512;
+/// Runs a block at least and at most, if nothing else is asked for: a twentieth of a second of work of one thread to a second of it, on
+/// sharp edges; twenty times as much on beds.
+const BLOCK_RUNS: [u64; 2] = [512, 8192];
+
+/// Blocks of a record before they grow: enough for a divided study, and few files.
+const BLOCKS_OF_RECORD: u64 = 32;
+
+/// Runs a block of a study, by those of each record, if nothing else is asked for. A power of two: so a record's file has the same pages
+/// whichever it is.
+pub fn block_runs(runs_per_record: u64) -> u64 {
+    let [least, most] = BLOCK_RUNS;
+    1 << (runs_per_record / BLOCKS_OF_RECORD).clamp(least, most).ilog2()
+}
 
 /// Neighbouring runs of a plan, all under one record, that are stored at once.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -174,6 +185,12 @@ impl FromStr for Shard {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn analytic_blocks_grow_with_a_study() {
+        let expected = [(1, 512), (2048, 512), (16_384, 512), (142_858, 4096), (10_000_000, 8192)];
+        assert!(expected.iter().all(|(runs, block)| block_runs(*runs) == *block));
+    }
 
     #[test]
     fn analytic_blocks_cover_every_run_once_and_never_two_records() {

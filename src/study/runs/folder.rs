@@ -223,7 +223,7 @@ mod tests {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("pipelines/check.toml");
         let pipeline = Pipeline::load(&path).expect("the repository's pipeline");
         let plan = Plan::load(&pipeline, None).expect("a plan");
-        Manifest::of(&plan, &pipeline, &pipeline.suite, 512).expect("a manifest")
+        Manifest::of(&plan, &pipeline, &pipeline.suite, None).expect("a manifest")
     }
 
     #[test]

@@ -2,12 +2,14 @@
 //!
 //! A folder is resumed only by the plan it was begun with: how another plan differs is said.
 
+use std::num::NonZero;
 use std::path::Path;
 
 use super::schema::{OLDEST_READ, SCHEMA_VERSION};
 use crate::error::{Error, InputError, Result};
 use crate::store::durable::{folder_of, write_durably, write_durably_if_absent};
 use crate::store::now_unix_s;
+use crate::study::campaign::{self, Layout};
 use crate::study::pipeline::{Kind, Pipeline, Variant};
 use crate::study::plan::{Plan, RecordHash};
 use crate::study::sequence::{Part, Sequence};
@@ -100,11 +102,17 @@ pub struct RecordNote {
 }
 
 impl Manifest {
-    /// The manifest of a plan stored in blocks of `block_runs`, begun now; `suite_path` is the suite file that was read.
+    /// The manifest of a plan stored in blocks of so many runs, or of as many as suit its size, begun now; `suite_path` is the suite file
+    /// that was read.
     ///
     /// # Errors
     /// Input errors if an input file is gone.
-    pub fn of(plan: &Plan, pipeline: &Pipeline, suite_path: &Path, block_runs: u64) -> Result<Self> {
+    pub fn of(
+        plan: &Plan,
+        pipeline: &Pipeline,
+        suite_path: &Path,
+        block_runs: Option<NonZero<u64>>,
+    ) -> Result<Self> {
         let files = [
             ("pipeline", pipeline.path.as_path()),
             ("survey", &pipeline.survey),
@@ -112,14 +120,14 @@ impl Manifest {
             ("suite", suite_path),
         ];
         let variants: Vec<&Variant> = plan.variants().collect();
-        Ok(Self {
+        let mut manifest = Self {
             tool_version: env!("CARGO_PKG_VERSION").to_owned(),
             schema_version: SCHEMA_VERSION,
             kind: plan.kind(),
             plan: plan.name().to_owned(),
             plan_sha256: plan.sha256(),
             runs: plan.len(),
-            block_runs,
+            block_runs: 0,
             seed: plan.drawn().map(|drawn| drawn.sampling.seed),
             study: study_note(plan),
             suite: SuiteNote::of(plan),
@@ -131,7 +139,10 @@ impl Manifest {
             gravity_m_s2: G_M_S2,
             variants: serde_json::json!(variants),
             started_unix_s: now_unix_s(),
-        })
+        };
+        let suitable = campaign::block_runs(Layout::of(&manifest).runs_per_record());
+        manifest.block_runs = block_runs.map_or(suitable, NonZero::get);
+        Ok(manifest)
     }
 
     /// Whether a file is a manifest of this tool, of whatever version; not where there is none.

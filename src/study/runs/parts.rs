@@ -74,16 +74,16 @@ impl RunFile {
 type Checksums = BTreeMap<String, String>;
 
 impl OutputFolder {
-    /// Stores the runs of a block; it is there whole when this returns.
+    /// Stores the runs of a block; it is there whole when this returns its file.
     ///
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
-    pub fn write_block(&self, record: &str, index: u64, runs: &[Finished]) -> Result<()> {
+    pub fn write_block(&self, record: &str, index: u64, runs: &[Finished]) -> Result<PathBuf> {
         let folder = make(&self.blocks_folder(record))?;
         let mut file = self.begin(&folder, Pages::Plain)?;
         file.write(runs)?;
         let name = |sha256: &str| folder.join(format!("block-{index:06}-{}.parquet", &sha256[..DIGITS]));
-        file.finish_as(name).map(|_| ())
+        file.finish_as(name).map(|sha256| name(&sha256))
     }
 
     /// The blocks of a record that are on the disk, by their positions; the last file of a position counts.

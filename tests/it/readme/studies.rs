@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use indicatif::ProgressBar;
 use mrbd::cli::starter::write_starter;
 use mrbd::study::batch::SideBySide;
-use mrbd::study::campaign::{BLOCK_RUNS, Layout, Shard, Standing, Work, compact, run_missing};
+use mrbd::study::campaign::{Layout, Shard, Standing, Work, compact, run_missing};
 use mrbd::study::pipeline::Pipeline;
 use mrbd::study::plan::Plan;
 use mrbd::study::runs::{Earlier, Manifest, OutputFolder};
@@ -55,7 +55,7 @@ impl Study {
         let (pipeline, plan) = load(&Path::new(ROOT).join(pipeline), suite);
         let folder = tempfile::tempdir().expect("a temporary folder");
         let suite: PathBuf = suite.map_or_else(|| pipeline.suite.clone(), Path::to_path_buf);
-        let manifest = Manifest::of(&plan, &pipeline, &suite, BLOCK_RUNS).expect("a manifest");
+        let manifest = Manifest::of(&plan, &pipeline, &suite, None).expect("a manifest");
         let output = OutputFolder::prepare(folder.path(), &manifest, &pipeline.text, Earlier::Refuse);
         let output = output.expect("an empty folder");
         let layout = Layout::of(output.manifest());
