@@ -22,8 +22,12 @@ use crate::pipeline_support::{SMALL, pipeline, plan, stand_in};
 /// Blocks of the 36 runs of a record: 7 of 5 and one of a single run.
 const BLOCK_RUNS: u64 = 5;
 
-/// A manifest without the files it would hash.
 fn manifest(plan: &Plan) -> Manifest {
+    manifest_in_blocks(plan, NonZero::new(BLOCK_RUNS))
+}
+
+/// A manifest without the files it would hash.
+fn manifest_in_blocks(plan: &Plan, block_runs: Option<NonZero<u64>>) -> Manifest {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let mut pipeline = pipeline(SMALL);
     for path in [&mut pipeline.path, &mut pipeline.survey, &mut pipeline.coefficients, &mut pipeline.suite] {
@@ -31,7 +35,7 @@ fn manifest(plan: &Plan) -> Manifest {
         fs::write(&*path, "some input").expect("written");
     }
     let suite = pipeline.suite.clone();
-    Manifest::of(plan, &pipeline, &suite, NonZero::new(BLOCK_RUNS)).expect("a manifest")
+    Manifest::of(plan, &pipeline, &suite, block_runs).expect("a manifest")
 }
 
 pub fn prepare(folder: &Path, plan: &Plan, earlier: Earlier) -> mrbd::Result<OutputFolder> {
@@ -99,6 +103,46 @@ fn finish(folder: &Path, earlier: Earlier) -> u64 {
     let tally = do_missing(&plan, &folder, (Shard::WHOLE, 2), &stand_in).expect("runs");
     merge(&folder).expect("put together");
     tally.runs()
+}
+
+/// Façades of which a record has just more runs than are put together at once.
+const MANY: &str = r#"
+kind = "monte_carlo"
+name = "many"
+survey = "survey.toml"
+coefficients = "coefficients.toml"
+suite = "suite.toml"
+configurations = ["perpendicular", "parallel"]
+
+[sampling]
+count = 25001
+seed = 1
+design = "sobol"
+
+[[variants]]
+name = "base"
+"#;
+
+#[test]
+fn regress_large_records_are_put_together_while_others_run_to_the_same_bits() {
+    let plan = plan(MANY, 2);
+    let run = |shards: &[Shard]| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let study =
+            OutputFolder::prepare(folder.path(), &manifest_in_blocks(&plan, None), MANY, Earlier::Refuse);
+        let study = study.expect("an empty folder");
+        for shard in shards {
+            do_missing(&plan, &study, (*shard, 2), &stand_in).expect("runs");
+        }
+        let put_together = standing(&study).parts.len();
+        merge(&study).expect("put together");
+        (put_together, contents(folder.path()))
+    };
+    let (in_the_run, whole) = run(&[Shard::WHOLE]);
+    // Another process may still be at work where a study is divided.
+    let (at_the_end, divided) = run(&[2, 1].map(|part| Shard::new(part, 2).expect("a shard")));
+    assert_eq!([in_the_run, at_the_end], [2, 0]);
+    assert_eq!(whole, divided);
 }
 
 #[test]
