@@ -1,5 +1,9 @@
 //! A run by itself. Where nothing has happened for a while it steps in one of the lanes of a row, which look at a step by
 //! fewer instructions; the others are empty. Its steps have the same bits either way.
+//!
+//! It waits for its own sums. To take the next step before one is looked at was tried, which goes on from there where nothing happened:
+//! 0.95 of the time of the table wall, 1.04 of that of façades, whose flights are short. Arms by their Taylor series around the start of
+//! a step, and the whole equation by such series, took as long as sines: more sums where fewer wait.
 
 use fearless_simd::Level;
 
