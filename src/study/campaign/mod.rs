@@ -198,7 +198,8 @@ pub fn run_missing<S: Simulate + Sync>(
 struct Storing<'a> {
     folder: &'a OutputFolder,
     layout: &'a Layout,
-    /// Whether a record is put together as its last block is stored: no other process has any, and later it would be so alone.
+    /// Whether a record is put together as its last block is stored: where no other process stores any, and records are too large to be
+    /// put together side by side later.
     puts_together: bool,
     blocks: BTreeMap<u64, PathBuf>,
 }

@@ -292,11 +292,11 @@ impl TopLaws<f64> for Motion {
 
     #[inline(always)]
     fn with(&self, number: f64, further: f64) -> f64 {
-        number + further
+        if self.damped { number + further } else { number }
     }
 
     #[inline(always)]
     fn where_damped(&self, number: f64) -> f64 {
-        number
+        if self.damped { number } else { 0.0 }
     }
 }
