@@ -11,7 +11,7 @@ mod shard;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Mutex, PoisonError, mpsc};
+use std::sync::mpsc;
 
 use super::batch::{Finished, Simulate, Tally};
 use super::plan::Plan;
@@ -93,13 +93,12 @@ const WRITTEN_AT_ONCE: u64 = 50_000;
 pub fn compact(folder: &OutputFolder, standing: &Standing) -> Result<()> {
     let layout = Layout::of(folder.manifest());
     check_complete(folder, &layout, standing)?;
-    let checksums = &Mutex::new(());
     let put_together = |(record, name): (usize, &String)| {
         if standing.parts.contains_key(&record) {
             return folder.remove_blocks(name);
         }
         let blocks = layout.of_record(record).filter_map(|block| standing.blocks.get(&block));
-        put_together(folder, name, blocks, checksums)
+        put_together(folder, name, blocks)
     };
     let records: Vec<(usize, &String)> = layout.records().iter().enumerate().collect();
     for some in records.chunks(side_by_side(&layout)) {
@@ -113,17 +112,14 @@ fn side_by_side(layout: &Layout) -> usize {
     (WRITTEN_AT_ONCE / layout.runs_per_record().max(1)).max(1) as usize
 }
 
-/// Puts the blocks of a record together, then removes them. One at a time has the lock on the file with the checksums of all.
+/// Puts the blocks of a record together, then removes them.
 fn put_together<'a>(
     folder: &OutputFolder,
     record: &str,
     blocks: impl Iterator<Item = &'a PathBuf>,
-    checksums: &Mutex<()>,
 ) -> Result<()> {
     let part = folder.write_part(record, blocks)?;
-    let one_at_a_time = checksums.lock().unwrap_or_else(PoisonError::into_inner);
     folder.keep_part(record, part)?;
-    drop(one_at_a_time);
     folder.remove_blocks(record)
 }
 
@@ -215,7 +211,7 @@ impl Storing<'_> {
         if !self.puts_together || (stored.clone().count() as u64) < of_record.end - of_record.start {
             return Ok(());
         }
-        put_together(self.folder, name, stored.map(|(_, file)| file), &Mutex::new(()))
+        put_together(self.folder, name, stored.map(|(_, file)| file))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::error::{InputError, Result};
 use crate::study::runs::Manifest;
 
 /// Runs a block at least and at most, if nothing else is asked for: a twentieth of a second of work of one thread to a second of it, on
-/// sharp edges; twenty times as much on beds.
+/// sharp edges; up to twenty times as much on beds.
 const BLOCK_RUNS: [u64; 2] = [512, 8192];
 
 /// Blocks of a record before they grow: enough for a divided study, and few files.

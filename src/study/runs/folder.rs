@@ -11,6 +11,7 @@
 use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 
 use super::manifest::Manifest;
 use super::manifest::differences;
@@ -39,6 +40,8 @@ pub struct OutputFolder {
     manifest: Manifest,
     /// Let go when the folder is dropped or the process ends, however it ends.
     _lock: Option<File>,
+    /// Held while the file with the checksums of all parts is read and written again.
+    pub(super) checksums: Mutex<()>,
 }
 
 impl OutputFolder {
@@ -63,7 +66,12 @@ impl OutputFolder {
         if !is_begun || !copy.is_file() {
             write_durably(&copy, pipeline_text.as_bytes())?;
         }
-        Ok(Self { path: path.to_path_buf(), manifest: manifest.clone(), _lock: lock })
+        Ok(Self {
+            path: path.to_path_buf(),
+            manifest: manifest.clone(),
+            _lock: lock,
+            checksums: Mutex::default(),
+        })
     }
 
     /// Opens the folder of a study to look at it; a study at work may change meanwhile.
@@ -72,7 +80,9 @@ impl OutputFolder {
     /// An input error for a folder without a manifest.
     pub fn look(path: &Path) -> Result<Self> {
         match Manifest::read(&path.join("manifest.json"))? {
-            Some(manifest) => Ok(Self { path: path.to_path_buf(), manifest, _lock: None }),
+            Some(manifest) => {
+                Ok(Self { path: path.to_path_buf(), manifest, _lock: None, checksums: Mutex::default() })
+            }
             None => Err(InputError::file(path, "no manifest.json", "the output folder of `mrbd run`").into()),
         }
     }

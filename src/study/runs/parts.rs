@@ -15,6 +15,7 @@ use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::PoisonError;
 
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
@@ -120,11 +121,12 @@ impl OutputFolder {
         part.finish_as(|_| self.part_path(record))
     }
 
-    /// Notes the checksum of the file of a record.
+    /// Notes the checksum of the file of a record; threads may do so at once.
     ///
     /// # Errors
     /// [`mrbd_files::Error::Io`] if the disk refuses; an input error for a `checksums.json` that is none.
     pub fn keep_part(&self, record: &str, sha256: String) -> Result<()> {
+        let _one_at_a_time = self.checksums.lock().unwrap_or_else(PoisonError::into_inner);
         let mut checksums = read_checksums(self.path())?;
         checksums.insert(self.hive(record), sha256);
         write_checksums(self.path(), &checksums)
