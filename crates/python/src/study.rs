@@ -7,7 +7,7 @@ use indicatif::ProgressBar;
 use mrbd::cli::keep_medians;
 use mrbd::store::{PAGE_NAME, write_durably};
 use mrbd::study::batch::{SideBySide, Tally};
-use mrbd::study::campaign::{BLOCK_RUNS, Layout, Shard, Standing, Work, compact, run_missing};
+use mrbd::study::campaign::{Layout, Shard, Standing, Work, compact, run_missing};
 use mrbd::study::pipeline::Pipeline;
 use mrbd::study::plan::Plan;
 use mrbd::study::runs::{Earlier, Manifest, OutputFolder, run_files};
@@ -39,7 +39,7 @@ pub fn run_study(
     let plan = Plan::load(&pipeline, suite.as_deref()).map_err(raised)?;
     let out = out.unwrap_or_else(|| Path::new("outputs").join(&pipeline.name));
     let suite = suite.as_deref().unwrap_or(&pipeline.suite);
-    let manifest = Manifest::of(&plan, &pipeline, suite, BLOCK_RUNS).map_err(raised)?;
+    let manifest = Manifest::of(&plan, &pipeline, suite, None).map_err(raised)?;
     let earlier = match earlier {
         "resume" => Earlier::Resume,
         "replace" => Earlier::Replace,
