@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::{Float64Chunked, PolarsResult};
+use rayon::prelude::*;
 
 use super::distributions::{Distribution, Distributions};
 use super::group::{Group, in_plan_order};
@@ -64,7 +65,7 @@ const LISTED_AT_ONCE: usize = 200_000;
 /// An input error for a folder without results; [`Error::Table`] for files that cannot be read.
 pub fn distributions(folder: &Path, kind: Kind) -> Result<Distributions> {
     let files = run_files(folder)?;
-    let completeness = Completeness::of(folder)?;
+    let completeness = Completeness::of_files(folder, &files)?;
     let read = read(&files, kind).map_err(|e| Error::table(folder, e))?;
     Ok(Distributions { completeness, ..read })
 }
@@ -136,7 +137,7 @@ impl Places {
         group: &Group,
         by_record: bool,
         quantities: usize,
-        value: impl Fn(usize, usize) -> Option<Option<f64>>,
+        value: impl Fn(usize, usize) -> Option<Option<f64>> + Sync,
         kept: &mut Kept,
     ) -> Vec<[Option<Interval>; 7]> {
         let all = group.rows.iter().map(|&row| self.records[row] as usize + 1);
@@ -153,7 +154,8 @@ impl Places {
             runs
         };
         let at_once = (LISTED_AT_ONCE / group.rows.len().max(1)).max(1);
-        let some = |first: usize| (first..quantities.min(first + at_once)).map(runs_of).collect();
+        let some =
+            |first: usize| (first..quantities.min(first + at_once)).into_par_iter().map(runs_of).collect();
         (0..quantities).step_by(at_once).flat_map(|first| intervals(some(first), records, kept)).collect()
     }
 }
@@ -249,7 +251,7 @@ impl Told {
                 intervals,
             })
         };
-        quantities.iter().zip(intervals).map(one).collect()
+        quantities.par_iter().zip(intervals).map(one).collect()
     }
 }
 

@@ -130,7 +130,7 @@ pub struct Sequences {
 /// An input error for a folder without results; [`Error::Table`] for files that cannot be read.
 pub fn sequences(folder: &Path) -> Result<Sequences> {
     let files = run_files(folder)?;
-    let completeness = Completeness::of(folder)?;
+    let completeness = Completeness::of_files(folder, &files)?;
     let read = of_files(&files).map_err(|e| Error::table(folder, e))?;
     Ok(Sequences { completeness, ..read })
 }

@@ -36,7 +36,7 @@ const COMPARISON: Comparison = Comparison {
 /// An input error for a folder without results; [`Error::Table`] for files that cannot be read.
 pub fn aggregate(folder: &Path) -> Result<Medians> {
     let files = run_files(folder)?;
-    let completeness = Completeness::of(folder)?;
+    let completeness = Completeness::of_files(folder, &files)?;
     let notes = variant_notes(&files).map_err(|e| Error::table(folder, e))?;
     let variants = with_further(notes, folder)?;
     let read = || -> PolarsResult<Medians> {

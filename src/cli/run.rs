@@ -138,7 +138,7 @@ impl RunCommand {
     fn run(&self, plan: &Plan, folder: &OutputFolder, shard: Shard) -> Result<()> {
         let pool = self.threads.pool()?;
         let layout = Layout::of(folder.manifest());
-        let standing = Standing::of(folder, &layout)?;
+        let standing = pool.install(|| Standing::of(folder, &layout))?;
         tell_standing(plan, folder, &standing, &layout);
         let todo = |block: &Block| shard.has(block.index) && !standing.has(block);
         let missing = layout.iter().filter(todo).map(|block| block.runs.end - block.runs.start).sum();

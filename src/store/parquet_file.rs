@@ -78,12 +78,19 @@ impl<R> ParquetFile<R> {
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if they cannot be written.
     pub fn write(&mut self, rows: &[R]) -> Result<()> {
-        let arrays = self.columns.iter().map(|column| column.array(rows)).collect();
-        let batch = RecordBatch::try_new(Arc::clone(&self.schema), arrays);
-        self.write_batch(&batch.map_err(|e| Error::table(&self.place, e))?)
+        self.write_batch(&self.batch(rows)?)
     }
 
-    /// Adds rows that were read from another file of the same columns.
+    /// Rows as columns, for this file and others of the same columns.
+    ///
+    /// # Errors
+    /// [`Error::Table`] if the columns are not as long as each other.
+    pub fn batch(&self, rows: &[R]) -> Result<RecordBatch> {
+        let arrays = self.columns.iter().map(|column| column.array(rows)).collect();
+        RecordBatch::try_new(Arc::clone(&self.schema), arrays).map_err(|e| Error::table(&self.place, e))
+    }
+
+    /// Adds rows that are columns already, of the same columns.
     ///
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if they cannot be written, or are of other columns.

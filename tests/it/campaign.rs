@@ -138,11 +138,18 @@ fn regress_large_records_are_put_together_while_others_run_to_the_same_bits() {
         merge(&study).expect("put together");
         (put_together, contents(folder.path()))
     };
+    let [first, second] = [1, 2].map(|part| Shard::new(part, 2).expect("a shard"));
     let (in_the_run, whole) = run(&[Shard::WHOLE]);
     // Another process may still be at work where a study is divided.
-    let (at_the_end, divided) = run(&[2, 1].map(|part| Shard::new(part, 2).expect("a shard")));
+    let (at_the_end, divided) = run(&[second, first]);
     assert_eq!([in_the_run, at_the_end], [2, 0]);
     assert_eq!(whole, divided);
+    // Of a study that is gone on with, blocks that were there before go between those that come, or before them.
+    for before in [first, second] {
+        let (in_the_run, gone_on_with) = run(&[before, Shard::WHOLE]);
+        assert_eq!(in_the_run, 2);
+        assert_eq!(whole, gone_on_with);
+    }
 }
 
 #[test]

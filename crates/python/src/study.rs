@@ -58,7 +58,7 @@ pub fn run_study(
 
 fn run(plan: &Plan, folder: &OutputFolder, pool: &ThreadPool, told: &Watched) -> mrbd::Result<()> {
     let layout = Layout::of(folder.manifest());
-    let standing = Standing::of(folder, &layout)?;
+    let standing = pool.install(|| Standing::of(folder, &layout))?;
     let before = standing.runs(&layout);
     told.done.store(before, Ordering::Relaxed);
     let progress = ProgressBar::hidden();
@@ -73,7 +73,7 @@ fn run(plan: &Plan, folder: &OutputFolder, pool: &ThreadPool, told: &Watched) ->
     if before + tally.runs() < plan.len() {
         return Ok(());
     }
-    compact(folder, &Standing::of(folder, &layout)?)?;
+    pool.install(|| compact(folder, &Standing::of(folder, &layout)?))?;
     keep_medians(folder.path())
 }
 

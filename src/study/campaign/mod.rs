@@ -7,6 +7,7 @@
 
 mod at_work;
 mod shard;
+mod storing;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -22,6 +23,7 @@ use indicatif::ProgressBar;
 use rayon::ThreadPool;
 use rayon::prelude::*;
 pub use shard::{Block, Layout, Shard, block_runs};
+use storing::Storing;
 
 /// What is done. Everything counted here was read and agrees with its checksum.
 #[derive(Debug, Default)]
@@ -35,26 +37,36 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Reads and checks every file of a study.
+    /// Reads and checks every file of a study, on the threads of the pool that this is called in.
     ///
     /// # Errors
     /// [`mrbd_files::Error::Io`] if the folder cannot be read.
     pub fn of(folder: &OutputFolder, layout: &Layout) -> Result<Self> {
+        let records: Vec<(usize, &String)> = layout.records().iter().enumerate().collect();
+        let of_record = |(index, name): (usize, &String)| Self::of_record(folder, layout, index, name);
+        let each: Vec<Self> = records.into_par_iter().map(of_record).collect::<Result<_>>()?;
+        Ok(each.into_iter().fold(Self::default(), |mut all, mut one| {
+            all.blocks.append(&mut one.blocks);
+            all.parts.append(&mut one.parts);
+            all.damaged.append(&mut one.damaged);
+            all
+        }))
+    }
+
+    fn of_record(folder: &OutputFolder, layout: &Layout, index: usize, name: &str) -> Result<Self> {
         let mut standing = Self::default();
-        for (index, record) in layout.records().iter().enumerate() {
-            match folder.part(record)? {
-                Some(part) if part.is_whole()? => {
-                    standing.parts.insert(index, part.path);
-                    continue;
-                }
-                Some(part) => standing.damaged.push(part.path),
-                None => {}
+        match folder.part(name)? {
+            Some(part) if part.is_whole()? => {
+                standing.parts.insert(index, part.path);
+                return Ok(standing);
             }
-            for (block, file) in folder.blocks(record)? {
-                match layout.of_record(index).contains(&block) && file.is_whole()? {
-                    true => _ = standing.blocks.insert(block, file.path),
-                    false => standing.damaged.push(file.path),
-                }
+            Some(part) => standing.damaged.push(part.path),
+            None => {}
+        }
+        for (block, file) in folder.blocks(name)? {
+            match layout.of_record(index).contains(&block) && file.is_whole()? {
+                true => _ = standing.blocks.insert(block, file.path),
+                false => standing.damaged.push(file.path),
             }
         }
         Ok(standing)
@@ -112,14 +124,19 @@ fn side_by_side(layout: &Layout) -> usize {
     (WRITTEN_AT_ONCE / layout.runs_per_record().max(1)).max(1) as usize
 }
 
-/// Puts the blocks of a record together, then removes them.
+/// Puts the blocks of a record together.
 fn put_together<'a>(
     folder: &OutputFolder,
     record: &str,
     blocks: impl Iterator<Item = &'a PathBuf>,
 ) -> Result<()> {
     let part = folder.write_part(record, blocks)?;
-    folder.keep_part(record, part)?;
+    keep(folder, record, part)
+}
+
+/// Keeps the file of a record, by its checksum, then removes its blocks.
+fn keep(folder: &OutputFolder, record: &str, sha256: String) -> Result<()> {
+    folder.keep_part(record, sha256)?;
     folder.remove_blocks(record)
 }
 
@@ -176,8 +193,7 @@ pub fn run_missing<S: Simulate + Sync>(
     let (sender, whole) = mpsc::sync_channel(WAITING_PER_THREAD * work.pool.current_num_threads());
     let at_work = &AtWork::new(&missing, work.stop);
     let puts_together = work.shard == Shard::WHOLE && side_by_side(&layout) == 1;
-    let mut storing =
-        Storing { folder: work.folder, layout: &layout, puts_together, blocks: standing.blocks.clone() };
+    let mut storing = Storing::new(work.folder, &layout, standing.blocks.clone(), puts_together);
     let mut tally = Tally::default();
     std::thread::scope(|scope| {
         scope.spawn(move || at_work.run(work, sender));
@@ -188,31 +204,6 @@ pub fn run_missing<S: Simulate + Sync>(
         }
         Ok(tally)
     })
-}
-
-/// The blocks of a study on the disk, by record, while others are run.
-struct Storing<'a> {
-    folder: &'a OutputFolder,
-    layout: &'a Layout,
-    /// Whether a record is put together as its last block is stored: where no other process stores any, and records are too large to be
-    /// put together side by side later.
-    puts_together: bool,
-    blocks: BTreeMap<u64, PathBuf>,
-}
-
-impl Storing<'_> {
-    /// Stores the runs of a block, and puts its record together if that was the last: while others are run no processor waits for it.
-    fn store(&mut self, block: &Block, runs: &[Finished]) -> Result<()> {
-        let name = &self.layout.records()[block.record];
-        let file = self.folder.write_block(name, block.index, runs)?;
-        self.blocks.insert(block.index, file);
-        let of_record = self.layout.of_record(block.record);
-        let stored = self.blocks.range(of_record.clone());
-        if !self.puts_together || (stored.clone().count() as u64) < of_record.end - of_record.start {
-            return Ok(());
-        }
-        put_together(self.folder, name, stored.map(|(_, file)| file))
-    }
 }
 
 /// A block that is done again takes the name of its damaged file; a record's file has to be told gone.

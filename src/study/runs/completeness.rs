@@ -34,9 +34,19 @@ impl Completeness {
     /// # Errors
     /// As [`run_files`]; [`Error::Table`] for files that cannot be read.
     pub fn of(folder: &Path) -> Result<Option<Self>> {
-        let Some(manifest) = Manifest::read(&folder.join("manifest.json"))? else { return Ok(None) };
-        let files = run_files(folder)?;
-        Ok(Some(Self {
+        manifest_of(folder)?.map(|manifest| Self::counted(&manifest, &run_files(folder)?)).transpose()
+    }
+
+    /// The same where its files are known already, those of [`run_files`].
+    ///
+    /// # Errors
+    /// As [`Completeness::of`].
+    pub fn of_files(folder: &Path, files: &[PathBuf]) -> Result<Option<Self>> {
+        manifest_of(folder)?.map(|manifest| Self::counted(&manifest, files)).transpose()
+    }
+
+    fn counted(manifest: &Manifest, files: &[PathBuf]) -> Result<Self> {
+        Ok(Self {
             runs: files.iter().map(rows).sum::<Result<u64>>()?,
             planned_runs: manifest.runs,
             // A file lies in the folder of its record, finished or not.
@@ -44,7 +54,7 @@ impl Completeness {
                 as u64,
             planned_records: manifest.motions().len() as u64,
             of_sequences: !manifest.sequences.is_empty(),
-        }))
+        })
     }
 
     /// Whether all runs are there.
@@ -64,6 +74,10 @@ impl fmt::Display for Completeness {
         let motions = if *of_sequences { "sequences" } else { "records" };
         write!(f, "{runs} of {planned_runs} runs, under {records} of {planned_records} {motions}")
     }
+}
+
+fn manifest_of(folder: &Path) -> Result<Option<Manifest>> {
+    Manifest::read(&folder.join("manifest.json"))
 }
 
 /// Rows of a file, by its footer.

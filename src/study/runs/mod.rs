@@ -9,5 +9,5 @@ mod schema;
 pub use completeness::Completeness;
 pub use folder::{Earlier, OutputFolder};
 pub use manifest::{Manifest, RecordNote, SequenceNote, SuiteNote};
-pub use parts::{RunFile, listed_run_files, run_files};
+pub use parts::{Part, RunFile, listed_run_files, run_files};
 pub use schema::{COLUMNS, OLDEST_READ, RESULTS, SCHEMA_VERSION};

@@ -17,7 +17,9 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::PoisonError;
 
+use arrow_array::RecordBatch;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
+use rayon::prelude::*;
 
 use super::folder::{OutputFolder, as_folder_name};
 use super::schema::COLUMNS;
@@ -34,7 +36,7 @@ const DIGITS: usize = 16;
 /// In the place of a checksum that is not known; no SHA-256 begins so.
 const UNKNOWN: &str = "unknown";
 
-/// Rows read at once when blocks are put together: more than any block of a sensible size has.
+/// Rows added at once when blocks are put together: more than any block of a sensible size has.
 const ROWS_AT_ONCE: usize = 1 << 16;
 
 /// A file of runs and what its SHA-256 must begin with.
@@ -71,20 +73,53 @@ impl RunFile {
     }
 }
 
+/// The file of a record while blocks are added to it, in their order. The same rows give the same bytes whichever way they come.
+pub struct Part(ParquetFile<Finished>);
+
+impl Part {
+    /// Adds the rows of a block.
+    ///
+    /// # Errors
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
+    pub fn add(&mut self, rows: &RecordBatch) -> Result<()> {
+        let all = rows.num_rows();
+        (0..all)
+            .step_by(ROWS_AT_ONCE)
+            .try_for_each(|first| self.0.write_batch(&rows.slice(first, ROWS_AT_ONCE.min(all - first))))
+    }
+
+    /// Adds the rows of a block, read off its file.
+    ///
+    /// # Errors
+    /// As [`Part::add`].
+    pub fn add_file(&mut self, block: &Path) -> Result<()> {
+        let failed = |e: &dyn std::fmt::Display| Error::table(block, e);
+        let file = File::open(block).map_err(|e| Error::io("read", block, e))?;
+        let reader = ParquetRecordBatchReaderBuilder::try_new(file)
+            .and_then(|builder| builder.with_batch_size(ROWS_AT_ONCE).build())
+            .map_err(|e| failed(&e))?;
+        for batch in reader {
+            self.0.write_batch(&batch.map_err(|e| failed(&e))?)?;
+        }
+        Ok(())
+    }
+}
+
 /// Checksums of parts, by the folder name of the record.
 type Checksums = BTreeMap<String, String>;
 
 impl OutputFolder {
-    /// Stores the runs of a block; it is there whole when this returns its file.
+    /// Stores the runs of a block; it is there whole when this returns its file, and its rows.
     ///
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
-    pub fn write_block(&self, record: &str, index: u64, runs: &[Finished]) -> Result<PathBuf> {
+    pub fn write_block(&self, record: &str, index: u64, runs: &[Finished]) -> Result<(PathBuf, RecordBatch)> {
         let folder = make(&self.blocks_folder(record))?;
         let mut file = self.begin(&folder, Pages::Plain)?;
-        file.write(runs)?;
+        let rows = file.batch(runs)?;
+        file.write_batch(&rows)?;
         let name = |sha256: &str| folder.join(format!("block-{index:06}-{}.parquet", &sha256[..DIGITS]));
-        file.finish_as(name).map(|sha256| name(&sha256))
+        file.finish_as(name).map(|sha256| (name(&sha256), rows))
     }
 
     /// The blocks of a record that are on the disk, by their positions; the last file of a position counts.
@@ -112,13 +147,31 @@ impl OutputFolder {
     ///
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses; the blocks stay.
-    pub fn write_part<'a>(&self, record: &str, blocks: impl Iterator<Item = &'a PathBuf>) -> Result<String> {
+    pub fn write_part<'a>(
+        &self,
+        record: &str,
+        mut blocks: impl Iterator<Item = &'a PathBuf>,
+    ) -> Result<String> {
+        let mut part = self.begin_part(record)?;
+        blocks.try_for_each(|block| part.add_file(block))?;
+        self.finish_part(record, part)
+    }
+
+    /// Begins the file of a record, to which its blocks are added.
+    ///
+    /// # Errors
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
+    pub fn begin_part(&self, record: &str) -> Result<Part> {
         let folder = make(&self.path().join("runs").join(self.hive(record)))?;
-        let mut part = self.begin(&folder, Pages::Small)?;
-        for block in blocks {
-            append(&mut part, block)?;
-        }
-        part.finish_as(|_| self.part_path(record))
+        Ok(Part(self.begin(&folder, Pages::Small)?))
+    }
+
+    /// Ends the file of a record; it counts once it is kept. Returns its checksum.
+    ///
+    /// # Errors
+    /// As [`OutputFolder::begin_part`].
+    pub fn finish_part(&self, record: &str, part: Part) -> Result<String> {
+        part.0.finish_as(|_| self.part_path(record))
     }
 
     /// Notes the checksum of the file of a record; threads may do so at once.
@@ -202,8 +255,9 @@ pub fn run_files(path: &Path) -> Result<Vec<PathBuf>> {
         let allowed = "the output folder of `mrbd run`, with runs/record=*/part-1.parquet";
         return Err(InputError::file(path, "no results", allowed).into());
     }
-    for file in &files {
-        if let Some(fault) = file.fault()? {
+    let faults: Vec<_> = files.par_iter().map(RunFile::fault).collect::<Result<_>>()?;
+    for (file, fault) in files.iter().zip(faults) {
+        if let Some(fault) = fault {
             let allowed =
                 "the file, and its checksum, as they were written; `mrbd run … --resume` does its runs again";
             return Err(InputError::file(&file.path, fault, allowed).into());
@@ -238,18 +292,6 @@ fn listed(path: &Path) -> Result<Vec<RunFile>> {
     files.extend(parts.map(|path| RunFile { path, checksum: UNKNOWN.to_owned() }));
     files.sort_by(|a, b| a.path.cmp(&b.path));
     Ok(files)
-}
-
-fn append(part: &mut ParquetFile<Finished>, block: &Path) -> Result<()> {
-    let failed = |e: &dyn std::fmt::Display| Error::table(block, e);
-    let file = File::open(block).map_err(|e| Error::io("read", block, e))?;
-    let reader = ParquetRecordBatchReaderBuilder::try_new(file)
-        .and_then(|builder| builder.with_batch_size(ROWS_AT_ONCE).build())
-        .map_err(|e| failed(&e))?;
-    for batch in reader {
-        part.write_batch(&batch.map_err(|e| failed(&e))?)?;
-    }
-    Ok(())
 }
 
 fn block_files(folder: &Path) -> Result<Vec<(u64, RunFile)>> {
