@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use polars::prelude::{Float64Chunked, PolarsResult};
-use rayon::prelude::*;
 
 use super::distributions::{Distribution, Distributions};
 use super::group::{Group, in_plan_order};
@@ -84,9 +83,11 @@ fn rows(files: &[PathBuf], kind: Kind) -> PolarsResult<Vec<Distribution>> {
     let quantities: Vec<Quantity> =
         told.quantities.iter().map(|&name| Quantity::of(&frame, name)).collect::<PolarsResult<_>>()?;
     let places = Places::of(&frame)?;
+    // Both before any draws stand in memory: of a million runs it is grouping them that takes most.
+    let grouped = [false, true].map(|by_record| (by_record, in_plan_order(&frame, &told.keys(by_record))));
     let (mut rows, mut kept) = (Vec::new(), Kept::default());
-    for by_record in [false, true] {
-        for group in in_plan_order(&frame, &told.keys(by_record))? {
+    for (by_record, groups) in grouped {
+        for group in groups? {
             rows.extend(told.distributions((&frame, &quantities, &places), &group, by_record, &mut kept)?);
         }
     }
@@ -137,7 +138,7 @@ impl Places {
         group: &Group,
         by_record: bool,
         quantities: usize,
-        value: impl Fn(usize, usize) -> Option<Option<f64>> + Sync,
+        value: impl Fn(usize, usize) -> Option<Option<f64>>,
         kept: &mut Kept,
     ) -> Vec<[Option<Interval>; 7]> {
         let all = group.rows.iter().map(|&row| self.records[row] as usize + 1);
@@ -154,8 +155,7 @@ impl Places {
             runs
         };
         let at_once = (LISTED_AT_ONCE / group.rows.len().max(1)).max(1);
-        let some =
-            |first: usize| (first..quantities.min(first + at_once)).into_par_iter().map(runs_of).collect();
+        let some = |first: usize| (first..quantities.min(first + at_once)).map(runs_of).collect();
         (0..quantities).step_by(at_once).flat_map(|first| intervals(some(first), records, kept)).collect()
     }
 }
@@ -251,7 +251,7 @@ impl Told {
                 intervals,
             })
         };
-        quantities.par_iter().zip(intervals).map(one).collect()
+        quantities.iter().zip(intervals).map(one).collect()
     }
 }
 

@@ -1,4 +1,4 @@
-//! From Parquet files to a frame: only the columns that are asked for, each batch by batch.
+//! From Parquet files to a frame: only the columns that are asked for, batch by batch.
 //!
 //! The values of one column are gathered from arrays of arrow into one of polars.
 
@@ -9,17 +9,14 @@ use std::sync::Arc;
 use super::Frame;
 use super::labels::{Labels, is_text};
 use arrow_array::cast::AsArray;
-use arrow_array::{Array, types as arrow};
-use arrow_schema::{DataType, Field};
+use arrow_array::{Array, RecordBatch, types as arrow};
+use arrow_schema::{DataType, Field, Schema};
 use parquet::arrow::ProjectionMask;
-use parquet::arrow::arrow_reader::{
-    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
-};
+use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use polars::prelude::{
     BooleanChunkedBuilder, ChunkedBuilder, Column, Float64Type, IntoColumn, PolarsDataType, PolarsError,
     PolarsResult, PrimitiveChunkedBuilder, UInt32Type, UInt64Type, polars_err,
 };
-use rayon::prelude::*;
 
 /// A column as far as it was read.
 pub(super) enum Values {
@@ -124,67 +121,63 @@ fn append_numbers(into: &mut PrimitiveChunkedBuilder<Float64Type>, array: &dyn A
 /// Rows that stand in memory beside the frame.
 const ROWS_AT_ONCE: usize = 1 << 16;
 
-/// The columns `names` of Parquet files, the rows of one file after those of another; the columns side by side on the threads there are.
+/// The columns `names` of Parquet files, the rows of one file after those of another.
 ///
 /// # Errors
 /// With the file: one that is no Parquet table or lacks a column, a column that holds neither numbers, truth values
 /// nor texts, and files that disagree about what a column holds.
-pub(crate) fn read<N: AsRef<str> + Sync>(files: &[PathBuf], names: &[N]) -> PolarsResult<Frame> {
-    let tables = files.iter().map(Table::open).collect::<PolarsResult<Vec<_>>>()?;
-    let columns: Vec<_> = names.par_iter().map(|name| column(&tables, name.as_ref())).collect();
-    Frame::new(columns.into_iter().flat_map(Result::transpose).collect::<PolarsResult<_>>()?)
+pub(crate) fn read<N: AsRef<str>>(files: &[PathBuf], names: &[N]) -> PolarsResult<Frame> {
+    let mut columns = Vec::new();
+    for path in files {
+        append(path, names, &mut columns).map_err(|e| at(path, e))?;
+    }
+    Frame::new(columns)
 }
 
 /// Names of all columns of a Parquet file, in its order.
 ///
 /// # Errors
 /// With the file: one that is no Parquet table.
-pub(crate) fn column_names(path: &PathBuf) -> PolarsResult<Vec<String>> {
-    let table = Table::open(path)?;
-    Ok(table.footer.schema().fields().iter().map(|field| field.name().clone()).collect())
+pub(crate) fn column_names(path: &Path) -> PolarsResult<Vec<String>> {
+    let fields = |table: Table| table.schema().fields().iter().map(|field| field.name().clone()).collect();
+    open(path).map(fields).map_err(|e| at(path, e))
 }
 
-/// A file of which the footer was read.
-struct Table<'a> {
-    path: &'a Path,
-    footer: ArrowReaderMetadata,
+type Table = ParquetRecordBatchReaderBuilder<File>;
+
+fn open(path: &Path) -> PolarsResult<Table> {
+    Table::try_new(File::open(path)?).map_err(unreadable)
 }
 
-impl<'a> Table<'a> {
-    fn open(path: &'a PathBuf) -> PolarsResult<Self> {
-        let footer = || ArrowReaderMetadata::load(&File::open(path)?, ArrowReaderOptions::new());
-        Ok(Self { path, footer: footer().map_err(|e| at(path, e))? })
+/// Adds the rows of a file; the first file says what the columns hold.
+fn append<N: AsRef<str>>(path: &Path, names: &[N], columns: &mut Vec<Values>) -> PolarsResult<()> {
+    let table = open(path)?;
+    let found: PolarsResult<Vec<_>> = names.iter().map(|name| find(table.schema(), name.as_ref())).collect();
+    let found = found?;
+    if columns.is_empty() {
+        let begun: PolarsResult<Vec<_>> = found.iter().map(|&(_, field)| Values::begin(field)).collect();
+        *columns = begun?;
     }
-
-    /// Where a column stands, and what it holds.
-    fn find(&self, name: &str) -> PolarsResult<(usize, &Field)> {
-        self.footer.schema().column_with_name(name).ok_or_else(|| absent(name))
+    let mask = ProjectionMask::roots(table.parquet_schema(), found.iter().map(|&(place, _)| place));
+    let batches = table.with_projection(mask).with_batch_size(ROWS_AT_ONCE).build().map_err(unreadable)?;
+    for batch in batches {
+        append_batch(&batch.map_err(unreadable)?, names, columns)?;
     }
-
-    /// Adds the values of a column.
-    fn append(&self, name: &str, values: &mut Values) -> PolarsResult<()> {
-        let (place, _) = self.find(name)?;
-        let mask = ProjectionMask::roots(self.footer.parquet_schema(), [place]);
-        let file =
-            ParquetRecordBatchReaderBuilder::new_with_metadata(File::open(self.path)?, self.footer.clone());
-        let batches = file.with_projection(mask).with_batch_size(ROWS_AT_ONCE).build().map_err(unreadable)?;
-        for batch in batches {
-            let batch = batch.map_err(unreadable)?;
-            values.append(name, batch.column_by_name(name).ok_or_else(|| absent(name))?)?;
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
-/// A column of all files, of which the first says what it holds; none of no files.
-fn column(tables: &[Table], name: &str) -> PolarsResult<Option<Values>> {
-    let Some(first) = tables.first() else { return Ok(None) };
-    let begun = first.find(name).and_then(|(_, field)| Values::begin(field));
-    let mut values = begun.map_err(|e| at(first.path, e))?;
-    for table in tables {
-        table.append(name, &mut values).map_err(|e| at(table.path, e))?;
+fn append_batch<N: AsRef<str>>(batch: &RecordBatch, names: &[N], columns: &mut [Values]) -> PolarsResult<()> {
+    for (name, values) in names.iter().zip(columns) {
+        let name = name.as_ref();
+        values.append(name, batch.column_by_name(name).ok_or_else(|| absent(name))?)?;
     }
-    Ok(Some(values))
+    Ok(())
+}
+
+/// Where a column stands, and what it holds.
+fn find<'s>(schema: &'s Schema, name: &str) -> PolarsResult<(usize, &'s Field)> {
+    let (place, field) = schema.column_with_name(name).ok_or_else(|| absent(name))?;
+    Ok((place, field))
 }
 
 fn absent(name: &str) -> PolarsError {
