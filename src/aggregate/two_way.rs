@@ -30,8 +30,8 @@ const MOST_MARKS: usize = 1 << 16;
 /// The quantiles of a quantity in each of the draws that go together; `None` where all weigh nothing.
 type Quantiles = [Option<[Option<f64>; 7]>; TOGETHER];
 
-/// How often one of some is drawn in each of these draws, of as many as they are. More often than 255 times is a chance of 10⁻⁵⁰⁰
-/// where they are more than that.
+/// How often a record or a façade is drawn in each of these draws. As many are drawn as there are: that one of more than 255 comes more
+/// than 255 times has a chance of 10⁻⁵⁰⁰.
 type Times = [u8; TOGETHER];
 
 /// A count of runs in each of these draws. All of a draw are about as many as its runs, of which no memory holds four thousand million.
@@ -139,7 +139,7 @@ pub(super) fn counts(of: usize, rng: &mut ChaCha8Rng) -> Vec<u64> {
     counts
 }
 
-/// The same of draws that go together.
+/// The same in draws that go together.
 fn times_together(of: usize, rngs: &mut [ChaCha8Rng; TOGETHER]) -> Vec<Times> {
     let mut times = vec![Times::default(); of];
     for (i, rng) in rngs.iter_mut().enumerate() {

@@ -174,7 +174,7 @@ pub struct Work<'a, S> {
 }
 
 /// Runs the blocks of a shard that are missing and stores each as soon as it is done; `watch` sees its runs. Large
-/// records of a study that is not divided are put together as they are done.
+/// records of a study that is not divided are put together as their blocks are done.
 ///
 /// Threads take runs across the ends of blocks, and blocks are stored while others run. Being killed loses the blocks that are not
 /// whole, and those that wait to be stored.
