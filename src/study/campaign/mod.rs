@@ -1,7 +1,7 @@
 //! A study that may be divided and stopped, and resumed, and ends in the same bits all the same.
 //!
 //! The plan is cut into blocks of neighbouring runs. A finished block is a file whose name holds its own checksum, so
-//! it is whole or not there. When all blocks of a record are there they are put together into the record's one file.
+//! it is whole or not there. The blocks of a record are put together into its one file, which counts when it holds all.
 //! That file depends on the blocks alone: not on threads, shards, interruptions or the order they were finished in.
 //! What is on the disk, whole or damaged, says which runs are missing; these are run.
 
