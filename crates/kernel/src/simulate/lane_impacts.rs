@@ -4,7 +4,7 @@
 //! The same sums in the same order as a run does by itself ([`super::run`]): the search for the impact, the step up to it, its
 //! correction, the accounts, the impact, and the motion after it. Where anything else may happen the step is left to the run.
 
-use fearless_simd::SimdMask;
+use fearless_simd::{Select, SimdMask};
 
 use super::events::ROUNDINGS;
 use super::lane_accounts::{keep, keep_both};
@@ -22,7 +22,7 @@ use crate::solver::{only_roots, turn_negative_once};
 pub(super) struct ImpactRow {
     /// 1 of walls that may go through their impacts in their lane.
     pub known: Numbers,
-    /// 1 where the step is to reach an impact inside a longer one, of this length in s.
+    /// Where the step is to reach an impact inside a longer one, of this length in s: [`REACHES`] or [`AT_GROUND`], else 0.
     pub reaches: Numbers,
     pub most_s: Numbers,
     /// What the impact leaves that ends this contact state, and that which ends the one after it.
@@ -38,6 +38,42 @@ pub(super) struct ImpactRow {
     pub loss_j: Numbers,
     /// Steps since the run boarded in which an impact was found.
     pub found: Numbers,
+}
+
+/// In [`ImpactRow::reaches`]: an impact that the row may go through, and one at the ground of a wall whose bodies turn apart, which
+/// the run goes through.
+pub(super) const REACHES: f64 = 1.0;
+pub(super) const AT_GROUND: f64 = 2.0;
+
+/// The gap that may close inside the steps.
+struct Closing<F: Wide> {
+    /// Positive where the joint is open.
+    path: [F; 6],
+    /// Where it starts at zero, up to roundings.
+    starts_closed: F::Mask,
+    /// Where it is negative at the end, and nothing else happens.
+    is_first: F::Mask,
+    /// Where it is that at the ground of a wall whose bodies turn apart.
+    at_ground: F::Mask,
+}
+
+impl<F: Wide> Closing<F> {
+    /// Of a gap that is open on a side, and the difference of rotations of this size.
+    #[inline(always)]
+    fn of(path: &[F; 6], side: F, size: F, is_first: F::Mask, at_ground: F::Mask) -> Self {
+        let path =
+            [path[0] * side, path[1] * side, path[2] * side, path[3] * side, path[4] * side, path[5] * side];
+        // Beyond the rotations' own roundings.
+        let rounding = size * (ROUNDINGS * f64::EPSILON);
+        let (starts_closed, closes) = (path[0].simd_le(rounding), path[5].simd_lt(-rounding));
+        Self { path, starts_closed, is_first: is_first & closes, at_ground }
+    }
+}
+
+/// A path that starts at zero, over the share of the step: as [`crate::solver::Bernstein::first_root_after_start`] has it.
+#[inline(always)]
+fn after_start<F: Wide>(c: &[F; 6]) -> [F; 5] {
+    [c[1] * 5.0 / 1.0, c[2] * 5.0 / 2.0, c[3] * 5.0 / 3.0, c[4] * 5.0 / 4.0, c[5] * 5.0 / 5.0]
 }
 
 /// The end of a step to an impact, moved onto it.
@@ -124,9 +160,9 @@ impl Row {
         left: u64,
     ) -> u64 {
         let known = F::of_row(simd, &self.impacts.known).simd_eq(1.0) & <F::Mask>::from_bitmask(simd, left);
-        let reaches = F::of_row(simd, &self.impacts.reaches).simd_eq(1.0);
-        let found = self.find_impacts::<F, AS_ONE>(known & !reaches, landed);
-        let gone = self.go_through_impacts::<F, AS_ONE>(known & reaches, landed);
+        let reaches = F::of_row(simd, &self.impacts.reaches);
+        let found = self.find_impacts::<F, AS_ONE>(known & reaches.simd_eq(0.0), landed);
+        let gone = self.go_through_impacts::<F, AS_ONE>(known & reaches.simd_eq(REACHES), landed);
         (found | gone).to_bitmask()
     }
 
@@ -139,46 +175,62 @@ impl Row {
         let simd = landed.position[0].token();
         let all = |value: f64| F::splat(simd, value);
         let h = F::of_row(simd, &self.moving.h);
-        let (path, clear) = self.closing_path::<F, AS_ONE>(landed, h);
+        let Closing { path, starts_closed, is_first, at_ground } = self.closing::<F, AS_ONE>(landed, h);
         let error = self.errors.of(landed.position_error, landed.velocity_error, h);
         let advances = F::of_row(simd, &self.limits.advances).simd_eq(1.0);
-        let found = which & clear & advances & error.simd_le(1.0);
+        let alone = which & is_first & advances & error.simd_le(1.0);
+        let later = alone & !starts_closed & turn_negative_once(&path);
+        let after_start = after_start(&path);
+        let again = alone & starts_closed & turn_negative_once(&after_start);
+        let found = later | again;
         if !found.any_true() {
             return found;
         }
+        let mut share = all(0.0);
+        if later.any_true() {
+            share = only_roots(later, &path);
+        }
+        if again.any_true() {
+            share = again.select(only_roots(again, &after_start), share);
+        }
         self.errors.propose(found, error, h);
-        keep(found, &mut self.moving.h, only_roots(found, &path) * h);
+        keep(found, &mut self.moving.h, share * h);
         keep(found, &mut self.impacts.most_s, h);
-        keep(found, &mut self.impacts.reaches, all(1.0));
+        keep(found, &mut self.impacts.reaches, at_ground.select(all(AT_GROUND), all(REACHES)));
         keep(found, &mut self.limits.advances, all(0.0));
         SumRow::add(found, &mut self.impacts.found, all(1.0));
         found
     }
 
-    /// The gap of the joint that may close over the steps, and where it does so once and nothing else happens.
+    /// The gap that closes over the steps, and where none of the others may, and nothing else happens.
     #[inline(always)]
-    fn closing_path<F: Wide, const AS_ONE: bool>(&self, landed: &Landed<F>, h: F) -> ([F; 6], F::Mask) {
+    fn closing<F: Wide, const AS_ONE: bool>(&self, landed: &Landed<F>, h: F) -> Closing<F> {
         let (simd, scale, limits) = (h.token(), scale(h), &self.limits);
         let side = |i: usize| F::of_row(simd, &limits.sides[i]);
         let stands = |i: usize, size: F| size.simd_lt(F::of_row(simd, &limits.collapse_rad[i]));
         let lower = self.moving.path(0, landed, scale);
         let (size, sum) = (bound(&lower), landed.sum(0));
         let finite = sum.simd_eq(sum);
-        let (path, size, clear) = if AS_ONE {
+        if AS_ONE {
             let (_, stays_closed) = limits.corner_force(landed.reactions.crack);
-            (lower, size, finite & stands(0, size) & stands(1, size) & stays_closed)
-        } else {
-            let (upper, sum) = (bound(&self.moving.path(1, landed, scale)), landed.sum(1));
-            let stands = stands(0, size) & stands(1, upper);
-            let clear = finite & sum.simd_eq(sum) & stands & keeps_to(side(0), &lower);
-            (self.moving.opening_of_crack(landed, scale), upper, clear)
-        };
-        let side = side(joint(AS_ONE));
-        let path = path.map(|c| c * side);
-        // Beyond the rotations' own roundings on both sides.
-        let rounding = size * (ROUNDINGS * f64::EPSILON);
-        let closes = path[0].simd_gt(rounding) & path[5].simd_lt(-rounding) & turn_negative_once(&path);
-        (path, clear & closes)
+            let is_first = finite & stands(0, size) & stands(1, size) & stays_closed;
+            return Closing::of(&lower, side(0), size, is_first, <F::Mask>::splat(simd, false));
+        }
+        let (upper, sum) = (bound(&self.moving.path(1, landed, scale)), landed.sum(1));
+        let crack = self.moving.opening_of_crack(landed, scale);
+        let keep_to = [keeps_to(side(0), &lower), keeps_to(side(1), &crack)];
+        let at_ground = keep_to[1] & !keep_to[0];
+        let is_first = finite & sum.simd_eq(sum) & stands(0, size) & stands(1, upper) & (keep_to[0] | keep_to[1]);
+        let of = |ground: F, crack: F| at_ground.select(ground, crack);
+        let path = [
+            of(lower[0], crack[0]),
+            of(lower[1], crack[1]),
+            of(lower[2], crack[2]),
+            of(lower[3], crack[3]),
+            of(lower[4], crack[4]),
+            of(lower[5], crack[5]),
+        ];
+        Closing::of(&path, of(side(0), side(1)), of(size, upper), is_first, at_ground)
     }
 
     /// Goes through the impacts that some lanes have reached.

@@ -21,8 +21,8 @@ pub(super) fn bound<F: Wide>(c: &[F; 6]) -> F {
 #[inline(always)]
 pub(super) fn keeps_to<F: Wide>(side: F, c: &[F; 6]) -> F::Mask {
     let at = [c[1] * side, c[2] * side, c[3] * side, c[4] * side, c[5] * side];
-    let least = at[0].min(at[1]).min(at[2].min(at[3])).min(at[4]) + (-side.abs() + 1.0);
-    least.simd_gt(0.0) & (c[0] * side).simd_ge(0.0)
+    let least = at[1].min(at[2].min(at[3])).min(at[4]) + (-side.abs() + 1.0);
+    least.simd_gt(0.0) & (c[0] * side).min(at[0]).simd_ge(0.0)
 }
 
 impl MovingRow {

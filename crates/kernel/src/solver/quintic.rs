@@ -99,13 +99,15 @@ impl Quintic {
     }
 
     /// Whether the first coordinate and the second less the first keep to their sides (-1 or 1) for sure. At
-    /// the start they may be zero; one without a side (0) may be anything.
+    /// the start they may be zero, and at rest; one without a side (0) may be anything.
     #[inline]
     pub fn keep_to(&self, sides: [f64; 2]) -> bool {
         let free = f64x2::new(sides.map(|side| 1.0 - side.abs()));
         let sides = f64x2::new(sides);
-        let least = self.gaps[1..].iter().fold(self.gaps[5] * sides, |least, c| least.fast_min(*c * sides));
-        let [least, start] = [least + free, self.gaps[0] * sides].map(f64x2::to_array);
+        let [x0, v0, ref later @ ..] = self.gaps;
+        let least = later.iter().fold(later[3] * sides, |least, c| least.fast_min(*c * sides));
+        let start = (x0 * sides).fast_min(v0 * sides);
+        let [least, start] = [least + free, start].map(f64x2::to_array);
         least.iter().all(|c| *c > 0.0) && start.iter().all(|c| *c >= 0.0)
     }
 

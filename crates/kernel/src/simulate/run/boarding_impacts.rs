@@ -2,6 +2,7 @@
 
 use super::super::events::Event;
 use super::super::history::Observer;
+use super::super::lane_impacts::{AT_GROUND, REACHES};
 use super::super::row::Row;
 use super::{Run, Task};
 use crate::model::{Contact, Pivot, Table2Change, Touching};
@@ -23,20 +24,23 @@ impl<O: Observer> Run<O> {
         }
     }
 
-    /// The event of the impact that the lane goes through.
-    fn impact_in_lane(&self) -> Event {
-        Event::Impact(Touching { ground: self.contact.crack.is_closed(), crack: true })
+    /// The event of the impact that the lane goes through, and that at the ground which it finds.
+    fn impacts_in_lane(&self) -> [(f64, Event); 2] {
+        let gone_through = Touching { ground: self.contact.crack.is_closed(), crack: true };
+        let at_ground = Touching { ground: true, crack: false };
+        [(REACHES, Event::Impact(gone_through)), (AT_GROUND, Event::Impact(at_ground))]
     }
 
-    /// Whether the step is to reach an impact that the lane may go through.
-    fn reaches_in(&self, row: &Row, i: usize) -> bool {
-        let reaches = matches!(self.task, Task::ReachEvent { event, .. } if event == self.impact_in_lane());
-        row.impacts.known[i] == 1.0 && reaches
+    /// Which of them the step is to reach; 0 for none.
+    fn reaches_in(&self, row: &Row, i: usize) -> f64 {
+        let Task::ReachEvent { event: reached, .. } = self.task else { return 0.0 };
+        let of_lane = self.impacts_in_lane().into_iter().find(|(_, event)| *event == reached);
+        of_lane.filter(|_| row.impacts.known[i] == 1.0).map_or(0.0, |(reaches, _)| reaches)
     }
 
     /// Puts what the next step is for in a lane.
     pub(super) fn board_task(&self, row: &mut Row, i: usize) {
-        row.impacts.reaches[i] = f64::from(u8::from(self.reaches_in(row, i)));
+        row.impacts.reaches[i] = self.reaches_in(row, i);
         let advances = self.advances() && self.is_plain();
         row.limits.advances[i] = f64::from(u8::from(advances));
         row.moving.h[i] = self.requested_s();
@@ -54,8 +58,9 @@ impl<O: Observer> Run<O> {
         let [ground, crack] = [0, 1].map(|joint| Pivot::of_angle(row.limits.sides[joint][i]));
         self.contact = Contact { ground, crack };
         let h = row.moving.h[i];
-        if impacts.reaches[i] == 1.0 {
-            self.task = Task::ReachEvent { event: self.impact_in_lane(), h, most_s: impacts.most_s[i] };
+        let reached = self.impacts_in_lane().into_iter().find(|(reaches, _)| *reaches == impacts.reaches[i]);
+        if let Some((_, event)) = reached {
+            self.task = Task::ReachEvent { event, h, most_s: impacts.most_s[i] };
         } else if row.limits.advances[i] == 1.0 {
             self.task = Task::Advance { h };
         }
