@@ -10,7 +10,7 @@ pub use column::{Column, Encoding, Read, Stage, print_csv};
 pub use durable::WholeFolder;
 pub use durable::write_durably;
 pub use history::{HistoryWriter, history_table, write_history};
-pub use parquet_file::{ParquetFile, write_table};
+pub use parquet_file::write_table;
 
 /// Now, seconds since 1970: when results were begun.
 pub(crate) fn now_unix_s() -> u64 {

@@ -1,11 +1,14 @@
 //! One Parquet file, written block by block under a temporary name.
 
+use std::fmt;
+use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use arrow_array::RecordBatch;
 use arrow_schema::{Schema, SchemaRef};
-use parquet::arrow::ArrowWriter;
+use parquet::arrow::arrow_writer::ArrowWriterOptions;
+use parquet::arrow::{ArrowSchemaConverter, ArrowWriter, add_encoded_arrow_schema_to_metadata};
 use parquet::basic::{Compression, Encoding as Bytes, ZstdLevel};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
@@ -16,7 +19,7 @@ use tempfile::NamedTempFile;
 use super::column::{Column, Encoding, Read};
 use super::durable;
 use crate::error::{Error, Result};
-use mrbd_files::checksum::sha256;
+use mrbd_files::checksum::Hashing;
 
 /// Rows a row group: what readers such as DuckDB take as one unit of work.
 const ROWS_PER_GROUP: usize = 122_880;
@@ -43,54 +46,75 @@ impl Pages {
     }
 }
 
-/// A Parquet file being written; it takes its name only when it is finished.
-pub struct ParquetFile<R: 'static> {
-    /// The file or, before it has a name, its folder: for messages.
-    place: PathBuf,
+/// Bytes that go to the disk at once: a file of few rows has small pages, a call for each of which costs more than they do.
+const WRITTEN_AT_ONCE: usize = 1 << 18;
+
+/// What files of the same rows share: their columns and how these are written. Worked out once, because of a short file it
+/// would be a tenth of the cost.
+pub struct Form<R: 'static> {
     columns: &'static [Column<R>],
     schema: SchemaRef,
-    writer: ArrowWriter<NamedTempFile>,
+    options: ArrowWriterOptions,
 }
 
-impl<R> ParquetFile<R> {
-    /// Begins a file of these columns in a folder; `metadata` are keys and values about the whole file; `drawn` says
-    /// whether the rows are of drawn façades.
+impl<R> Form<R> {
+    /// Of these columns; `metadata` are keys and values about the whole file; `drawn` says whether the rows are of drawn façades.
     ///
     /// # Errors
-    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the file cannot be begun.
-    pub fn create_in(
-        folder: &Path,
+    /// What the library says of columns that it cannot write.
+    pub fn new(
         columns: &'static [Column<R>],
         metadata: &[(String, String)],
         drawn: bool,
         pages: Pages,
-    ) -> Result<Self> {
+    ) -> std::result::Result<Self, ParquetError> {
         let schema = Arc::new(Schema::new(columns.iter().map(Column::field).collect::<Vec<_>>()));
-        let properties = properties(columns, metadata, drawn, pages).map_err(|e| Error::table(folder, e))?;
-        let file = durable::unfinished_in(folder)?;
-        let writer = ArrowWriter::try_new(file, Arc::clone(&schema), Some(properties))
-            .map_err(|e| refused(folder, e))?;
-        Ok(Self { place: folder.to_path_buf(), columns, schema, writer })
+        let mut properties = properties(columns, metadata, drawn, pages)?;
+        add_encoded_arrow_schema_to_metadata(&schema, &mut properties);
+        let options = ArrowWriterOptions::new()
+            .with_parquet_schema(ArrowSchemaConverter::new().convert(&schema)?)
+            .with_properties(properties)
+            .with_skip_arrow_metadata(true);
+        Ok(Self { columns, schema, options })
     }
 
-    /// Adds rows.
+    /// Rows as columns, for every file of this form.
     ///
     /// # Errors
-    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if they cannot be written.
-    pub fn write(&mut self, rows: &[R]) -> Result<()> {
-        self.write_batch(&self.batch(rows)?)
-    }
-
-    /// Rows as columns, for this file and others of the same columns.
-    ///
-    /// # Errors
-    /// [`Error::Table`] if the columns are not as long as each other.
-    pub fn batch(&self, rows: &[R]) -> Result<RecordBatch> {
+    /// What the library says if the columns are not as long as each other.
+    pub fn batch(&self, rows: &[R]) -> std::result::Result<RecordBatch, ParquetError> {
         let arrays = self.columns.iter().map(|column| column.array(rows)).collect();
-        RecordBatch::try_new(Arc::clone(&self.schema), arrays).map_err(|e| Error::table(&self.place, e))
+        Ok(RecordBatch::try_new(Arc::clone(&self.schema), arrays)?)
+    }
+}
+
+impl<R> fmt::Debug for Form<R> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Form").field("columns", &self.columns.len()).finish_non_exhaustive()
+    }
+}
+
+/// A Parquet file being written; it takes its name only when it is finished.
+pub struct ParquetFile {
+    /// The file or, before it has a name, its folder: for messages.
+    place: PathBuf,
+    writer: ArrowWriter<BufWriter<Hashing<NamedTempFile>>>,
+}
+
+impl ParquetFile {
+    /// Begins a file of a form in a folder.
+    ///
+    /// # Errors
+    /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the file cannot be begun.
+    pub fn create_in<R>(folder: &Path, form: &Form<R>) -> Result<Self> {
+        let file = Hashing::new(durable::unfinished_in(folder)?);
+        let file = BufWriter::with_capacity(WRITTEN_AT_ONCE, file);
+        let writer = ArrowWriter::try_new_with_options(file, Arc::clone(&form.schema), form.options.clone())
+            .map_err(|e| refused(folder, e))?;
+        Ok(Self { place: folder.to_path_buf(), writer })
     }
 
-    /// Adds rows that are columns already, of the same columns.
+    /// Adds rows of the columns of its form.
     ///
     /// # Errors
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if they cannot be written, or are of other columns.
@@ -105,13 +129,14 @@ impl<R> ParquetFile<R> {
     pub fn finish_as(self, name: impl FnOnce(&str) -> PathBuf) -> Result<String> {
         // This writes the last row group and the footer too.
         let file = self.writer.into_inner().map_err(|e| refused(&self.place, e))?;
-        let sha256 = file.reopen().and_then(sha256).map_err(|e| Error::io("read back", &self.place, e))?;
+        let file = file.into_inner().map_err(|e| Error::io("write into", &self.place, e.into_error()))?;
+        let (file, sha256) = file.finish();
         durable::put_in_place(file, &name(&sha256))?;
         Ok(sha256)
     }
 }
 
-/// Writes a table as one file, there whole or as it was before; `metadata` as for [`ParquetFile::create_in`].
+/// Writes a table as one file, there whole or as it was before; `metadata` as for [`Form::new`].
 ///
 /// # Errors
 /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
@@ -121,8 +146,9 @@ pub fn write_table<R>(
     metadata: &[(String, String)],
     rows: &[R],
 ) -> Result<()> {
-    let mut file = ParquetFile::create_in(durable::folder_of(path), columns, metadata, false, Pages::Small)?;
-    file.write(rows)?;
+    let form = Form::new(columns, metadata, false, Pages::Small).map_err(|e| Error::table(path, e))?;
+    let mut file = ParquetFile::create_in(durable::folder_of(path), &form)?;
+    file.write_batch(&form.batch(rows).map_err(|e| Error::table(path, e))?)?;
     file.finish_as(|_| path.to_path_buf()).map(|_| ())
 }
 

@@ -1,7 +1,7 @@
 //! Checksums of files, so that damage shows, and the notes that results keep of what was read.
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::path::{Component, Path, PathBuf, absolute};
 
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,8 @@ const CHUNK: usize = 1 << 16;
 
 /// Bytes as people write them: two hexadecimal digits each.
 pub fn hexadecimal(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+    let digits = bytes.iter().flat_map(|byte| [byte >> 4, byte & 0xf]);
+    digits.filter_map(|digit| char::from_digit(digit.into(), 16)).collect()
 }
 
 /// SHA-256 of a file's contents, 64 hexadecimal digits.
@@ -38,6 +39,36 @@ pub fn sha256(mut from: impl Read) -> io::Result<String> {
             Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
             Err(e) => return Err(e),
         }
+    }
+}
+
+/// Passes what is written on, and hashes it on its way.
+pub struct Hashing<W> {
+    to: W,
+    hash: Sha256,
+}
+
+impl<W> Hashing<W> {
+    /// On its way to `to`; nothing yet.
+    pub fn new(to: W) -> Self {
+        Self { to, hash: Sha256::new() }
+    }
+
+    /// Where it went, and the SHA-256 of all of it, 64 hexadecimal digits.
+    pub fn finish(self) -> (W, String) {
+        (self.to, hexadecimal(&self.hash.finalize()))
+    }
+}
+
+impl<W: Write> Write for Hashing<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.to.write(bytes)?;
+        self.hash.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
     }
 }
 
@@ -98,5 +129,16 @@ mod tests {
         assert_eq!(of(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
         let million = vec![b'a'; 1_000_000];
         assert_eq!(of(&million), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+    }
+
+    #[test]
+    fn analytic_what_is_written_hashes_as_what_is_read() {
+        // Into a slice with less room than bytes: what did not go through is not hashed.
+        let mut room = [0; 5];
+        let mut hashing = Hashing::new(&mut room[..]);
+        assert_eq!(hashing.write(b"abc").expect("room"), 3);
+        assert_eq!(hashing.write(b"def").expect("some room"), 2);
+        let (_, found) = hashing.finish();
+        assert_eq!(found, sha256(&b"abcde"[..]).expect("memory can be read"));
     }
 }

@@ -11,7 +11,7 @@
 use std::fs::{self, File, TryLockError};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
 use super::manifest::Manifest;
 use super::manifest::differences;
@@ -19,6 +19,8 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 
 use crate::error::{Error, InputError, Result};
 use crate::store::durable::{UNFINISHED, make_writable, write_durably};
+use crate::store::parquet_file::Form;
+use crate::study::batch::Finished;
 
 /// What to do with results that are in the folder already.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,6 +44,8 @@ pub struct OutputFolder {
     _lock: Option<File>,
     /// Held while the file with the checksums of all parts is read and written again.
     pub(super) checksums: Mutex<()>,
+    /// The forms of its files, once one was begun: of blocks, and of the files of records.
+    pub(super) forms: [OnceLock<Form<Finished>>; 2],
 }
 
 impl OutputFolder {
@@ -71,6 +75,7 @@ impl OutputFolder {
             manifest: manifest.clone(),
             _lock: lock,
             checksums: Mutex::default(),
+            forms: Default::default(),
         })
     }
 
@@ -80,9 +85,13 @@ impl OutputFolder {
     /// An input error for a folder without a manifest.
     pub fn look(path: &Path) -> Result<Self> {
         match Manifest::read(&path.join("manifest.json"))? {
-            Some(manifest) => {
-                Ok(Self { path: path.to_path_buf(), manifest, _lock: None, checksums: Mutex::default() })
-            }
+            Some(manifest) => Ok(Self {
+                path: path.to_path_buf(),
+                manifest,
+                _lock: None,
+                checksums: Mutex::default(),
+                forms: Default::default(),
+            }),
             None => Err(InputError::file(path, "no manifest.json", "the output folder of `mrbd run`").into()),
         }
     }

@@ -24,9 +24,8 @@ use rayon::prelude::*;
 use super::folder::{OutputFolder, as_folder_name};
 use super::schema::COLUMNS;
 use crate::error::{Error, InputError, Result};
-use crate::store::column::Column;
 use crate::store::durable::{UNFINISHED, write_durably};
-use crate::store::parquet_file::{Pages, ParquetFile};
+use crate::store::parquet_file::{Form, Pages, ParquetFile};
 use crate::study::batch::Finished;
 use mrbd_files::checksum::sha256;
 
@@ -74,7 +73,7 @@ impl RunFile {
 }
 
 /// The file of a record while blocks are added to it, in their order. The same rows give the same bytes whichever way they come.
-pub struct Part(ParquetFile<Finished>);
+pub struct Part(ParquetFile);
 
 impl Part {
     /// Adds the rows of a block.
@@ -115,8 +114,9 @@ impl OutputFolder {
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
     pub fn write_block(&self, record: &str, index: u64, runs: &[Finished]) -> Result<(PathBuf, RecordBatch)> {
         let folder = make(&self.blocks_folder(record))?;
-        let mut file = self.begin(&folder, Pages::Plain)?;
-        let rows = file.batch(runs)?;
+        let form = self.form(Pages::Plain)?;
+        let rows = form.batch(runs).map_err(|e| Error::table(&folder, e))?;
+        let mut file = ParquetFile::create_in(&folder, form)?;
         file.write_batch(&rows)?;
         let name = |sha256: &str| folder.join(format!("block-{index:06}-{}.parquet", &sha256[..DIGITS]));
         file.finish_as(name).map(|sha256| (name(&sha256), rows))
@@ -163,7 +163,7 @@ impl OutputFolder {
     /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
     pub fn begin_part(&self, record: &str) -> Result<Part> {
         let folder = make(&self.path().join("runs").join(self.hive(record)))?;
-        Ok(Part(self.begin(&folder, Pages::Small)?))
+        Ok(Part(ParquetFile::create_in(&folder, self.form(Pages::Small)?)?))
     }
 
     /// Ends the file of a record; it counts once it is kept. Returns its checksum.
@@ -228,11 +228,19 @@ impl OutputFolder {
         format!("{}={}", self.manifest().motion_key(), as_folder_name(record))
     }
 
-    fn begin(&self, folder: &Path, pages: Pages) -> Result<ParquetFile<Finished>> {
-        let columns: &'static [Column<Finished>] = COLUMNS;
+    /// The form of a block, or of the file of a record.
+    fn form(&self, pages: Pages) -> Result<&Form<Finished>> {
+        let of_pages = match pages {
+            Pages::Plain => &self.forms[0],
+            Pages::Small => &self.forms[1],
+        };
+        if let Some(form) = of_pages.get() {
+            return Ok(form);
+        }
         let manifest = self.manifest();
-        let drawn = manifest.seed.is_some();
-        ParquetFile::create_in(folder, columns, &manifest.file_metadata(), drawn, pages)
+        let form = Form::new(COLUMNS, &manifest.file_metadata(), manifest.seed.is_some(), pages);
+        let form = form.map_err(|e| Error::table(self.path(), e))?;
+        Ok(of_pages.get_or_init(|| form))
     }
 
     fn blocks_folder(&self, record: &str) -> PathBuf {

@@ -4,6 +4,7 @@
 //! shares are worked out once for each side, by [`super::impact`].
 
 use super::contact::{Contact, Pivot, Touching};
+use super::geometry::Rotations;
 use super::impact::Impact;
 use super::rocking::{RockingWall, State};
 use super::{MechanicsError, Table2Change};
@@ -18,6 +19,9 @@ pub(super) struct WholeImpact {
     pub(super) before_j: f64,
     pub(super) after_j: f64,
 }
+
+/// The sines and cosines of both rotations where these are zero.
+const UNTURNED: Rotations = Rotations([(0.0, 1.0); 2]);
 
 /// Pattern 3 about a corner.
 fn whole(ground: Pivot) -> Contact {
@@ -60,7 +64,7 @@ impl RockingWall {
         }
     }
 
-    /// The impact as a share of the velocity before. `None` of other impacts, and where the wall may be captured.
+    /// The impact as a share of the velocity before. `None` of other impacts.
     #[inline(always)]
     fn whole_impact(&self, from: Contact, touching: Touching, state: &State) -> Option<Impact> {
         let [before, upper] = state.omega;
@@ -72,7 +76,15 @@ impl RockingWall {
         let &WholeImpact { change, plastic, before_j, after_j } = self.whole_impact_about(from.ground)?;
         let plastic = plastic * before;
         if plastic.abs() < self.capture_rad_s {
-            return None;
+            let loss_j = self.motion(from).kinetic_energy_j(UNTURNED, state.omega);
+            let at_rest = Impact {
+                contact: Contact::REST,
+                omega: [0.0; 2],
+                change: None,
+                captured: true,
+                loss_j,
+            };
+            return Some(at_rest);
         }
         // Under both laws of impacts: if every touching joint stuck, nothing would move.
         let coefficient = change.map_or(1.0, |change| {
@@ -116,10 +128,13 @@ mod tests {
     }
 
     #[test]
-    fn analytic_a_slow_wall_is_left_to_be_captured() {
+    fn analytic_a_slow_wall_is_captured_as_worked_out() {
         let wall = RockingWall::new(&Wall::new(WallParameters::table_wall()).expect("a wall"));
-        let state = State { theta: [0.0; 2], omega: [-0.5e-3; 2] };
-        let impact = wall.impact(whole(Pivot::Right), BOTH, &state).expect("an impact");
-        assert!(impact.captured && impact.contact == Contact::REST, "{impact:?}");
+        for (side, speed) in Pivot::OPEN.into_iter().flat_map(|side| [(side, 0.5e-3), (side, 1e-9)]) {
+            let state = State { theta: [0.0; 2], omega: [-side.sign() * speed; 2] };
+            let impact = wall.whole_impact(whole(side), BOTH, &state).expect("it is captured");
+            assert!(impact.captured && impact.contact == Contact::REST, "{impact:?}");
+            assert_eq!(impact, wall.worked_out_impact(whole(side), BOTH, &state).expect("an impact"));
+        }
     }
 }

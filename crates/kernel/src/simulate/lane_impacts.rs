@@ -220,7 +220,8 @@ impl Row {
         let crack = self.moving.opening_of_crack(landed, scale);
         let keep_to = [keeps_to(side(0), &lower), keeps_to(side(1), &crack)];
         let at_ground = keep_to[1] & !keep_to[0];
-        let is_first = finite & sum.simd_eq(sum) & stands(0, size) & stands(1, upper) & (keep_to[0] | keep_to[1]);
+        let is_first =
+            finite & sum.simd_eq(sum) & stands(0, size) & stands(1, upper) & (keep_to[0] | keep_to[1]);
         let of = |ground: F, crack: F| at_ground.select(ground, crack);
         let path = [
             of(lower[0], crack[0]),
