@@ -10,7 +10,7 @@ use super::joint_forces::Masses;
 use super::mass_matrix::Freedom;
 use super::rocking::RockingWall;
 use super::sharp::SharpMotion;
-use super::side_by_side::{Motions, sin_cos_lanes};
+use super::side_by_side::sin_cos_lanes;
 use super::vector::Vector;
 use crate::lanes::{Numbers, Wide};
 
@@ -57,8 +57,8 @@ impl CrackRow {
 
     /// As [`Arms::new`] has them of the contact states of these motions.
     #[inline(always)]
-    fn arms<F: Wide, const AS_ONE: bool>(&self, motions: &Motions<F, AS_ONE, false>) -> Arms<F> {
-        let SharpMotion { o_x, q_x, q, c, .. } = motions.sharp;
+    fn arms<F: Wide>(&self, motion: &SharpMotion<F>) -> Arms<F> {
+        let SharpMotion { o_x, q_x, q, c, .. } = *motion;
         let half = |body: usize| F::of_row(o_x.token(), &self.halves_m[body]);
         Arms { o_x, g1: Vector::new(-o_x, half(0)), q, g2: Vector::new(-q_x, half(1)), c, q_x }
     }
@@ -66,22 +66,22 @@ impl CrackRow {
     /// What impacts of walls that turn by θ leave of the velocities, whose cracks open on these sides after, and which of them are
     /// surely so. As [`RockingWall::impact`] where the outcome is struck through.
     #[inline(always)]
-    pub fn strike<F: Wide, const AS_ONE: bool>(
+    pub fn strike<F: Wide>(
         &self,
-        [from, to]: [&Motions<F, AS_ONE, false>; 2],
+        [from, to]: [&SharpMotion<F>; 2],
         (theta, omega): (F, [F; 2]),
         side: F,
         [coefficient, capture_rad_s]: [F; 2],
     ) -> (CrackImpact<F>, F::Mask) {
         let all = |value: f64| F::splat(theta.token(), value);
-        let (turns, masses) = ([sin_cos_lanes(theta); 2], self.masses(from.sharp.m_dp));
+        let (turns, masses) = ([sin_cos_lanes(theta); 2], self.masses(from.m_dp));
         let before = TurnedArms::new(&self.arms(from), turns).velocities(omega);
         let least = all(f64::MIN_POSITIVE);
         let speed = omega[0].abs().max_precise(least).max_precise(omega[1].abs().max_precise(least));
         let size =
             (masses.momentum_size(&before) * F::of_row(theta.token(), &self.slimness)).max_precise(least);
         let arms = TurnedArms::new(&self.arms(to), turns);
-        let mass = to.sharp.mass_matrix(&to.turned(turns));
+        let mass = to.mass_matrix(&to.turned(turns));
         let plastic = mass.solve(Freedom::Both, masses.momenta(&arms, &before));
         let opening = plastic[1] - plastic[0];
         let separates = (side * opening / speed).simd_gt(ROUNDING);
@@ -92,7 +92,7 @@ impl CrackRow {
         // From what the law cannot see: nothing.
         let scaled = |plastic: F| all(0.0) + coefficient * (plastic - all(0.0));
         let after = [scaled(plastic[0]), scaled(plastic[1])];
-        let before_j = from.sharp.mass_matrix(&from.turned(turns)).quadratic(omega) * 0.5;
+        let before_j = from.mass_matrix(&from.turned(turns)).quadratic(omega) * 0.5;
         (CrackImpact { omega: after, loss_j: before_j - mass.quadratic(after) * 0.5 }, turns_on)
     }
 }

@@ -180,6 +180,14 @@ impl<F: Wide, const FURTHER: bool> LawLanes<F, FURTHER> {
         Self { spring: SpringLanes::new(simd, row), further }
     }
 
+    /// The same without formulas.
+    #[inline(always)]
+    pub fn unwritten(simd: F::Token, row: &LawRow) -> Self {
+        let further =
+            if FURTHER { Some(FurtherLanes::with(simd, row, FormulaLanes::none(simd))) } else { None };
+        Self { spring: SpringLanes::new(simd, row), further }
+    }
+
     /// Puts back what [`LawLanes::new`] took out of the row.
     #[inline(always)]
     pub fn put_back(self, row: &mut LawRow) {
@@ -255,6 +263,12 @@ impl<F: Wide> FurtherLanes<F> {
     /// Takes the formulas out of the row, until [`FurtherLanes::put_back`].
     #[inline(always)]
     pub fn new(simd: F::Token, row: &mut LawRow) -> Self {
+        let formulas = FormulaLanes::new(simd, std::mem::take(&mut row.formulas));
+        Self::with(simd, row, formulas)
+    }
+
+    #[inline(always)]
+    fn with(simd: F::Token, row: &LawRow, formulas: FormulaLanes<F>) -> Self {
         let cubic = F::of_row(simd, &row.cubic);
         Self {
             cubic,
@@ -264,7 +278,7 @@ impl<F: Wide> FurtherLanes<F> {
             at_ground: F::of_row(simd, &row.joint_damping[0]),
             at_crack: F::of_row(simd, &row.joint_damping[1]),
             damped: F::of_row(simd, &row.damped).simd_eq(1.0),
-            formulas: FormulaLanes::new(simd, std::mem::take(&mut row.formulas)),
+            formulas,
         }
     }
 

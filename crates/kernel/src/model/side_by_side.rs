@@ -24,7 +24,7 @@ use crate::lanes::Wide;
 pub(crate) struct Motions<F: Wide, const AS_ONE: bool, const FURTHER: bool> {
     upper: F::Mask,
     any_upper: bool,
-    pub(super) sharp: SharpMotion<F>,
+    pub(crate) sharp: SharpMotion<F>,
     laws: LawLanes<F, FURTHER>,
 }
 
@@ -90,6 +90,24 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHE
             sharp: row.sharp(simd),
             laws: LawLanes::new(simd, &mut row.laws),
         }
+    }
+
+    /// The same for walls without formulas, beside others from which [`Motions::new`] has taken theirs.
+    #[inline(always)]
+    pub fn unwritten(simd: F::Token, row: &MotionRow) -> Self {
+        let upper = F::of_row(simd, &row.upper).simd_eq(1.0);
+        Self {
+            upper,
+            any_upper: upper.any_true(),
+            sharp: row.sharp(simd),
+            laws: LawLanes::unwritten(simd, &row.laws),
+        }
+    }
+
+    /// Turns about the corners that are in the row now.
+    #[inline(always)]
+    pub fn follow(&mut self, simd: F::Token, row: &MotionRow) {
+        self.sharp = row.sharp(simd);
     }
 
     /// Puts back what [`Motions::new`] took out of the row.

@@ -77,13 +77,8 @@ impl RockingWall {
         let plastic = plastic * before;
         if plastic.abs() < self.capture_rad_s {
             let loss_j = self.motion(from).kinetic_energy_j(UNTURNED, state.omega);
-            let at_rest = Impact {
-                contact: Contact::REST,
-                omega: [0.0; 2],
-                change: None,
-                captured: true,
-                loss_j,
-            };
+            let at_rest =
+                Impact { contact: Contact::REST, omega: [0.0; 2], change: None, captured: true, loss_j };
             return Some(at_rest);
         }
         // Under both laws of impacts: if every touching joint stuck, nothing would move.

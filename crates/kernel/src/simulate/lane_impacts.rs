@@ -112,16 +112,21 @@ impl ImpactRow {
 
     /// The same of impacts at cracks that were open on these sides, where the ground is out of reach.
     #[inline(always)]
-    fn at_crack<F: Wide, const AS_ONE: bool>(
+    fn at_crack<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &self,
-        motions: [&Motions<F, AS_ONE, false>; 2],
+        motions: [&Motions<F, AS_ONE, FURTHER>; 2],
         landed: &Landed<F>,
         sides: [F; 2],
     ) -> (Left<F>, F::Mask) {
         let of = |numbers: &Numbers| F::of_row(sides[0].token(), numbers);
         let theta = landed.position[0];
         let limits = [of(&self.here.coefficient), of(&self.capture_rad_s)];
-        let (impact, turns_on) = self.cracks.strike(motions, (theta, landed.velocity), -sides[1], limits);
+        let (impact, turns_on) = self.cracks.strike(
+            [&motions[0].sharp, &motions[1].sharp],
+            (theta, landed.velocity),
+            -sides[1],
+            limits,
+        );
         let apart = (sides[0] * theta).simd_gt(of(&self.contact_rad));
         (Left { theta: [theta; 2], omega: impact.omega, loss_j: impact.loss_j }, turns_on & apart)
     }
@@ -153,7 +158,7 @@ impl Row {
     /// Finds impacts in the steps of the lanes that are left, and goes through those that were to be reached. Gives the bits of
     /// the lanes that go on so.
     #[inline(always)]
-    pub fn meet_impacts<F: Wide, const AS_ONE: bool>(
+    pub fn meet_impacts<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &mut self,
         simd: F::Token,
         landed: &Landed<F>,
@@ -162,7 +167,7 @@ impl Row {
         let known = F::of_row(simd, &self.impacts.known).simd_eq(1.0) & <F::Mask>::from_bitmask(simd, left);
         let reaches = F::of_row(simd, &self.impacts.reaches);
         let found = self.find_impacts::<F, AS_ONE>(known & reaches.simd_eq(0.0), landed);
-        let gone = self.go_through_impacts::<F, AS_ONE>(known & reaches.simd_eq(REACHES), landed);
+        let gone = self.go_through_impacts::<F, AS_ONE, FURTHER>(known & reaches.simd_eq(REACHES), landed);
         (found | gone).to_bitmask()
     }
 
@@ -236,7 +241,7 @@ impl Row {
 
     /// Goes through the impacts that some lanes have reached.
     #[inline(always)]
-    fn go_through_impacts<F: Wide, const AS_ONE: bool>(
+    fn go_through_impacts<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &mut self,
         which: F::Mask,
         landed: &Landed<F>,
@@ -252,10 +257,10 @@ impl Row {
         if !may.any_true() {
             return may;
         }
-        let before = Motions::<F, AS_ONE, false>::new(simd, &mut self.motions);
+        let before = Motions::<F, AS_ONE, FURTHER>::unwritten(simd, &self.motions);
         self.motions.turn_over::<F>(may, &mut self.impacts.pivots_there);
-        let after = Motions::<F, AS_ONE, false>::new(simd, &mut self.motions);
-        let (left, turns_on) = self.struck::<F, AS_ONE>([&before, &after], &reached.landed);
+        let after = Motions::<F, AS_ONE, FURTHER>::unwritten(simd, &self.motions);
+        let (left, turns_on) = self.struck::<F, AS_ONE, FURTHER>([&before, &after], &reached.landed);
         let (turned, stays_closed) = self.turned_on(&after, &reached, &left);
         let (gone, back) = (may & turns_on & stays_closed, may & !(turns_on & stays_closed));
         if back.any_true() {
@@ -297,9 +302,9 @@ impl Row {
 
     /// What the impacts leave, by the motions before and after, and where these are surely those after.
     #[inline(always)]
-    fn struck<F: Wide, const AS_ONE: bool>(
+    fn struck<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &self,
-        motions: [&Motions<F, AS_ONE, false>; 2],
+        motions: [&Motions<F, AS_ONE, FURTHER>; 2],
         landed: &Landed<F>,
     ) -> (Left<F>, F::Mask) {
         let simd = landed.position[0].token();
@@ -312,9 +317,9 @@ impl Row {
 
     /// The motion after the impact, and whether a crack that is closed stays so in it.
     #[inline(always)]
-    fn turned_on<F: Wide, const AS_ONE: bool>(
+    fn turned_on<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &self,
-        after: &Motions<F, AS_ONE, false>,
+        after: &Motions<F, AS_ONE, FURTHER>,
         reached: &Reached<F>,
         left: &Left<F>,
     ) -> (TurnedOn<F>, F::Mask) {
@@ -329,10 +334,10 @@ impl Row {
 
     /// Adds up the steps to the impacts, as [`Row::settle`] does whole ones.
     #[inline(always)]
-    fn account_for_flight<F: Wide, const AS_ONE: bool>(
+    fn account_for_flight<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &mut self,
         gone: F::Mask,
-        motions: &Motions<F, AS_ONE, false>,
+        motions: &Motions<F, AS_ONE, FURTHER>,
         reached: &Reached<F>,
     ) {
         let Reached { landed, h, .. } = reached;

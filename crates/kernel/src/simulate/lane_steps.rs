@@ -257,15 +257,12 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Stepping<F> for Motions<F
 
     #[inline(always)]
     fn meet(&mut self, simd: F::Token, row: &mut Row, landed: &Landed<F>, left: u64) -> u64 {
-        if FURTHER {
-            return 0;
-        }
         let met = apart::<F, _>(
             simd,
             #[inline(always)]
-            || row.meet_impacts::<F, AS_ONE>(simd, landed, left),
+            || row.meet_impacts::<F, AS_ONE, FURTHER>(simd, landed, left),
         );
-        *self = Self::new(simd, &mut row.motions);
+        self.follow(simd, &row.motions);
         met
     }
 

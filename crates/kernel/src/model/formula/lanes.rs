@@ -44,6 +44,13 @@ impl<F: Wide> FormulaLanes<F> {
         Self { any: written.any_true(), alike: alike(&of), of, written, at_joints }
     }
 
+    /// None in any lane.
+    #[inline(always)]
+    pub fn none(simd: F::Token) -> Self {
+        let written = <F::Mask>::splat(simd, false);
+        Self { any: false, alike: None, of: FormulaRow::default(), written, at_joints: false }
+    }
+
     pub fn into_row(self) -> FormulaRow {
         self.of
     }
