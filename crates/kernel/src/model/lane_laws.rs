@@ -180,12 +180,10 @@ impl<F: Wide, const FURTHER: bool> LawLanes<F, FURTHER> {
         Self { spring: SpringLanes::new(simd, row), further }
     }
 
-    /// The same without formulas.
+    /// The lanes with formulas; `None` where none has any.
     #[inline(always)]
-    pub fn unwritten(simd: F::Token, row: &LawRow) -> Self {
-        let further =
-            if FURTHER { Some(FurtherLanes::with(simd, row, FormulaLanes::none(simd))) } else { None };
-        Self { spring: SpringLanes::new(simd, row), further }
+    pub fn written(&self) -> Option<F::Mask> {
+        self.further.as_ref().and_then(|further| further.formulas.written())
     }
 
     /// Puts back what [`LawLanes::new`] took out of the row.
@@ -263,12 +261,6 @@ impl<F: Wide> FurtherLanes<F> {
     /// Takes the formulas out of the row, until [`FurtherLanes::put_back`].
     #[inline(always)]
     pub fn new(simd: F::Token, row: &mut LawRow) -> Self {
-        let formulas = FormulaLanes::new(simd, std::mem::take(&mut row.formulas));
-        Self::with(simd, row, formulas)
-    }
-
-    #[inline(always)]
-    fn with(simd: F::Token, row: &LawRow, formulas: FormulaLanes<F>) -> Self {
         let cubic = F::of_row(simd, &row.cubic);
         Self {
             cubic,
@@ -278,7 +270,7 @@ impl<F: Wide> FurtherLanes<F> {
             at_ground: F::of_row(simd, &row.joint_damping[0]),
             at_crack: F::of_row(simd, &row.joint_damping[1]),
             damped: F::of_row(simd, &row.damped).simd_eq(1.0),
-            formulas,
+            formulas: FormulaLanes::new(simd, std::mem::take(&mut row.formulas)),
         }
     }
 

@@ -63,6 +63,7 @@ pub use regime::{Regime, Side, TopMemory};
 pub(crate) use rocking::opening;
 pub use rocking::{RockingWall, State};
 pub(crate) use sharp::Configuration;
+pub(crate) use sharp::SharpMotion;
 pub(crate) use side_by_side::{Motions, RateLanes, ReactionLanes, sin_cos_lanes};
 pub(crate) use strike_row::StrikeRow;
 pub use vector::Vector;

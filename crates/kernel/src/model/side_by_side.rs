@@ -92,16 +92,10 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHE
         }
     }
 
-    /// The same for walls without formulas, beside others from which [`Motions::new`] has taken theirs.
+    /// The lanes with formulas; `None` where none has any.
     #[inline(always)]
-    pub fn unwritten(simd: F::Token, row: &MotionRow) -> Self {
-        let upper = F::of_row(simd, &row.upper).simd_eq(1.0);
-        Self {
-            upper,
-            any_upper: upper.any_true(),
-            sharp: row.sharp(simd),
-            laws: LawLanes::unwritten(simd, &row.laws),
-        }
+    pub fn written(&self) -> Option<F::Mask> {
+        self.laws.written()
     }
 
     /// Turns about the corners that are in the row now.
@@ -118,8 +112,14 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHE
 
     #[inline(always)]
     pub fn configuration(&self, theta: [F; 2]) -> Configuration<F> {
+        self.turned(Self::turns(theta))
+    }
+
+    /// Sines and cosines of both rotations.
+    #[inline(always)]
+    pub fn turns(theta: [F; 2]) -> [(F, F); 2] {
         let turn_1 = sin_cos_lanes(theta[0]);
-        self.turned([turn_1, if AS_ONE { turn_1 } else { sin_cos_lanes(theta[1]) }])
+        [turn_1, if AS_ONE { turn_1 } else { sin_cos_lanes(theta[1]) }]
     }
 
     /// The same by the sines and cosines of both rotations.
@@ -143,18 +143,20 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHE
     #[inline(always)]
     pub fn rate(&self, t: &Configuration<F>, omega: [F; 2], [x, y]: [F; 2]) -> RateLanes<F> {
         let ground = Vector { x, y };
-        self.rate_by(&self.sharp.equations(&self.laws, t, omega, ground), t, omega, ground)
+        let equations = self.sharp.equations(&self.laws, t, omega, ground);
+        self.rate_by(&self.sharp, &equations, t, omega, ground)
     }
 
     #[inline(always)]
     fn rate_by(
         &self,
+        sharp: &SharpMotion<F>,
         equations: &Equations<F>,
         t: &Configuration<F>,
         omega: [F; 2],
         ground: Vector<F>,
     ) -> RateLanes<F> {
-        let powers_w = self.sharp.powers_w(&self.laws, equations, t, omega, ground);
+        let powers_w = sharp.powers_w(&self.laws, equations, t, omega, ground);
         RateLanes { theta_dd: self.solve(equations), powers_w }
     }
 
@@ -179,14 +181,41 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHE
         &self,
         t: &Configuration<F>,
         omega: [F; 2],
+        ground: [F; 2],
+    ) -> (RateLanes<F>, ReactionLanes<F>) {
+        self.rate_and_reactions_about(&self.sharp, t, omega, ground)
+    }
+
+    /// The same about other corners.
+    #[inline(always)]
+    pub fn rate_and_reactions_about(
+        &self,
+        sharp: &SharpMotion<F>,
+        t: &Configuration<F>,
+        omega: [F; 2],
         [x, y]: [F; 2],
     ) -> (RateLanes<F>, ReactionLanes<F>) {
         let ground = Vector { x, y };
-        let equations = self.sharp.equations(&self.laws, t, omega, ground);
-        let rate = self.rate_by(&equations, t, omega, ground);
+        let equations = sharp.equations(&self.laws, t, omega, ground);
+        let rate = self.rate_by(sharp, &equations, t, omega, ground);
         let at_top = [equations.spring_and_damping, F::splat(x.token(), 0.0)];
-        let reactions = self.sharp.reactions(&equations, t, rate.theta_dd, ground, at_top);
+        let reactions = sharp.reactions(&equations, t, rate.theta_dd, ground, at_top);
         (rate, ReactionLanes::of(&reactions))
+    }
+
+    /// The reactions of a motion with these angular accelerations.
+    #[inline(always)]
+    pub fn reactions(
+        &self,
+        t: &Configuration<F>,
+        omega: [F; 2],
+        theta_dd: [F; 2],
+        [x, y]: [F; 2],
+    ) -> ReactionLanes<F> {
+        let ground = Vector { x, y };
+        let equations = self.sharp.equations(&self.laws, t, omega, ground);
+        let at_top = [equations.spring_and_damping, F::splat(x.token(), 0.0)];
+        ReactionLanes::of(&self.sharp.reactions(&equations, t, theta_dd, ground, at_top))
     }
 }
 

@@ -6,16 +6,14 @@
 
 use fearless_simd::{Select, SimdMask};
 
-use super::events::ROUNDINGS;
 use super::lane_accounts::{keep, keep_both};
-use super::lane_paths::{bound, keeps_to, scale};
+use super::lane_paths::{bound, scale};
 use super::lane_steps::{GroundLanes, Landed};
 use super::row::{LimitRow, Row, SumRow};
 use super::run::{PROGRESS, SHORT};
 use super::totals::LITTLE;
 use crate::lanes::{Numbers, Wide, exchange};
-use crate::model::{CrackRow, Motions, PivotRow, RateLanes, ReactionLanes, StrikeRow};
-use crate::solver::{only_roots, turn_negative_once};
+use crate::model::{CrackRow, Motions, PivotRow, RateLanes, ReactionLanes, SharpMotion, StrikeRow};
 
 /// What the impacts of the walls of a row need.
 #[derive(Debug, Default)]
@@ -44,37 +42,6 @@ pub(super) struct ImpactRow {
 /// the run goes through.
 pub(super) const REACHES: f64 = 1.0;
 pub(super) const AT_GROUND: f64 = 2.0;
-
-/// The gap that may close inside the steps.
-struct Closing<F: Wide> {
-    /// Positive where the joint is open.
-    path: [F; 6],
-    /// Where it starts at zero, up to roundings.
-    starts_closed: F::Mask,
-    /// Where it is negative at the end, and nothing else happens.
-    is_first: F::Mask,
-    /// Where it is that at the ground of a wall whose bodies turn apart.
-    at_ground: F::Mask,
-}
-
-impl<F: Wide> Closing<F> {
-    /// Of a gap that is open on a side, and the difference of rotations of this size.
-    #[inline(always)]
-    fn of(path: &[F; 6], side: F, size: F, is_first: F::Mask, at_ground: F::Mask) -> Self {
-        let path =
-            [path[0] * side, path[1] * side, path[2] * side, path[3] * side, path[4] * side, path[5] * side];
-        // Beyond the rotations' own roundings.
-        let rounding = size * (ROUNDINGS * f64::EPSILON);
-        let (starts_closed, closes) = (path[0].simd_le(rounding), path[5].simd_lt(-rounding));
-        Self { path, starts_closed, is_first: is_first & closes, at_ground }
-    }
-}
-
-/// A path that starts at zero, over the share of the step: as [`crate::solver::Bernstein::first_root_after_start`] has it.
-#[inline(always)]
-fn after_start<F: Wide>(c: &[F; 6]) -> [F; 5] {
-    [c[1] * 5.0 / 1.0, c[2] * 5.0 / 2.0, c[3] * 5.0 / 3.0, c[4] * 5.0 / 4.0, c[5] * 5.0 / 5.0]
-}
 
 /// The end of a step to an impact, moved onto it.
 struct Reached<F: Wide> {
@@ -112,21 +79,16 @@ impl ImpactRow {
 
     /// The same of impacts at cracks that were open on these sides, where the ground is out of reach.
     #[inline(always)]
-    fn at_crack<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
+    fn at_crack<F: Wide>(
         &self,
-        motions: [&Motions<F, AS_ONE, FURTHER>; 2],
+        motions: [&SharpMotion<F>; 2],
         landed: &Landed<F>,
         sides: [F; 2],
     ) -> (Left<F>, F::Mask) {
         let of = |numbers: &Numbers| F::of_row(sides[0].token(), numbers);
         let theta = landed.position[0];
         let limits = [of(&self.here.coefficient), of(&self.capture_rad_s)];
-        let (impact, turns_on) = self.cracks.strike(
-            [&motions[0].sharp, &motions[1].sharp],
-            (theta, landed.velocity),
-            -sides[1],
-            limits,
-        );
+        let (impact, turns_on) = self.cracks.strike(motions, (theta, landed.velocity), -sides[1], limits);
         let apart = (sides[0] * theta).simd_gt(of(&self.contact_rad));
         (Left { theta: [theta; 2], omega: impact.omega, loss_j: impact.loss_j }, turns_on & apart)
     }
@@ -161,88 +123,22 @@ impl Row {
     pub fn meet_impacts<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &mut self,
         simd: F::Token,
+        motions: &Motions<F, AS_ONE, FURTHER>,
         landed: &Landed<F>,
         left: u64,
     ) -> u64 {
         let known = F::of_row(simd, &self.impacts.known).simd_eq(1.0) & <F::Mask>::from_bitmask(simd, left);
         let reaches = F::of_row(simd, &self.impacts.reaches);
         let found = self.find_impacts::<F, AS_ONE>(known & reaches.simd_eq(0.0), landed);
-        let gone = self.go_through_impacts::<F, AS_ONE, FURTHER>(known & reaches.simd_eq(REACHES), landed);
+        let gone = self.go_through_impacts(motions, known & reaches.simd_eq(REACHES), landed);
         (found | gone).to_bitmask()
-    }
-
-    /// Requests steps up to the impacts inside those of some lanes, where nothing else happens.
-    #[inline(always)]
-    fn find_impacts<F: Wide, const AS_ONE: bool>(&mut self, which: F::Mask, landed: &Landed<F>) -> F::Mask {
-        if !which.any_true() {
-            return which;
-        }
-        let simd = landed.position[0].token();
-        let all = |value: f64| F::splat(simd, value);
-        let h = F::of_row(simd, &self.moving.h);
-        let Closing { path, starts_closed, is_first, at_ground } = self.closing::<F, AS_ONE>(landed, h);
-        let error = self.errors.of(landed.position_error, landed.velocity_error, h);
-        let advances = F::of_row(simd, &self.limits.advances).simd_eq(1.0);
-        let alone = which & is_first & advances & error.simd_le(1.0);
-        let later = alone & !starts_closed & turn_negative_once(&path);
-        let after_start = after_start(&path);
-        let again = alone & starts_closed & turn_negative_once(&after_start);
-        let found = later | again;
-        if !found.any_true() {
-            return found;
-        }
-        let mut share = all(0.0);
-        if later.any_true() {
-            share = only_roots(later, &path);
-        }
-        if again.any_true() {
-            share = again.select(only_roots(again, &after_start), share);
-        }
-        self.errors.propose(found, error, h);
-        keep(found, &mut self.moving.h, share * h);
-        keep(found, &mut self.impacts.most_s, h);
-        keep(found, &mut self.impacts.reaches, at_ground.select(all(AT_GROUND), all(REACHES)));
-        keep(found, &mut self.limits.advances, all(0.0));
-        SumRow::add(found, &mut self.impacts.found, all(1.0));
-        found
-    }
-
-    /// The gap that closes over the steps, and where none of the others may, and nothing else happens.
-    #[inline(always)]
-    fn closing<F: Wide, const AS_ONE: bool>(&self, landed: &Landed<F>, h: F) -> Closing<F> {
-        let (simd, scale, limits) = (h.token(), scale(h), &self.limits);
-        let side = |i: usize| F::of_row(simd, &limits.sides[i]);
-        let stands = |i: usize, size: F| size.simd_lt(F::of_row(simd, &limits.collapse_rad[i]));
-        let lower = self.moving.path(0, landed, scale);
-        let (size, sum) = (bound(&lower), landed.sum(0));
-        let finite = sum.simd_eq(sum);
-        if AS_ONE {
-            let (_, stays_closed) = limits.corner_force(landed.reactions.crack);
-            let is_first = finite & stands(0, size) & stands(1, size) & stays_closed;
-            return Closing::of(&lower, side(0), size, is_first, <F::Mask>::splat(simd, false));
-        }
-        let (upper, sum) = (bound(&self.moving.path(1, landed, scale)), landed.sum(1));
-        let crack = self.moving.opening_of_crack(landed, scale);
-        let keep_to = [keeps_to(side(0), &lower), keeps_to(side(1), &crack)];
-        let at_ground = keep_to[1] & !keep_to[0];
-        let is_first =
-            finite & sum.simd_eq(sum) & stands(0, size) & stands(1, upper) & (keep_to[0] | keep_to[1]);
-        let of = |ground: F, crack: F| at_ground.select(ground, crack);
-        let path = [
-            of(lower[0], crack[0]),
-            of(lower[1], crack[1]),
-            of(lower[2], crack[2]),
-            of(lower[3], crack[3]),
-            of(lower[4], crack[4]),
-            of(lower[5], crack[5]),
-        ];
-        Closing::of(&path, of(side(0), side(1)), of(size, upper), is_first, at_ground)
     }
 
     /// Goes through the impacts that some lanes have reached.
     #[inline(always)]
     fn go_through_impacts<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &mut self,
+        motions: &Motions<F, AS_ONE, FURTHER>,
         which: F::Mask,
         landed: &Landed<F>,
     ) -> F::Mask {
@@ -250,29 +146,31 @@ impl Row {
             return which;
         }
         let simd = landed.position[0].token();
-        let (reached, on_time) = self.onto_impact::<F, AS_ONE>(landed);
+        let (mut reached, on_time) = self.onto_impact::<F, AS_ONE>(landed);
         let may = which & on_time;
         // What leads up to an impact is shown by the run.
         let may = if self.watched { may & !self.is_wanted(reached.h) } else { may };
         if !may.any_true() {
             return may;
         }
-        let before = Motions::<F, AS_ONE, FURTHER>::unwritten(simd, &self.motions);
+        self.look_again_at_reactions(motions, may, &mut reached);
         self.motions.turn_over::<F>(may, &mut self.impacts.pivots_there);
-        let after = Motions::<F, AS_ONE, FURTHER>::unwritten(simd, &self.motions);
-        let (left, turns_on) = self.struck::<F, AS_ONE, FURTHER>([&before, &after], &reached.landed);
-        let (turned, stays_closed) = self.turned_on(&after, &reached, &left);
+        let after = self.motions.sharp(simd);
+        let (left, turns_on) = match AS_ONE {
+            true => self.impacts.whole(reached.landed.velocity[0]),
+            false => self.at_crack([&motions.sharp, &after], &reached.landed),
+        };
+        let (turned, stays_closed) = self.turned_on(motions, &after, &reached, &left);
         let (gone, back) = (may & turns_on & stays_closed, may & !(turns_on & stays_closed));
         if back.any_true() {
             self.motions.turn_over::<F>(back, &mut self.impacts.pivots_there);
         }
-        self.account_for_flight(gone, &before, &reached);
+        self.account_for_flight(gone, motions, &reached);
         self.turn_on::<F, AS_ONE>(gone, &reached, &left, &turned);
         gone
     }
 
-    /// The ends of steps moved onto the impact, and where it may be so: by little, with forces that need no second look, and
-    /// joints that fall back.
+    /// The ends of steps moved onto the impact, and where it may be so: by little, with joints that fall back.
     #[inline(always)]
     fn onto_impact<F: Wide, const AS_ONE: bool>(&self, landed: &Landed<F>) -> (Reached<F>, F::Mask) {
         let simd = landed.position[0].token();
@@ -286,32 +184,52 @@ impl Row {
         let [x_c, v_c, a_c] = landed.reactions.top;
         let top = [x_c + short_s * v_c, v_c + short_s * a_c, a_c];
         let offset_s = of(&self.ground.offset_s) + h;
-        let [ground, crack] = [landed.reactions.ground, landed.reactions.crack];
-        let outdone = self.sums.surely_outdo(0, &self.limits, [ground[0], ground[1]])
-            & (self.sums.surely_outdo(1, &self.limits, [crack[0], crack[1]])
-                | of(&self.limits.cracked).simd_eq(0.0));
         let falls_back = gap::<F, AS_ONE>(velocity) * of(&self.limits.sides[joint(AS_ONE)]);
         let on_time = late_s.abs().simd_le(step_s * SHORT)
             & h.simd_ge(step_s * PROGRESS)
             & offset_s.simd_lt(of(&self.ground.length_s))
-            & outdone
             & falls_back.simd_lt(0.0);
         let reactions = ReactionLanes { top, ..landed.reactions };
         (Reached { landed: Landed { position, velocity, reactions, ..*landed }, h, offset_s }, on_time)
     }
 
-    /// What the impacts leave, by the motions before and after, and where these are surely those after.
+    /// Works the reactions at the impacts of some lanes out where those at the end of the step do not stand for them: where forces may
+    /// be the largest so far, and where formulas act. As [`super::run::Run`] does.
     #[inline(always)]
-    fn struck<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
+    fn look_again_at_reactions<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &self,
-        motions: [&Motions<F, AS_ONE, FURTHER>; 2],
-        landed: &Landed<F>,
-    ) -> (Left<F>, F::Mask) {
-        let simd = landed.position[0].token();
-        if AS_ONE {
-            return self.impacts.whole(landed.velocity[0]);
+        motions: &Motions<F, AS_ONE, FURTHER>,
+        may: F::Mask,
+        reached: &mut Reached<F>,
+    ) {
+        let simd = reached.h.token();
+        let landed = &mut reached.landed;
+        let [ground, crack] = [landed.reactions.ground, landed.reactions.crack];
+        let cracked = F::of_row(simd, &self.limits.cracked).simd_eq(1.0);
+        let outdone = self.sums.surely_outdo(0, &self.limits, [ground[0], ground[1]])
+            & (self.sums.surely_outdo(1, &self.limits, [crack[0], crack[1]]) | !cracked);
+        let again = may & motions.written().map_or(!outdone, |written| written | !outdone);
+        if !again.any_true() {
+            return;
         }
-        let sides = [0, 1].map(|i| F::of_row(simd, &self.limits.sides[i]));
+        let at = GroundLanes::of_row(simd, &self.ground).at(reached.h);
+        let t = motions.configuration(landed.position);
+        let there = motions.reactions(&t, landed.velocity, landed.acceleration, at);
+        let of = |new: [F; 3], old: [F; 3]| {
+            [again.select(new[0], old[0]), again.select(new[1], old[1]), again.select(new[2], old[2])]
+        };
+        landed.reactions = ReactionLanes {
+            ground: of(there.ground, ground),
+            crack: of(there.crack, crack),
+            top: of(there.top, landed.reactions.top),
+        };
+    }
+
+    /// What impacts at cracks leave, by the motions before and after, and where these are surely those after.
+    #[inline(always)]
+    fn at_crack<F: Wide>(&self, motions: [&SharpMotion<F>; 2], landed: &Landed<F>) -> (Left<F>, F::Mask) {
+        let simd = landed.position[0].token();
+        let sides = [F::of_row(simd, &self.limits.sides[0]), F::of_row(simd, &self.limits.sides[1])];
         self.impacts.at_crack(motions, landed, sides)
     }
 
@@ -319,14 +237,15 @@ impl Row {
     #[inline(always)]
     fn turned_on<F: Wide, const AS_ONE: bool, const FURTHER: bool>(
         &self,
-        after: &Motions<F, AS_ONE, FURTHER>,
+        motions: &Motions<F, AS_ONE, FURTHER>,
+        after: &SharpMotion<F>,
         reached: &Reached<F>,
         left: &Left<F>,
     ) -> (TurnedOn<F>, F::Mask) {
         let simd = reached.h.token();
         let ground = GroundLanes::of_row(simd, &self.ground).at(reached.h);
-        let (rate, reactions) =
-            after.rate_and_reactions(&after.configuration(left.theta), left.omega, ground);
+        let t = after.turned(Motions::<F, AS_ONE, FURTHER>::turns(left.theta));
+        let (rate, reactions) = motions.rate_and_reactions_about(after, &t, left.omega, ground);
         let corner_force = self.limits.least_at_corners(reactions.crack);
         let stays = corner_force.simd_ge(0.0) | F::of_row(simd, &self.limits.closed).simd_eq(0.0);
         (TurnedOn { rate, reactions, corner_force }, stays)

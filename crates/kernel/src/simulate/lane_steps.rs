@@ -257,10 +257,11 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Stepping<F> for Motions<F
 
     #[inline(always)]
     fn meet(&mut self, simd: F::Token, row: &mut Row, landed: &Landed<F>, left: u64) -> u64 {
+        let motions: &Self = self;
         let met = apart::<F, _>(
             simd,
             #[inline(always)]
-            || row.meet_impacts::<F, AS_ONE, FURTHER>(simd, landed, left),
+            || row.meet_impacts(simd, motions, landed, left),
         );
         self.follow(simd, &row.motions);
         met

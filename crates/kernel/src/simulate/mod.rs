@@ -9,6 +9,7 @@ mod ground_path;
 mod history;
 mod lane_accounts;
 mod lane_beds;
+mod lane_closings;
 mod lane_impacts;
 mod lane_kinks;
 mod lane_paths;

@@ -44,11 +44,10 @@ impl<F: Wide> FormulaLanes<F> {
         Self { any: written.any_true(), alike: alike(&of), of, written, at_joints }
     }
 
-    /// None in any lane.
+    /// The lanes that have any; `None` where none does.
     #[inline(always)]
-    pub fn none(simd: F::Token) -> Self {
-        let written = <F::Mask>::splat(simd, false);
-        Self { any: false, alike: None, of: FormulaRow::default(), written, at_joints: false }
+    pub fn written(&self) -> Option<F::Mask> {
+        self.any.then_some(self.written)
     }
 
     pub fn into_row(self) -> FormulaRow {

@@ -12,8 +12,7 @@ impl<O: Observer> Run<O> {
     /// What impacts need that may be gone through in the lane.
     pub(super) fn board_impacts(&self, row: &mut Row, i: usize) {
         let (impacts, wall, contact) = (&mut row.impacts, &self.wall, self.contact);
-        // What formulas and kinks do at the end of a step is looked at once more where that is moved onto an impact.
-        let known_laws = wall.formulas().is_empty() && wall.piecewise_laws().is_none();
+        let known_laws = wall.piecewise_laws().is_none() && self.carried.is_none();
         let onto = if self.is_plain() && known_laws { wall.strikes_on(contact) } else { None };
         let known = onto
             .is_some_and(|(onto, _)| impacts.here.put(i, wall, contact) && impacts.there.put(i, wall, onto));
