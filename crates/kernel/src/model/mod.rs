@@ -46,7 +46,7 @@ pub use effect::{
     Lanes, Place, Quantity, Reading, Role,
 };
 pub use formula::{CarriedStates, MOST_CARRIED, TopMove};
-pub(crate) use formula::{Path, Turn};
+pub(crate) use formula::{Path, TopSides, Turn};
 pub use geometry::Pair;
 pub use impact::Impact;
 pub(crate) use joint_forces::Reactions;

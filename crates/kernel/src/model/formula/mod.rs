@@ -23,4 +23,4 @@ pub(in crate::model) use check::checked;
 pub(crate) use lanes::FormulaRow;
 pub(in crate::model) use lanes::{FormulaLanes, angles};
 pub(crate) use laws::{FormulaLaw, FormulaLaws, Slopes};
-pub(crate) use switches::{Path, Turn};
+pub(crate) use switches::{Path, TopSides, Turn};

@@ -36,7 +36,32 @@ pub(crate) enum Path {
     Nowhere,
 }
 
+/// Where the top stays while no switch turns.
+pub(crate) struct TopSides {
+    /// Displacements between which it stays, m; finite.
+    pub between_m: [f64; 2],
+    /// Which way it moves: 1, -1, or 0 where no switch asks.
+    pub along: f64,
+}
+
 impl FormulaLaws {
+    /// Where the top stays while no switch turns. `None` where any asks more than where the top is and which way it moves.
+    pub fn top_sides(&self) -> Option<TopSides> {
+        let mut sides = TopSides { between_m: [-f64::MAX, f64::MAX], along: 0.0 };
+        let TopSides { between_m: [low_m, high_m], along } = &mut sides;
+        for turn in self.turns().filter(|turn| !matches!(turn.path(), Path::Nowhere)) {
+            let side = turn.side();
+            match turn.path() {
+                _ if !turn.is_at_top() || side == 0.0 => return None,
+                Path::Displacement(value_m) if side > 0.0 => *low_m = low_m.max(value_m),
+                Path::Displacement(value_m) => *high_m = high_m.min(value_m),
+                Path::Rate(value) if value == 0.0 && *along != -side => *along = side,
+                _ => return None,
+            }
+        }
+        Some(sides)
+    }
+
     /// Whether any has a branch to change.
     pub fn have_switches(&self) -> bool {
         self.laws.iter().any(|law| !law.program.switches().is_empty())

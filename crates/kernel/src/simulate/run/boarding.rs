@@ -4,7 +4,7 @@ use super::super::bed_events::keeps_contact_between;
 use super::super::history::Observer;
 use super::super::row::{Row, put};
 use super::{Run, Stop};
-use crate::model::{Contact, Joint, Kink, Regime};
+use crate::model::{Contact, Joint, Kink, Regime, TopSides};
 use crate::solver::{Point, STAGES};
 
 impl<O: Observer> Run<O> {
@@ -26,8 +26,15 @@ impl<O: Observer> Run<O> {
     /// Whether steps without an event are the same for it as for any other run.
     pub(super) fn is_plain(&self) -> bool {
         let formulas = self.wall.formulas();
-        let watched = formulas.have_switches() || formulas.remember_largest();
-        !watched && !self.wall.is_held()
+        let known = !formulas.have_switches() || self.top_sides().is_some();
+        known && !formulas.remember_largest() && !self.wall.is_held()
+    }
+
+    /// Where the top stays while no switch of a formula turns, where the row can tell.
+    fn top_sides(&self) -> Option<TopSides> {
+        let formulas = self.wall.formulas();
+        let alone = self.wall.piecewise_laws().is_none() && self.carried.is_none();
+        if alone && formulas.have_switches() { formulas.top_sides() } else { None }
     }
 
     /// Puts all that the next step needs in a lane.
@@ -62,6 +69,11 @@ impl<O: Observer> Run<O> {
                 }
             }
             stops = [regime.yields.sign(), regime.slides.sign()];
+        }
+        if let Some(TopSides { between_m, along }) = self.top_sides() {
+            kinks.any = true;
+            [least_m, most_m] = between_m;
+            stops = [0.0, along];
         }
         (kinks.least_m[i], kinks.most_m[i]) = (least_m, most_m);
         put(&mut kinks.stops, i, stops);
@@ -105,7 +117,12 @@ impl<O: Observer> Run<O> {
         put(&mut limits.tension, i, totals.in_tension.map(|tension| f64::from(u8::from(tension))));
         limits.corner_force[i] = self.corner_force.unwrap_or_default();
         limits.top_velocity_m_s[i] = self.top_velocity_m_s;
-        if self.wall.piecewise_laws().is_some() {
+        let switches = self.wall.formulas().have_switches();
+        if switches {
+            // Those of formulas may have turned.
+            self.board_kinks(row, i);
+        }
+        if switches || self.wall.piecewise_laws().is_some() {
             let Point { position, velocity, acceleration } = self.now;
             let [top_m, _, top_m_s2] = self.wall.top(self.contact, position, velocity, acceleration);
             (row.kinks.top_m[i], row.kinks.top_m_s2[i]) = (top_m, top_m_s2);

@@ -12,7 +12,9 @@ impl<O: Observer> Run<O> {
     /// What impacts need that may be gone through in the lane.
     pub(super) fn board_impacts(&self, row: &mut Row, i: usize) {
         let (impacts, wall, contact) = (&mut row.impacts, &self.wall, self.contact);
-        let known_laws = wall.piecewise_laws().is_none() && self.carried.is_none();
+        // An impact may turn a switch.
+        let turns = wall.formulas().have_switches();
+        let known_laws = wall.piecewise_laws().is_none() && self.carried.is_none() && !turns;
         let onto = if self.is_plain() && known_laws { wall.strikes_on(contact) } else { None };
         let known = onto
             .is_some_and(|(onto, _)| impacts.here.put(i, wall, contact) && impacts.there.put(i, wall, onto));

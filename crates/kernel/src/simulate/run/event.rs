@@ -150,7 +150,8 @@ impl<O: Observer> Run<O> {
     fn look_in(&mut self, row: &mut Row, i: usize) -> ControlFlow<(), Option<Quiet>> {
         self.follow_lane(row, i);
         let (step, piece, from_s) = (row.step(i), row.ground.at(i), row.ground.offset_s[i]);
-        if self.wall.piecewise_laws().is_some() || self.wall.wall().gives() {
+        let has_kinks = self.wall.piecewise_laws().is_some() || self.wall.formulas().have_switches();
+        if has_kinks || self.wall.wall().gives() {
             return ControlFlow::Continue(None);
         }
         let mut controller = self.controller;
