@@ -1,6 +1,7 @@
 //! Impacts in the lanes: a row goes through most of them by itself, with the bits of walls that go one after another.
 
 use fearless_simd::{Level, Simd};
+use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::accelerogram::Accelerogram;
 use mrbd_kernel::model::{Contact, Effect, ImpactLaw, Pair, Restitution, Wall, WallParameters};
 use mrbd_kernel::simulate::{
@@ -16,14 +17,25 @@ fn shaking(strength_m_s2: f64) -> Shaking {
     Shaking { horizontal, vertical: None, tail_s: 3.0 }
 }
 
-/// Walls that strike alike at every speed and that do not, with a crack and without, that are captured early and late.
+/// Walls that strike alike at every speed and that do not, with a crack and without, that are captured early and late, and with
+/// further laws: named ones and formulas, some with a branch for each way that the top moves.
 fn walls() -> Vec<Wall> {
     let table = WallParameters::table_wall;
     let struck = |law: ImpactLaw, capture_velocity_rad_s: f64| {
         let restitution = Restitution { law, capture_velocity_rad_s, ..table().restitution };
         WallParameters { restitution, ..table() }
     };
-    let fading = Effect::with_parameters("impact_fading", &[0.3]).expect("an effect");
+    let with = |name: &str, values: &[f64]| {
+        let effects = vec![Effect::with_parameters(name, values).expect("an effect")];
+        WallParameters { effects, ..table() }
+    };
+    let written = |laws: &[(Place, &str, f64, &str)]| {
+        let formula = |(place, text, value, unit): &(Place, &str, f64, &str)| {
+            Formula::parse(text, *place, &[Parameter::new("c", *value, unit)]).expect("a formula")
+        };
+        WallParameters { formulas: laws.iter().map(formula).collect(), ..table() }
+    };
+    let linear = (Place::Top, "-c*v", 900.0, "N*s/m");
     let parameters = [
         table(),
         struck(ImpactLaw::Whole, 1e-6),
@@ -32,7 +44,13 @@ fn walls() -> Vec<Wall> {
         WallParameters { eccentricity_m: 0.02, ..table() },
         WallParameters { crack_height_m: None, ..table() },
         WallParameters { crack_height_m: Some(1.2), stiffness_n_per_m: 5e3, ..table() },
-        WallParameters { effects: vec![fading], ..table() },
+        with("impact_fading", &[0.3]),
+        with("viscous_damping", &[1500.0]),
+        with("joint_damping.crack", &[100.0]),
+        with("cubic_stiffness", &[1e6]),
+        written(&[linear]),
+        written(&[linear, (Place::Crack, "-c*w", 60.0, "N*m*s")]),
+        written(&[(Place::Top, "-c*sign(v)*abs(v)**1.3", 900.0, "N*(s/m)**1.3")]),
     ];
     parameters.into_iter().map(|parameters| Wall::new(parameters).expect("a wall that can exist")).collect()
 }
