@@ -90,7 +90,8 @@ pub(super) fn first_bed_change(
     first
 }
 
-/// Between which rotations (rad) a joint before the kink of its law keeps its contact; finite.
+/// Between which rotations (rad) a joint keeps its contact, and its law stays before its kink; finite. Between none where that is
+/// beyond it.
 pub(super) fn keeps_contact_between(
     wall: &RockingWall,
     contact: Contact,
@@ -98,6 +99,9 @@ pub(super) fn keeps_contact_between(
     joint: Joint,
 ) -> [f64; 2] {
     let Some(law) = wall.joint_law(joint) else { return [-f64::MAX, f64::MAX] };
+    if contact.at(joint).is_open() && wall.branch(joint) == Branch::Beyond {
+        return [f64::MAX, -f64::MAX];
+    }
     let changes = changes_of(joint, law, contact.at(joint), opened[joint as usize]);
     changes.into_iter().flatten().fold([-f64::MAX, f64::MAX], |[low, high], change| {
         if change.sign > 0.0 { [low, high.min(change.limit_rad)] } else { [low.max(change.limit_rad), high] }

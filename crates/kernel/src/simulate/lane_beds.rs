@@ -79,11 +79,12 @@ impl BedLimitRow {
         self.stays_between(0, &lower, size) & self.stays_between(1, &opening, size)
     }
 
+    /// Where a path starts does not matter: it starts at a limit after a change, on either side of it by how well that was located.
     #[inline(always)]
     fn stays_between<F: Wide>(&self, joint: usize, c: &[F; 6], size: F) -> F::Mask {
         let of = |numbers: &Numbers| F::of_row(size.token(), numbers);
-        let least = c[0].min(c[1]).min(c[2].min(c[3])).min(c[4].min(c[5]));
-        let most = c[0].max(c[1]).max(c[2].max(c[3])).max(c[4].max(c[5]));
+        let least = c[1].min(c[2]).min(c[3].min(c[4])).min(c[5]);
+        let most = c[1].max(c[2]).max(c[3].max(c[4])).max(c[5]);
         let (low, high) = (of(&self.low_rad[joint]), of(&self.high_rad[joint]));
         let rounding = |limit: F| size.max(limit.abs()) * (ROUNDINGS * f64::EPSILON);
         (least - low).simd_gt(rounding(low)) & (high - most).simd_gt(rounding(high))

@@ -23,16 +23,17 @@ impl KinkRow {
             & self.keeps_moving(moving, start, landed, h)
     }
 
-    /// Whether a path keeps to its branch of the springs.
+    /// Whether a path keeps to its branch of the springs. It may start at a kink, where it has just passed one.
     #[inline(always)]
     fn between<F: Wide>(&self, c: &[F; 6]) -> F::Mask {
         let simd = c[0].token();
-        let least = c[0].min(c[1]).min(c[2].min(c[3])).min(c[4].min(c[5]));
-        let most = c[0].max(c[1]).max(c[2].max(c[3])).max(c[4].max(c[5]));
+        let least = c[1].min(c[2]).min(c[3].min(c[4])).min(c[5]);
+        let most = c[1].max(c[2]).max(c[3].max(c[4])).max(c[5]);
         let (low, high) = (F::of_row(simd, &self.least_m), F::of_row(simd, &self.most_m));
         let thickness = F::of_row(simd, &self.thickness_m);
         let near = |limit: F| (thickness + limit.abs()) * NEAR_KINK;
-        (least - low).simd_gt(near(low)) & (high - most).simd_gt(near(high))
+        let starts = (c[0] - low).min(high - c[0]).simd_ge(0.0);
+        starts & (least - low).simd_gt(near(low)) & (high - most).simd_gt(near(high))
     }
 
     /// Whether a top that yields or slides goes on to: the cubic through its velocities and accelerations.
@@ -62,9 +63,10 @@ impl KinkRow {
     }
 }
 
+/// Whether a velocity keeps its sign; it may start at zero.
 #[inline(always)]
 fn goes_on<F: Wide>(c: &[F; 4], sign: F, near: F) -> F::Mask {
     let at = [c[0] * sign, c[1] * sign, c[2] * sign, c[3] * sign];
-    let least = at[0].min(at[1]).min(at[2].min(at[3]));
-    sign.simd_eq(0.0).select(F::splat(near.token(), f64::MAX), least).simd_gt(near)
+    let least = at[1].min(at[2]).min(at[3]);
+    at[0].simd_ge(0.0) & sign.simd_eq(0.0).select(F::splat(near.token(), f64::MAX), least).simd_gt(near)
 }
