@@ -141,7 +141,7 @@ impl LimitRow {
 
     /// Whether the pivots are under tension as they were.
     #[inline(always)]
-    fn same_tension<F: Wide>(&self, normals: [F; 2]) -> F::Mask {
+    pub fn same_tension<F: Wide>(&self, normals: [F; 2]) -> F::Mask {
         let simd = normals[0].token();
         let none = F::splat(simd, 0.0);
         let now = |normal: F| normal.simd_lt(0.0).select(F::splat(simd, 1.0), none);
@@ -306,7 +306,7 @@ impl Row {
 
     /// Normal forces through the ground and the crack, 0 where there is none.
     #[inline(always)]
-    fn normals<F: Wide>(&self, landed: &Landed<F>) -> [F; 2] {
+    pub fn normals<F: Wide>(&self, landed: &Landed<F>) -> [F; 2] {
         let normal = landed.reactions.crack[1];
         let cracked = F::of_row(normal.token(), &self.limits.cracked).simd_eq(1.0);
         [landed.reactions.ground[1], cracked.select(normal, F::splat(normal.token(), 0.0))]

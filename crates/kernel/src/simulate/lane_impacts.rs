@@ -154,6 +154,7 @@ impl Row {
             return may;
         }
         self.look_again_at_reactions(motions, may, &mut reached);
+        let may = may & self.limits.same_tension(self.normals(&reached.landed));
         self.motions.turn_over::<F>(may, &mut self.impacts.pivots_there);
         let after = self.motions.sharp(simd);
         let (left, turns_on) = match AS_ONE {
