@@ -1,6 +1,7 @@
 //! Walls side by side in the lanes of vector registers move as each does alone.
 
 use fearless_simd::{Level, Simd};
+use mrbd_formula::{Formula, Parameter, Place};
 use mrbd_kernel::model::State;
 use mrbd_kernel::model::Wall;
 use mrbd_kernel::simulate::{
@@ -67,6 +68,54 @@ fn analytic_walls_side_by_side_move_as_alone_to_the_bit() {
         assert!(side_by_side(runs.iter().take(few)) == alone[..few]);
     }
     assert!(side_by_side(runs.iter().take(0)).is_empty());
+}
+
+/// Formulas at the top and the units of their parameters c and g: smooth ones, and with branches by where the top is and which way or
+/// how fast it moves.
+const FORMULAS: [(&str, &str, Option<&str>); 8] = [
+    ("-c*v", "N*s/m", None),
+    ("-c*x*abs(x)", "N/m**2", None),
+    ("-c*v*abs(v)", "N*s**2/m**2", None),
+    ("-c*sign(v)*abs(v)**1.4", "N*(s/m)**1.4", None),
+    ("-c*max(v, 0)", "N*s/m", None),
+    ("-c*max(v - g, 0)", "N*s/m", Some("m/s")),
+    ("-c*max(x - g, 0)", "N/m", Some("m")),
+    ("-c*max(-g - x, 0)", "N/m", Some("m")),
+];
+
+/// Walls with a formula, some with effects beside it.
+fn with_formulas(count: u64) -> Vec<(Wall, Shaking, Accuracy)> {
+    let one = |index| {
+        let mut rng = rng(86, index);
+        let mut wall = any_wall(&mut rng);
+        if rng.random_bool(0.2) {
+            wall.effects = any_effects(&mut rng, &wall);
+        }
+        let (text, unit, limit) = FORMULAS[rng.random_range(0..FORMULAS.len())];
+        let c = Parameter::new("c", wall.mass_kg * rng.random_range(0.2..4.0), unit);
+        let g = limit.map(|unit| Parameter::new("g", 0.01, unit));
+        let own: Vec<Parameter> = [c].into_iter().chain(g).collect();
+        wall.formulas.push(Formula::parse(text, Place::Top, &own).expect("a formula"));
+        wall.restitution = any_restitution(&mut rng, 1.0);
+        let shaking = any_shaking(&mut rng, &wall, true);
+        let accuracy = Accuracy { tolerance: 10_f64.powf(-rng.random_range(3.0..9.0)) };
+        Some((Wall::new(wall).ok()?, shaking, accuracy))
+    };
+    (0..count).filter_map(one).collect()
+}
+
+#[test]
+fn analytic_walls_with_formulas_side_by_side_move_as_alone_to_the_bit() {
+    let runs = with_formulas(160);
+    let alone: Vec<Response> = runs.iter().map(|(wall, shaking, of)| simulate(wall, shaking, *of)).collect();
+    let impacts: u64 = alone.iter().map(|response| response.impacts.total()).sum();
+    assert!(runs.len() > 100 && impacts > 2000, "{} walls, {impacts} impacts", runs.len());
+    for level in levels() {
+        assert!(side_by_side_at(level, runs.iter()) == alone, "{level:?}");
+    }
+    let mut backwards = side_by_side(runs.iter().rev());
+    backwards.reverse();
+    assert!(backwards == alone);
 }
 
 /// Walls with a bed in a joint or in both, some with effects beside it. None where the wall would fall on its bed.
