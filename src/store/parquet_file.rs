@@ -136,7 +136,7 @@ impl ParquetFile {
     }
 }
 
-/// Writes a table as one file, there whole or as it was before; `metadata` as for [`Form::new`].
+/// Writes a table as one file, there whole or as it was before; `metadata` are keys and values about the whole file.
 ///
 /// # Errors
 /// [`mrbd_files::Error::Io`] or [`Error::Table`] if the disk refuses.
