@@ -46,11 +46,11 @@ impl Pages {
     }
 }
 
-/// Bytes that go to the disk at once: a file of few rows has small pages, a call for each of which costs more than they do.
+/// Bytes that go to the disk at once. A file of few rows has small pages: a call for each was a tenth of its cost.
 const WRITTEN_AT_ONCE: usize = 1 << 18;
 
-/// What files of the same rows share: their columns and how these are written. Worked out once, because of a short file it
-/// would be a tenth of the cost.
+/// What files of the same rows share: their columns and how these are written. Worked out once: of a file of few rows it was a tenth of
+/// the cost.
 pub struct Form<R: 'static> {
     columns: &'static [Column<R>],
     schema: SchemaRef,

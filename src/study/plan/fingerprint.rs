@@ -17,7 +17,7 @@ const ID_DIGITS: usize = 16;
 /// Bytes of what goes into most runs.
 const MOST_BYTES: usize = 1024;
 
-/// What is hashed, as it gathers: named values. At once in the end, because a hash that takes eight bytes at a time takes twice as long.
+/// What is hashed, as it gathers: named values. Every run has an id, and to hash eight bytes at a time would cost it as much again.
 pub(super) struct Fingerprint(Vec<u8>);
 
 impl Fingerprint {
