@@ -70,6 +70,7 @@ impl<R> Form<R> {
     ) -> std::result::Result<Self, ParquetError> {
         let schema = Arc::new(Schema::new(columns.iter().map(Column::field).collect::<Vec<_>>()));
         let mut properties = properties(columns, metadata, drawn, pages)?;
+        // Here, once, and not by the writer of every file: the schema with units and meanings, which readers of Arrow take.
         add_encoded_arrow_schema_to_metadata(&schema, &mut properties);
         let options = ArrowWriterOptions::new()
             .with_parquet_schema(ArrowSchemaConverter::new().convert(&schema)?)
