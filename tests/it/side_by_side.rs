@@ -47,6 +47,17 @@ fn side_by_side_at<'a>(
     told.into_iter().map(|(_, response)| response).collect()
 }
 
+/// Side by side the runs have the bits of each alone: by every set of vector instructions of this processor, and in other company, from
+/// the last to the first.
+fn go_as_alone(runs: &[(Wall, Shaking, Accuracy)], alone: &[Response]) {
+    for level in levels() {
+        assert!(side_by_side_at(level, runs.iter()) == alone, "{level:?}");
+    }
+    let mut backwards = side_by_side(runs.iter().rev());
+    backwards.reverse();
+    assert!(backwards == alone);
+}
+
 #[test]
 fn analytic_walls_side_by_side_move_as_alone_to_the_bit() {
     let runs = anything(400);
@@ -56,14 +67,8 @@ fn analytic_walls_side_by_side_move_as_alone_to_the_bit() {
     assert!(collapsed > 20 && impacts > 5000, "{collapsed} collapses, {impacts} impacts");
     // All numbers are finite, so that equal ones have the same bits but for the sign of a zero.
     assert!(side_by_side(runs.iter()) == alone);
-    // By every set of vector instructions of this processor.
-    for level in levels() {
-        assert!(side_by_side_at(level, runs.iter()) == alone, "{level:?}");
-    }
-    // In other company: from the last to the first, two, and one alone.
-    let mut backwards = side_by_side(runs.iter().rev());
-    backwards.reverse();
-    assert!(backwards == alone);
+    go_as_alone(&runs, &alone);
+    // In smaller company: five, two, and one alone.
     for few in [1, 2, 5] {
         assert!(side_by_side(runs.iter().take(few)) == alone[..few]);
     }
@@ -110,12 +115,7 @@ fn analytic_walls_with_formulas_side_by_side_move_as_alone_to_the_bit() {
     let alone: Vec<Response> = runs.iter().map(|(wall, shaking, of)| simulate(wall, shaking, *of)).collect();
     let impacts: u64 = alone.iter().map(|response| response.impacts.total()).sum();
     assert!(runs.len() > 100 && impacts > 2000, "{} walls, {impacts} impacts", runs.len());
-    for level in levels() {
-        assert!(side_by_side_at(level, runs.iter()) == alone, "{level:?}");
-    }
-    let mut backwards = side_by_side(runs.iter().rev());
-    backwards.reverse();
-    assert!(backwards == alone);
+    go_as_alone(&runs, &alone);
 }
 
 /// Walls with a bed in a joint or in both, some with effects beside it. None where the wall would fall on its bed.
@@ -141,12 +141,7 @@ fn analytic_walls_on_beds_side_by_side_move_as_alone_to_the_bit() {
     let alone: Vec<Response> = runs.iter().map(|(wall, shaking, of)| simulate(wall, shaking, *of)).collect();
     let changes: u64 = alone.iter().map(|response| response.openings.total()).sum();
     assert!(runs.len() > 40 && changes > 2000, "{} walls, {changes} changes of contact", runs.len());
-    for level in levels() {
-        assert!(side_by_side_at(level, runs.iter()) == alone, "{level:?}");
-    }
-    let mut backwards = side_by_side(runs.iter().rev());
-    backwards.reverse();
-    assert!(backwards == alone);
+    go_as_alone(&runs, &alone);
 }
 
 /// The sets of vector instructions that this processor has.

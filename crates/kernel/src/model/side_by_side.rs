@@ -198,9 +198,7 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHE
         let ground = Vector { x, y };
         let equations = sharp.equations(&self.laws, t, omega, ground);
         let rate = self.rate_by(sharp, &equations, t, omega, ground);
-        let at_top = [equations.spring_and_damping, F::splat(x.token(), 0.0)];
-        let reactions = sharp.reactions(&equations, t, rate.theta_dd, ground, at_top);
-        (rate, ReactionLanes::of(&reactions))
+        (rate, ReactionLanes::by(sharp, &equations, t, rate.theta_dd, ground))
     }
 
     /// The reactions of a motion with these angular accelerations.
@@ -214,12 +212,24 @@ impl<F: Wide, const AS_ONE: bool, const FURTHER: bool> Motions<F, AS_ONE, FURTHE
     ) -> ReactionLanes<F> {
         let ground = Vector { x, y };
         let equations = self.sharp.equations(&self.laws, t, omega, ground);
-        let at_top = [equations.spring_and_damping, F::splat(x.token(), 0.0)];
-        ReactionLanes::of(&self.sharp.reactions(&equations, t, theta_dd, ground, at_top))
+        ReactionLanes::by(&self.sharp, &equations, t, theta_dd, ground)
     }
 }
 
 impl<F: Wide> ReactionLanes<F> {
+    /// Those of walls on sharp edges by their equations.
+    #[inline(always)]
+    fn by(
+        sharp: &SharpMotion<F>,
+        equations: &Equations<F>,
+        t: &Configuration<F>,
+        theta_dd: [F; 2],
+        ground: Vector<F>,
+    ) -> Self {
+        let at_top = [equations.spring_and_damping, F::splat(ground.x.token(), 0.0)];
+        Self::of(&sharp.reactions(equations, t, theta_dd, ground, at_top))
+    }
+
     /// Those of walls that nothing holds at the top.
     #[inline(always)]
     pub fn of(reactions: &Reactions<F>) -> Self {

@@ -1,8 +1,9 @@
 //! Impacts in the lanes: walls that turn as one strike the ground and turn on about their other corner, or the crack of others
 //! closes and opens on the other side. These are most impacts of most runs, and the row goes on through them.
 //!
-//! The same sums in the same order as a run does by itself ([`super::run`]): the search for the impact, the step up to it, its
-//! correction, the accounts, the impact, and the motion after it. Where anything else may happen the step is left to the run.
+//! The same sums in the same order as a run does by itself ([`super::run`]): the search for the impact ([`super::lane_closings`]), the
+//! step up to it, its correction, the accounts, the impact, and the motion after it. Where anything else may happen the step is left to
+//! the run.
 
 use fearless_simd::{Select, SimdMask};
 
