@@ -7,6 +7,7 @@
 
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
@@ -165,6 +166,23 @@ fn spent<T>(work: impl FnOnce() -> T) -> Spent {
     Spent { wall_s: start.elapsed().as_secs_f64(), cpu_s: cpu_seconds() - cpu_s }
 }
 
+/// Does work on one processor, with all threads that it begins; not where `taskset` does not keep this thread to one.
+fn on_one_processor<T>(work: impl FnOnce() -> T) -> Option<T> {
+    let thread = std::fs::read_link("/proc/thread-self").ok()?;
+    let status = std::fs::read_to_string("/proc/thread-self/status").ok()?;
+    let allowed = status.lines().find_map(|line| line.strip_prefix("Cpus_allowed_list:"))?.trim();
+    let first = allowed.split(|c: char| !c.is_ascii_digit()).next()?;
+    let keep_to = |processors: &str| {
+        let taskset =
+            Command::new("taskset").args(["-c", "-p", processors]).arg(thread.file_name()?).output();
+        taskset.ok()?.status.success().then_some(())
+    };
+    keep_to(first)?;
+    let done = work();
+    keep_to(allowed).expect("the processors this thread had");
+    Some(done)
+}
+
 fn seconds<T>(work: impl FnOnce() -> T) -> f64 {
     let start = Instant::now();
     black_box(work());
@@ -196,6 +214,8 @@ struct Times {
     evaluation_s: Vec<f64>,
     table_wall_s: Vec<f64>,
     monte_carlo: [Vec<Spent>; 2],
+    /// One thread, and what stores its blocks, on one processor.
+    one_processor: Vec<Spent>,
     /// The same under records with few samples, one thread.
     thinned: Vec<Spent>,
     without_simulations: Vec<Spent>,
@@ -229,6 +249,7 @@ fn main() {
             let all = || (0..10).map(|_| once()).sum::<usize>();
             times.case[i].push(pool.install(|| spent(all)));
         }
+        times.one_processor.extend(on_one_processor(|| study.spent(1, &SideBySide)));
         times.thinned.push(thinned.spent(1, &SideBySide));
         times.without_simulations.push(study.spent(1, &told));
         let all = (0..study.plan.len()).collect();
@@ -260,6 +281,14 @@ fn tell(times: &Times, once: &Response, runs: f64, case: usize, [work, thinned]:
     }
     let [one, two] = &times.monte_carlo;
     print("  two threads over one", "", one.iter().zip(two).map(|(one, two)| one.wall_s / two.wall_s));
+    if times.one_processor.len() == TURNS {
+        let kept = times.one_processor.iter().map(|one| runs / one.wall_s);
+        print("  one thread kept to one processor", "runs/s", kept);
+        let over = times.one_processor.iter().zip(two);
+        print("  two threads over that", "", over.map(|(one, two)| one.wall_s / two.wall_s));
+    } else {
+        println!("  one thread kept to one processor: not measured, for want of taskset");
+    }
     let alone = of(&times.simulations_alone, |s| s.cpu_s);
     let alone =
         print("  processor time of a run planned and run alone", "ms", alone.iter().map(|t| t * 1e3 / runs));
