@@ -144,7 +144,7 @@ impl Motion {
     #[inline(always)]
     pub fn mass_matrix(&self, rotations: Rotations) -> MassMatrix {
         if let Some(bedded) = &self.bedded {
-            return bedded.mass_matrix(rotations);
+            return bedded.mass_matrix(self, rotations);
         }
         self.sharp.mass_matrix(&self.sharp.turned(rotations.0))
     }

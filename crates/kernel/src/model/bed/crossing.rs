@@ -48,7 +48,8 @@ impl RockingWall {
         let on_bed = |contact: Contact| self.motion(contact).mass_matrix(rotations);
         let on_edges = |contact: Contact| edges.motion(contact).mass_matrix(rotations);
         let along = |contact: Contact| self.motion(contact).freedom.along(joint);
-        let omega = passed([&on_bed(contact), &on_edges(from)], along(contact), state.omega);
+        let before = on_bed(contact);
+        let omega = passed([&before, &on_edges(from)], along(contact), state.omega);
         let touching = Touching {
             ground: joint == Joint::Ground || from.ground.is_closed(),
             crack: joint == Joint::Crack || from.crack.is_closed(),
@@ -57,9 +58,10 @@ impl RockingWall {
         // Joints on sharp edges change as the impact says; that on the bed is in whole contact.
         let after = self.joints().filter(|joint| self.bed(*joint).is_none());
         let after = after.fold(contact, |state, joint| state.with(joint, impact.contact.at(joint)));
-        let sharp = passed([&on_edges(impact.contact), &on_bed(after)], along(after), impact.omega);
+        let beyond = if after == contact { before } else { on_bed(after) };
+        let sharp = passed([&on_edges(impact.contact), &beyond], along(after), impact.omega);
         let omega = [0, 1].map(|i| state.omega[i] + share * (sharp[i] - state.omega[i]));
-        let loss_j = 0.5 * (on_bed(contact).quadratic(state.omega) - on_bed(after).quadratic(omega));
+        let loss_j = 0.5 * (before.quadratic(state.omega) - beyond.quadratic(omega));
         Ok(Impact { contact: after, omega, loss_j, ..impact })
     }
 }

@@ -302,8 +302,9 @@ impl BeddedMotion {
         self.pose(rotations.angles()).arms
     }
 
-    pub fn mass_matrix(&self, rotations: Rotations) -> MassMatrix {
-        self.mass_of(&self.pose(rotations.angles()).arms)
+    pub fn mass_matrix(&self, motion: &Motion, rotations: Rotations) -> MassMatrix {
+        let theta = rotations.angles();
+        dispatch!(motion.level, _ => self.mass_of(&self.pose(theta).arms))
     }
 
     /// The rate at rotations and velocities. Keeps the pose there.
