@@ -66,19 +66,32 @@ pub(crate) struct TurnedArms<N = f64> {
     pub turn_1: (N, N),
 }
 
-/// Sines and cosines of both rotations.
+/// Both rotations.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Rotations(pub [(f64, f64); 2]);
+pub(crate) struct Rotations {
+    /// Their sines and cosines.
+    pub turns: [(f64, f64); 2],
+    /// The angles of these, where they are known.
+    angles: Option<Pair>,
+}
 
 impl Rotations {
+    /// None of the bodies.
+    pub const NONE: Self = Self { turns: [(0.0, 1.0); 2], angles: None };
+
     #[inline(always)]
     pub fn new(theta: Pair) -> Self {
-        Self(theta.map(sin_cos))
+        Self { turns: theta.map(sin_cos), angles: None }
+    }
+
+    /// The same, whose angles are asked for more than once.
+    pub fn with_angles(self) -> Self {
+        Self { angles: Some(self.angles()), ..self }
     }
 
     /// The rotations themselves, rad.
     pub fn angles(&self) -> Pair {
-        self.0.map(|(sin, cos)| sin.atan2(cos))
+        self.angles.unwrap_or_else(|| self.turns.map(|(sin, cos)| sin.atan2(cos)))
     }
 }
 

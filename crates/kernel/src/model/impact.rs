@@ -172,7 +172,10 @@ impl RockingWall {
 
     #[inline(always)]
     pub(super) fn collision(&self, from: Contact, touching: Touching, state: &State) -> Collision {
-        let rotations = Rotations::new(state.theta);
+        let mut rotations = Rotations::new(state.theta);
+        if self.wall().rolls() {
+            rotations = rotations.with_angles();
+        }
         let v_before = self.turned_arms(from, rotations).velocities(state.omega);
         // A wall that stands still as joints touch separates by nothing: a tie, not a zero over zero.
         let [w1, w2] = v_before.theta.map(|w| w.abs().max(f64::MIN_POSITIVE));
@@ -255,7 +258,7 @@ impl RockingWall {
     fn projected_onto(&self, to: Contact, arms: &TurnedArms, collision: &Collision) -> Pair {
         let motion = self.motion(to);
         let momenta = self.masses.momenta(arms, &collision.v_before);
-        motion.mass_matrix(collision.rotations).solve(motion.freedom, momenta)
+        motion.mass_matrix_by(arms, collision.rotations).solve(motion.freedom, momenta)
     }
 
     #[inline(always)]

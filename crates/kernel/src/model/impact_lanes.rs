@@ -137,7 +137,7 @@ impl RockingWall {
         collision: &Collision,
     ) -> [(f64, Pair); BESIDE] {
         let candidates = Candidates::<F>::new(simd, self, to);
-        let turns = collision.rotations.0.map(|(sin, cos)| (candidates.all(sin), candidates.all(cos)));
+        let turns = collision.rotations.turns.map(|(sin, cos)| (candidates.all(sin), candidates.all(cos)));
         let still = Arms::about(self.wall(), candidates.sides);
         let arms = TurnedArms::new(&still, turns);
         let (masses, before) = (candidates.masses(), candidates.velocities(&collision.v_before));

@@ -8,7 +8,7 @@ use wide::f64x2;
 use super::bed::{Acting, BeddedMotion, BeddedRate, JointShape};
 use super::contact::{Contact, Joint};
 use super::formula::FormulaLaws;
-use super::geometry::{Arms, Pair, Rotations};
+use super::geometry::{Arms, Pair, Rotations, TurnedArms};
 use super::joint_forces::{Masses, Reactions};
 use super::laws::Laws;
 use super::mass_matrix::{Freedom, MassMatrix};
@@ -144,9 +144,18 @@ impl Motion {
     #[inline(always)]
     pub fn mass_matrix(&self, rotations: Rotations) -> MassMatrix {
         if let Some(bedded) = &self.bedded {
-            return bedded.mass_matrix(self, rotations);
+            return bedded.mass_of(&bedded.turned_arms(self, rotations));
         }
-        self.sharp.mass_matrix(&self.sharp.turned(rotations.0))
+        self.sharp.mass_matrix(&self.sharp.turned(rotations.turns))
+    }
+
+    /// The same by the arms turned by these rotations, of which that on beds is made.
+    #[inline(always)]
+    pub fn mass_matrix_by(&self, arms: &TurnedArms, rotations: Rotations) -> MassMatrix {
+        match &self.bedded {
+            Some(bedded) => bedded.mass_of(arms),
+            None => self.mass_matrix(rotations),
+        }
     }
 
     /// Angular accelerations and powers at a state, under a ground acceleration in m/s² (y without gravity).

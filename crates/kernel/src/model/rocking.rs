@@ -129,9 +129,10 @@ impl RockingWall {
 
     #[inline(always)]
     pub(super) fn turned_arms(&self, contact: Contact, rotations: Rotations) -> TurnedArms {
-        match &self.motion(contact).bedded {
-            Some(bedded) => bedded.turned_arms(rotations),
-            None => TurnedArms::new(&self.arms[contact.index()], rotations.0),
+        let motion = self.motion(contact);
+        match &motion.bedded {
+            Some(bedded) => bedded.turned_arms(motion, rotations),
+            None => TurnedArms::new(&self.arms[contact.index()], rotations.turns),
         }
     }
 

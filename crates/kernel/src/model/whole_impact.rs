@@ -20,9 +20,6 @@ pub(super) struct WholeImpact {
     pub(super) after_j: f64,
 }
 
-/// The sines and cosines of both rotations where these are zero.
-const UNTURNED: Rotations = Rotations([(0.0, 1.0); 2]);
-
 /// Pattern 3 about a corner.
 fn whole(ground: Pivot) -> Contact {
     Contact { ground, crack: Pivot::Closed }
@@ -76,7 +73,7 @@ impl RockingWall {
         let &WholeImpact { change, plastic, before_j, after_j } = self.whole_impact_about(from.ground)?;
         let plastic = plastic * before;
         if plastic.abs() < self.capture_rad_s {
-            let loss_j = self.motion(from).kinetic_energy_j(UNTURNED, state.omega);
+            let loss_j = self.motion(from).kinetic_energy_j(Rotations::NONE, state.omega);
             let at_rest =
                 Impact { contact: Contact::REST, omega: [0.0; 2], change: None, captured: true, loss_j };
             return Some(at_rest);

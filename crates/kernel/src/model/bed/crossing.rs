@@ -44,7 +44,7 @@ impl RockingWall {
         let from = contact.with(joint, side);
         let r = bed.passage_over_bounce(opening(joint, state.omega));
         let share = share_of_impact(r);
-        let rotations = Rotations::new(state.theta);
+        let rotations = Rotations::new(state.theta).with_angles();
         let on_bed = |contact: Contact| self.motion(contact).mass_matrix(rotations);
         let on_edges = |contact: Contact| edges.motion(contact).mass_matrix(rotations);
         let along = |contact: Contact| self.motion(contact).freedom.along(joint);
@@ -76,7 +76,7 @@ impl RockingWall {
         (law, branch): (JointLaw, Branch),
         state: &State,
     ) -> Pair {
-        let rotations = Rotations::new(state.theta);
+        let rotations = Rotations::new(state.theta).with_angles();
         let before = self.motion(contact).mass_matrix(rotations);
         self.set_branch(joint, law, branch);
         let motion = self.motion(contact);

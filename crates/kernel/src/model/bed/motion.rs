@@ -141,7 +141,7 @@ impl<N: Number, J: Rolls<N>> BeddedMotion<N, J> {
     }
 
     #[inline(always)]
-    fn mass_of(&self, arms: &TurnedArms<N>) -> MassMatrix<N> {
+    pub fn mass_of(&self, arms: &TurnedArms<N>) -> MassMatrix<N> {
         let Masses { m: [m1, m2], i: [i1, i2], m_d, m_dp } = self.masses;
         let TurnedArms { r_1, r_q, r_2, r_c, .. } = *arms;
         let above = r_2 * m2 + r_c * m_d;
@@ -298,13 +298,9 @@ impl BeddedMotion {
         self.freedom
     }
 
-    pub fn turned_arms(&self, rotations: Rotations) -> TurnedArms {
-        self.pose(rotations.angles()).arms
-    }
-
-    pub fn mass_matrix(&self, motion: &Motion, rotations: Rotations) -> MassMatrix {
+    pub fn turned_arms(&self, motion: &Motion, rotations: Rotations) -> TurnedArms {
         let theta = rotations.angles();
-        dispatch!(motion.level, _ => self.mass_of(&self.pose(theta).arms))
+        dispatch!(motion.level, _ => self.pose(theta).arms)
     }
 
     /// The rate at rotations and velocities. Keeps the pose there.
