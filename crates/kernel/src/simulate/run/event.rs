@@ -87,8 +87,7 @@ impl<O: Observer> Run<O> {
         // What happens to the joints goes first.
         let event = event.map(|(event, share)| (self.on_edges(event.into()), share));
         let event = sooner(event, kink);
-        let change = first_bed_change(&self.wall, self.contact, self.opened, step, &motion);
-        match sooner(event, change) {
+        match sooner(event, self.first_bed_change(step, &motion)) {
             None => {
                 self.keep_whole(piece, step, &motion, reactions, end_force);
                 Ok(())
@@ -130,6 +129,11 @@ impl<O: Observer> Run<O> {
         first_event(self.wall.edges_of(self.contact), motion, self.collapse_rad, corner_force, force_at)
     }
 
+    #[inline]
+    fn first_bed_change(&self, step: &Step, motion: &Quintic) -> Option<(Event, f64)> {
+        first_bed_change(&self.wall, self.contact, self.opened, step, motion)
+    }
+
     /// Goes through a step that a row has taken in a lane and not kept. It has alighted after that, from the contact state that is
     /// given; none where it stays aboard and a step is requested up to an event inside this one.
     pub fn goes_through(&mut self, row: &mut Row, i: usize) -> Option<Contact> {
@@ -151,7 +155,7 @@ impl<O: Observer> Run<O> {
         self.follow_lane(row, i);
         let (step, piece, from_s) = (row.step(i), row.ground.at(i), row.ground.offset_s[i]);
         let has_kinks = self.wall.piecewise_laws().is_some() || self.wall.formulas().have_switches();
-        if has_kinks || self.wall.wall().gives() {
+        if has_kinks {
             return ControlFlow::Continue(None);
         }
         let mut controller = self.controller;
@@ -162,12 +166,18 @@ impl<O: Observer> Run<O> {
         let motion = Quintic::new(&step.start, &step.end, step.h);
         let end_force = self.wall.smallest_reserve(self.contact, &row.landed.reactions(i));
         let corner_force = (self.corner_force.map(|_| row.limits.corner_force[i]), end_force);
-        let Some((event, share)) = self.first_event(&motion, corner_force, &piece, from_s) else {
+        let event = self.first_event(&motion, corner_force, &piece, from_s);
+        let event = event.map(|(event, share)| (self.on_edges(event.into()), share));
+        let Some((event, share)) = sooner(event, self.first_bed_change(&step, &motion)) else {
             return ControlFlow::Continue(Some(Quiet { step, motion, controller, end_force }));
         };
+        if let (Event::Bed(_), true) = (event, share == 0.0) {
+            // It changes where it is.
+            return ControlFlow::Continue(None);
+        }
         self.totals.work.evaluations += STAGES;
         row.errors.put(i, &controller);
-        self.request_up_to(event.into(), share, step.h);
+        self.request_up_to(event, share, step.h);
         self.board_task(row, i);
         ControlFlow::Break(())
     }
