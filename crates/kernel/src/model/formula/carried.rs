@@ -11,7 +11,8 @@ use super::super::geometry::Pair;
 use super::super::motion::Motion;
 use super::super::rocking::RockingWall;
 use super::super::wall::{G_M_S2, Wall};
-use super::laws::{FormulaLaw, FormulaLaws};
+use super::law::FormulaLaw;
+use super::laws::FormulaLaws;
 use crate::model::ImpossibleWall;
 
 /// The carried states of the formulas of a wall, formula after formula, each in its unit.

@@ -7,7 +7,7 @@ use mrbd_formula::{Formula, FormulaError, Jump, Place, Range};
 use super::super::contact::Joint;
 use super::super::wall::{G_M_S2, ImpossibleWall, Wall};
 use super::carried::{Carried, check_count};
-use super::laws::{FormulaLaw, joint_of};
+use super::law::{FormulaLaw, joint_of};
 
 /// Speeds up to this many times that of a fall from the wall's own height. A wall that stands is far slower.
 const FALLS: f64 = 2.0;

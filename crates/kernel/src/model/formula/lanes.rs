@@ -6,7 +6,8 @@ use std::sync::Arc;
 use fearless_simd::{Select, Simd, SimdMask};
 
 use super::super::contact::Joint;
-use super::laws::{FormulaLaw, FormulaLaws, NO_MOMENTS};
+use super::law::FormulaLaw;
+use super::laws::{FormulaLaws, NO_MOMENTS};
 use crate::lanes::{LANES, Numbers, Wide};
 
 /// The formulas of the walls of a row.
@@ -19,6 +20,7 @@ pub(in crate::model) struct FormulaLanes<F: Wide> {
     written: F::Mask,
     any: bool,
     at_joints: bool,
+    asks_rotations: bool,
     /// The first lane that has any, where all that have any have the same.
     alike: Option<usize>,
 }
@@ -41,7 +43,8 @@ impl<F: Wide> FormulaLanes<F> {
     pub fn new(simd: F::Token, of: FormulaRow) -> Self {
         let written = F::of_each(simd, |i| f64::from(u8::from(!of[i].is_empty()))).simd_eq(1.0);
         let at_joints = of.iter().any(FormulaLaws::act_at_joints);
-        Self { any: written.any_true(), alike: alike(&of), of, written, at_joints }
+        let asks_rotations = of.iter().any(FormulaLaws::ask_rotations);
+        Self { any: written.any_true(), alike: alike(&of), of, written, at_joints, asks_rotations }
     }
 
     /// The lanes that have any; `None` where none does.
@@ -74,9 +77,12 @@ impl<F: Wide> FormulaLanes<F> {
         if !self.any {
             return moments_n_m;
         }
-        let written_n_m = match self.at_joints {
-            true => self.joint_moments_n_m(theta(), omega),
-            false => NO_MOMENTS.map(|none| F::splat(omega[0].token(), none)),
+        let all = |number: f64| F::splat(omega[0].token(), number);
+        let written_n_m = match (self.at_joints, self.asks_rotations) {
+            (true, true) => self.joint_moments_n_m(theta(), omega),
+            // Angles cost more than most formulas.
+            (true, false) => self.joint_moments_n_m([all(0.0); 2], omega),
+            (false, _) => NO_MOMENTS.map(all),
         };
         let with = |j: usize| self.written.select(moments_n_m[j] + written_n_m[j], moments_n_m[j]);
         [with(0), with(1)]

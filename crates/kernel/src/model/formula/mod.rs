@@ -14,6 +14,7 @@ mod at_impacts;
 mod carried;
 mod check;
 mod lanes;
+mod law;
 mod laws;
 mod switches;
 
@@ -22,5 +23,6 @@ pub use carried::{CarriedStates, MOST_CARRIED, TopMove};
 pub(in crate::model) use check::checked;
 pub(crate) use lanes::FormulaRow;
 pub(in crate::model) use lanes::{FormulaLanes, angles};
-pub(crate) use laws::{FormulaLaw, FormulaLaws, Slopes};
+pub(crate) use law::FormulaLaw;
+pub(crate) use laws::{FormulaLaws, Slopes};
 pub(crate) use switches::{Path, TopSides, Turn};

@@ -8,7 +8,8 @@ use super::super::contact::Contact;
 use super::super::geometry::Pair;
 use super::super::rocking::{RockingWall, State, opening};
 use super::carried::CarriedStates;
-use super::laws::{FormulaLaw, FormulaLaws};
+use super::law::FormulaLaw;
+use super::laws::FormulaLaws;
 
 /// Displacement or rotation at a place, its rate and its second rate.
 pub(crate) type Place = [f64; 3];
