@@ -1,11 +1,31 @@
 //! A joint on a bed changes its contact.
 
-use super::super::bed_events::{BedChange, BedChangeKind};
+use super::super::bed_events::{BedChange, BedChangeKind, first_bed_change};
+use super::super::events::Event;
 use super::super::history::Observer;
 use super::{Run, Stop, failed};
-use crate::model::{Branch, Contact, Joint, MechanicsError, Pivot, Vector, opening};
+use crate::model::{Branch, Contact, Joint, MechanicsError, Pivot, Touching, Vector, opening};
+use crate::solver::{Quintic, Step};
 
 impl<O: Observer> Run<O> {
+    /// The first change of contact inside a step, and the share of the step at which it is.
+    #[inline]
+    pub(super) fn first_bed_change(&self, step: &Step, motion: &Quintic) -> Option<(Event, f64)> {
+        first_bed_change(&self.wall, self.contact, self.opened, step, motion)
+    }
+
+    /// An event as far as sharp edges go: joints on beds take no part in their impacts.
+    #[inline]
+    pub(super) fn on_edges(&self, event: Event) -> Event {
+        match event {
+            Event::Impact(touching) if self.wall.wall().gives() => {
+                let of = |joint: Joint| touching.at(joint) && self.wall.bed(joint).is_none();
+                Event::Impact(Touching { ground: of(Joint::Ground), crack: of(Joint::Crack) })
+            }
+            event => event,
+        }
+    }
+
     /// Enters the contact state after a change, and takes what is lost where the joint passes its middle.
     pub(super) fn change_contact(
         &mut self,

@@ -2,7 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use super::super::bed_events::first_bed_change;
 use super::super::events::{EdgeEvent, Event, first_event, first_kink, left_to_kink, sooner};
 use super::super::ground_path::Piece;
 use super::super::history::Observer;
@@ -129,11 +128,6 @@ impl<O: Observer> Run<O> {
         first_event(self.wall.edges_of(self.contact), motion, self.collapse_rad, corner_force, force_at)
     }
 
-    #[inline]
-    fn first_bed_change(&self, step: &Step, motion: &Quintic) -> Option<(Event, f64)> {
-        first_bed_change(&self.wall, self.contact, self.opened, step, motion)
-    }
-
     /// Goes through a step that a row has taken in a lane and not kept. It has alighted after that, from the contact state that is
     /// given; none where it stays aboard and a step is requested up to an event inside this one.
     pub fn goes_through(&mut self, row: &mut Row, i: usize) -> Option<Contact> {
@@ -167,14 +161,18 @@ impl<O: Observer> Run<O> {
         let end_force = self.wall.smallest_reserve(self.contact, &row.landed.reactions(i));
         let corner_force = (self.corner_force.map(|_| row.limits.corner_force[i]), end_force);
         let event = self.first_event(&motion, corner_force, &piece, from_s);
-        let event = event.map(|(event, share)| (self.on_edges(event.into()), share));
-        let Some((event, share)) = sooner(event, self.first_bed_change(&step, &motion)) else {
+        let mut event = event.map(|(event, share)| (Event::from(event), share));
+        if self.wall.wall().rolls() {
+            event = event.map(|(event, share)| (self.on_edges(event), share));
+            event = sooner(event, self.first_bed_change(&step, &motion));
+            if let Some((Event::Bed(_), 0.0)) = event {
+                // It changes where it is.
+                return ControlFlow::Continue(None);
+            }
+        }
+        let Some((event, share)) = event else {
             return ControlFlow::Continue(Some(Quiet { step, motion, controller, end_force }));
         };
-        if let (Event::Bed(_), true) = (event, share == 0.0) {
-            // It changes where it is.
-            return ControlFlow::Continue(None);
-        }
         self.totals.work.evaluations += STAGES;
         row.errors.put(i, &controller);
         self.request_up_to(event, share, step.h);
@@ -188,17 +186,6 @@ impl<O: Observer> Run<O> {
         self.totals.work.evaluations += STAGES;
         self.controller = quiet.controller;
         self.keep_whole(&piece, &quiet.step, &quiet.motion, reactions, quiet.end_force);
-    }
-
-    /// An event as far as sharp edges go: joints on beds take no part in their impacts.
-    fn on_edges(&self, event: Event) -> Event {
-        match event {
-            Event::Impact(touching) if self.wall.wall().gives() => {
-                let of = |joint: Joint| touching.at(joint) && self.wall.bed(joint).is_none();
-                Event::Impact(Touching { ground: of(Joint::Ground), crack: of(Joint::Crack) })
-            }
-            event => event,
-        }
     }
 
     fn corner_force_within(&self, motion: &Quintic, share: f64, ground: Vector) -> f64 {
