@@ -32,10 +32,9 @@ pub(crate) struct FormulaLaws {
 
 impl FormulaLaws {
     pub fn new(laws: Vec<FormulaLaw>) -> Self {
-        let at_joints = || laws.iter().filter(|law| law.joint.is_some());
         Self {
-            at_joints: at_joints().count() > 0,
-            asks_rotations: at_joints().any(|law| law.asks_where),
+            at_joints: laws.iter().any(|law| law.joint.is_some()),
+            asks_rotations: laws.iter().any(|law| law.joint.is_some() && law.asks_where),
             laws,
         }
     }
